@@ -1,0 +1,28 @@
+//! No cohesion.
+
+use crate::contact::{Cohesion, Contact, MaterialPair, Missing, NoKeys, coefficients};
+use crate::number::Number;
+
+coefficients! {
+    /// Dry bodies: no attraction, nothing evaluated.
+    pub struct None {}
+}
+
+impl Cohesion for None {
+    type Keys = NoKeys;
+    const ACTIVE: bool = false;
+
+    fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+        Ok(Self::new())
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(_law: None<N>, _contact: &Contact<N>) -> N {
+        N::zero()
+    }
+
+    #[inline(always)]
+    fn seen_by_friction<N: Number>(_law: None<N>, _force: N) -> N {
+        N::zero()
+    }
+}

@@ -1,0 +1,67 @@
+//! Elastic spheres with viscous loss.
+
+use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Normal, Response, coefficients};
+use crate::number::Number;
+
+coefficients! {
+    /// Hertz's force with the damping of a constant coefficient of restitution.
+    ///
+    /// ```text
+    /// S_n = 2 E* √(R* δ)                 S_t = 8 G* √(R* δ)
+    /// k_n = 4/3 E* √(R* δ)               k_t = S_t
+    /// γ_n = −2 √(5/6) β √(S_n m*)        γ_t = −2 √(5/6) β √(S_t m*)
+    /// β = ln e/√(ln² e + π²)
+    /// ```
+    ///
+    /// | symbol | meaning                    | unit | comes from      |
+    /// |--------|----------------------------|------|-----------------|
+    /// | δ      | overlap                    | m    | the contact     |
+    /// | R*, m* | effective radius and mass  | m, kg| the contact     |
+    /// | E*     | effective Young's modulus  | Pa   | two materials   |
+    /// | G*     | effective shear modulus    | Pa   | two materials   |
+    /// | e      | coefficient of restitution | 1    | `restitution`   |
+    ///
+    /// The measured restitution is e at every speed. The force may pull near the end of a contact.
+    ///
+    /// Source: A. Di Renzo & F. P. Di Maio, *Chem. Eng. Sci.* 59 (2004) 525–541; damping after Y. Tsuji,
+    /// T. Tanaka & T. Ishida, *Powder Technol.* 71 (1992) 239–250.
+    pub struct Hertz {
+        /// E* \[Pa\].
+        youngs_modulus,
+        /// G* \[Pa\].
+        shear_modulus,
+        /// −2 √(5/6) β, of 0 or above.
+        damping,
+    }
+}
+
+impl Normal for Hertz {
+    type Keys = NoKeys;
+
+    fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+        let log = libm::log(pair.restitution()?);
+        let beta = log / (log * log + std::f64::consts::PI * std::f64::consts::PI).sqrt();
+        Ok(Self::new(
+            pair.effective_youngs_modulus()?,
+            pair.effective_shear_modulus()?,
+            -2.0 * (5.0_f64 / 6.0).sqrt() * beta,
+        ))
+    }
+
+    #[inline(always)]
+    fn response<N: Number>(law: Hertz<N>, contact: &Contact<N>) -> Response<N> {
+        let contact_radius = (contact.radius * contact.overlap).sqrt();
+        let normal_slope = N::splat(2.0) * law.youngs_modulus * contact_radius;
+        let tangential_slope = N::splat(8.0) * law.shear_modulus * contact_radius;
+        Response {
+            normal_stiffness: N::splat(2.0 / 3.0) * normal_slope,
+            normal_damping: law.damping * (normal_slope * contact.mass).sqrt(),
+            tangential_stiffness: tangential_slope,
+            tangential_damping: law.damping * (tangential_slope * contact.mass).sqrt(),
+        }
+    }
+
+    fn tangent_stiffness(&self, contact: &Contact) -> f64 {
+        2.0 * self.youngs_modulus * (contact.radius * contact.overlap).sqrt()
+    }
+}

@@ -1,0 +1,23 @@
+//! No resistance against rolling.
+
+use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Rolling, coefficients};
+use crate::number::{Number, Vector};
+
+coefficients! {
+    /// Bodies roll freely: no torque, nothing evaluated.
+    pub struct None {}
+}
+
+impl Rolling for None {
+    type Keys = NoKeys;
+    const ACTIVE: bool = false;
+
+    fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+        Ok(Self::new())
+    }
+
+    #[inline(always)]
+    fn torque<N: Number>(_law: None<N>, _contact: &Contact<N>, _response: &Response<N>) -> Vector<N> {
+        Vector::zero()
+    }
+}

@@ -1,0 +1,14 @@
+//! Tangential sub-models, one a file.
+
+pub mod history;
+pub mod none;
+
+use super::Tangential;
+use crate::choices::choices;
+
+choices! {
+    /// `[contact.<law>.tangential.<model>]`
+    TangentialChoice of Tangential, taken by TakeTangential:
+    none::None,
+    history::History,
+}

@@ -1,0 +1,31 @@
+//! No friction.
+
+use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Tangential, coefficients};
+use crate::number::{Number, Vector};
+
+coefficients! {
+    /// Smooth bodies: no force in the tangent plane, nothing tangential evaluated.
+    pub struct None {}
+}
+
+impl Tangential for None {
+    type Keys = NoKeys;
+    const ACTIVE: bool = false;
+    const HAS_SPRING: bool = false;
+
+    fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+        Ok(Self::new())
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(
+        _law: None<N>,
+        _contact: &Contact<N>,
+        _response: &Response<N>,
+        _pressure: N,
+        spring: Vector<N>,
+        _step: N,
+    ) -> (Vector<N>, Vector<N>) {
+        (Vector::zero(), spring)
+    }
+}

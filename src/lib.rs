@@ -1,0 +1,12 @@
+//! Particles with bonded and cohesive contacts, run alone or exported as FMI 2.0 co-simulation units.
+//!
+//! Data goes one way: scene file → [`scene::Scene`] → [`state::State`] and passes →
+//! [`step::Simulation::advance`] → interface and outputs → unit and command line.
+
+mod choices;
+pub mod contact;
+pub mod number;
+pub mod quantity;
+pub mod scene;
+pub mod state;
+pub mod step;

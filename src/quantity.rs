@@ -1,0 +1,72 @@
+//! Numbers that are checked as they are read, and indices that cannot be mixed up.
+
+use serde::{Deserialize, Deserializer, Serialize, de::Error};
+
+/// Declares a checked `f64`: its name, what it must satisfy, and the words for that in a message.
+macro_rules! checked {
+    ($(#[$doc:meta])* $name:ident, $value:ident => $test:expr, $words:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
+        #[serde(transparent)]
+        pub struct $name(f64);
+
+        impl $name {
+            /// The value, if it is permitted.
+            pub fn new($value: f64) -> Option<Self> {
+                ($value.is_finite() && $test).then_some(Self($value))
+            }
+            /// The plain number.
+            #[inline]
+            pub fn get(self) -> f64 {
+                self.0
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let value = f64::deserialize(deserializer)?;
+                Self::new(value).ok_or_else(|| D::Error::custom(format!("{value:?} found; {} is right", $words)))
+            }
+        }
+    };
+}
+
+checked!(/// Any finite number.
+    Finite, value => value.is_finite(), "a finite number");
+checked!(/// A number above 0.
+    Positive, value => value > 0.0, "a number above 0");
+checked!(/// A number of 0 or above.
+    NonNegative, value => value >= 0.0, "a number of 0 or above");
+checked!(/// A number above 0 and at most 1.
+    Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
+checked!(/// A number from 0 to 1.
+    Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1");
+checked!(/// Poisson's ratio of an isotropic material: from 0 to ½.
+    PoissonsRatio, value => (0.0..=0.5).contains(&value), "a number from 0 to 0.5");
+
+/// Declares an index into one kind of list.
+macro_rules! index {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(transparent)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            /// As an index of a slice.
+            #[inline]
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+
+index!(/// The number a particle carries in the scene, its files and its outputs; never changes.
+    ParticleId);
+index!(/// Where a material stands in the scene.
+    MaterialIndex);
+index!(/// Where a particle set stands in the scene.
+    SetIndex);
+index!(/// Where a boundary stands in the scene.
+    BoundaryIndex);

@@ -1,0 +1,216 @@
+//! From the text a user writes to a checked [`Scene`].
+//!
+//! A `Scene` cannot be wrong: single values are checked by their type as they are read, relations between
+//! tables in `check.rs`. Nothing after this module asks again.
+
+use crate::contact::cohesion::CohesionChoice;
+use crate::contact::normal::NormalChoice;
+use crate::contact::rolling::RollingChoice;
+use crate::contact::tangential::TangentialChoice;
+use crate::contact::{Material, PairProperties, Switches};
+use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+
+/// A scene that can be run: everything the file says, checked, in SI units.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Settings of the run.
+    pub run: Run,
+    /// Acceleration of gravity \[m/s²\].
+    pub gravity: [f64; 3],
+    /// Materials, in the order of the file.
+    pub materials: Vec<Material>,
+    /// Properties of each two materials, `materials.len()²` of them, row by row, symmetric.
+    pub pairs: Vec<PairProperties>,
+    /// Contact laws; each two materials belong to at most one.
+    pub contacts: Vec<ContactLaw>,
+    /// Names of the particle sets.
+    pub sets: Vec<String>,
+    /// All particles of all sets, by ascending id.
+    pub particles: Vec<Particle>,
+    /// Boundaries, in the order of the file.
+    pub boundaries: Vec<Boundary>,
+    /// Cundall damping; a particle belongs to at most one.
+    pub damping: Vec<Damping>,
+    /// Constant forces on particles.
+    pub forces: Vec<AppliedForce>,
+    /// The box that particles may not leave \[m\]: lower and upper corner.
+    pub domain: Option<[[f64; 3]; 2]>,
+    /// What a run writes.
+    pub output: Output,
+}
+
+/// `[run]`
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// Where `cograin run` ends and the unit's default experiment stops \[s\].
+    pub end: Option<f64>,
+    /// The time step.
+    pub step: Step,
+    /// Threads; `None`: as many as the machine offers.
+    pub threads: Option<usize>,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// How far beyond touch neighbours are looked for \[m\]; `None`: chosen from motion and list length.
+    pub skin: Option<f64>,
+    /// Unbalanced force, over the mean contact force, below which `cograin settle` is done.
+    pub settle_tolerance: f64,
+    /// Global damping coefficient (Cundall) that `cograin settle` adds to particles which have none.
+    pub settle_damping: f64,
+}
+
+/// The time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// This long \[s\].
+    Given(f64),
+    /// A fraction of the computed stable step, found anew as the packing changes.
+    Automatic {
+        /// The fraction, above 0 and below 1.
+        safety: f64,
+    },
+}
+
+/// `[contact.<name>]`: one composed law and the materials it is for.
+#[derive(Clone, Debug)]
+pub struct ContactLaw {
+    /// Its name in the scene.
+    pub name: String,
+    /// Whose contacts it governs; `between[a * materials + b]` and the mirrored entry are equal.
+    pub between: Vec<bool>,
+    /// Normal sub-model.
+    pub normal: NormalChoice,
+    /// Tangential sub-model.
+    pub tangential: TangentialChoice,
+    /// Rolling sub-model.
+    pub rolling: RollingChoice,
+    /// Cohesion sub-model.
+    pub cohesion: CohesionChoice,
+    /// Switches of every law.
+    pub switches: Switches,
+}
+
+/// A sphere as the scene starts it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Its number, unique in the scene.
+    pub id: ParticleId,
+    /// The set it belongs to.
+    pub set: SetIndex,
+    /// What it is made of.
+    pub material: MaterialIndex,
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Density \[kg/m³\]: its own, or the material's.
+    pub density: f64,
+    /// Position of the centre \[m\].
+    pub position: [f64; 3],
+    /// Velocity \[m/s\].
+    pub velocity: [f64; 3],
+    /// Angular velocity \[rad/s\].
+    pub angular_velocity: [f64; 3],
+}
+
+impl Particle {
+    /// Mass of the full sphere \[kg\].
+    pub fn mass(&self) -> f64 {
+        4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
+    }
+}
+
+/// `[boundary.<name>]`: where the outside world meets the particles.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    /// Its name in the scene and in the unit's variables.
+    pub name: String,
+    /// What it is.
+    pub shape: Shape,
+    /// How it moves along x, y, z.
+    pub axes: [AxisMotion; 3],
+    /// How a driven axis goes from where it stands to its new value.
+    pub input: InputCourse,
+    /// The point about which its moment is taken, at time 0 \[m\].
+    pub reference: [f64; 3],
+}
+
+/// The shape of a boundary.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// An infinite plane, one-sided: particles live where its normal points.
+    Plane {
+        /// What it is made of.
+        material: MaterialIndex,
+        /// A point on it at time 0 \[m\].
+        point: [f64; 3],
+        /// Unit normal towards the particles.
+        normal: [f64; 3],
+    },
+    /// A group of particles that moves as one rigid body.
+    Particles {
+        /// Indices into [`Scene::particles`], ascending.
+        members: Vec<u32>,
+    },
+}
+
+/// What an axis of a boundary does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxisMotion {
+    /// Stays.
+    Fixed,
+    /// Follows the input `<boundary>.displacement.<axis>`.
+    Driven,
+    /// Moves at this constant velocity \[m/s\].
+    Prescribed(f64),
+}
+
+/// How a driven axis moves inside a communication step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum InputCourse {
+    /// At constant velocity, arriving at the end of the step.
+    #[default]
+    Ramp,
+    /// A cubic in time with the velocity continuous.
+    Smooth,
+    /// At once, in the first time step of the communication step.
+    Hold,
+}
+
+/// `[damping.<name>]`: Cundall's damping of the unbalanced force.
+#[derive(Clone, Debug)]
+pub struct Damping {
+    /// Its name in the scene.
+    pub name: String,
+    /// Fraction of the force, for each particle of the scene (0: not damped), scale included.
+    pub linear: Vec<f64>,
+    /// Fraction of the torque, for each particle of the scene, scale included.
+    pub angular: Vec<f64>,
+    /// Whether gravity is part of the force that is damped.
+    pub gravity_damped: bool,
+    /// Whether applied forces are part of the force that is damped.
+    pub applied_forces_damped: bool,
+}
+
+/// `[force.<name>]`: a constant force on each of some particles.
+#[derive(Clone, Debug)]
+pub struct AppliedForce {
+    /// Its name in the scene.
+    pub name: String,
+    /// Indices into [`Scene::particles`], ascending.
+    pub members: Vec<u32>,
+    /// Force on each \[N\].
+    pub force: [f64; 3],
+}
+
+/// `[output]`: what a run writes; what is absent is not computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Output {
+    /// Time between rows of `history.csv` \[s\].
+    pub history_interval: Option<f64>,
+    /// Time between `.vtu` frames of the particles \[s\].
+    pub frame_interval: Option<f64>,
+    /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
+    pub contacts: bool,
+    /// Whether the algorithmic energy book is kept.
+    pub energy: bool,
+    /// Time between checkpoints \[s\].
+    pub checkpoint_interval: Option<f64>,
+}

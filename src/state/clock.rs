@@ -1,0 +1,30 @@
+//! Time and counters.
+
+use serde::{Deserialize, Serialize};
+
+/// Time as a compensated sum, the time step, and what was counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Time \[s\].
+    pub time: f64,
+    /// What the sum of steps has lost to rounding so far \[s\] (Kahan).
+    pub lost: f64,
+    /// The time step \[s\].
+    pub step: f64,
+    /// Largest stable time step, as last found \[s\].
+    pub stable: f64,
+    /// Time steps made since time 0.
+    pub steps: u64,
+    /// Times the neighbour lists were made.
+    pub rebuilds: u64,
+}
+
+impl Clock {
+    /// Moves on by `interval` \[s\].
+    pub fn advance(&mut self, interval: f64) {
+        let small = interval - self.lost;
+        let sum = self.time + small;
+        self.lost = (sum - self.time) - small;
+        self.time = sum;
+    }
+}

@@ -1,0 +1,57 @@
+//! Pairs that may touch, with the history of those that do.
+
+use super::Row;
+use serde::{Deserialize, Serialize};
+
+/// When the neighbour lists were made, and for where.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Neighbours {
+    /// How far beyond touch pairs are listed \[m\].
+    pub skin: f64,
+    /// Positions when the lists were made; empty where nothing can touch \[m\].
+    pub reference: Vec<Row>,
+    /// Offset of each boundary when the lists were made \[m\].
+    pub boundary_reference: Vec<[f64; 3]>,
+    /// First particle of each slab, and behind the last one the number of particles. Pairs reach no
+    /// further than the next slab, so slabs of one parity can be worked on side by side.
+    pub slabs: Vec<u32>,
+    /// Time step when the lists were made.
+    pub made_at: u64,
+}
+
+/// Near pairs of one contact law: a half list ordered by the first particle, then the second.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactList {
+    /// First pair of each slab, and behind the last one the number of pairs.
+    pub slabs: Vec<u32>,
+    /// First particle of each pair (slot).
+    pub first: Vec<u32>,
+    /// Second particle of each pair (slot).
+    pub second: Vec<u32>,
+    /// Bits of each pair: [`TOUCHING`].
+    pub flags: Vec<u8>,
+    /// Tangential spring from `second` to `first`'s view \[m\]; empty where the law has none.
+    pub spring: Vec<Row>,
+    /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
+    pub pair_constant: Vec<f64>,
+}
+
+/// The two bodies overlapped in the last evaluation.
+pub const TOUCHING: u8 = 1;
+
+/// Particles near one plane, for one contact law.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WallContacts {
+    /// Index of the boundary.
+    pub boundary: u32,
+    /// Index of the contact law.
+    pub law: u32,
+    /// The particles (slots), ascending.
+    pub particle: Vec<u32>,
+    /// Bits of each: [`TOUCHING`].
+    pub flags: Vec<u8>,
+    /// Tangential spring \[m\]; empty where the law has none.
+    pub spring: Vec<Row>,
+    /// What the normal model keeps of each; empty where it keeps nothing.
+    pub pair_constant: Vec<f64>,
+}

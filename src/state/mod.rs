@@ -1,0 +1,41 @@
+//! The numbers that change, and nothing else: saving and restoring this continues bit for bit.
+//!
+//! No physics here. Particles stand in the order of the present neighbour list, which follows space;
+//! [`Particles::id`] and [`Particles::slot`] go between that order and the scene's.
+
+pub mod boundaries;
+pub mod clock;
+pub mod contacts;
+pub mod ledger;
+pub mod particles;
+pub mod snapshot;
+
+pub use boundaries::BoundaryState;
+pub use clock::Clock;
+pub use contacts::{ContactList, Neighbours, WallContacts};
+pub use ledger::Ledger;
+pub use particles::Particles;
+
+use serde::{Deserialize, Serialize};
+
+/// A row of four numbers, 32 bytes.
+pub type Row = [f64; 4];
+
+/// Everything that changes while a scene runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time and counters.
+    pub clock: Clock,
+    /// Positions, velocities, forces.
+    pub particles: Particles,
+    /// When and for where the lists below were made.
+    pub neighbours: Neighbours,
+    /// Near pairs of particles and their springs, a list for each contact law.
+    pub contacts: Vec<ContactList>,
+    /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
+    pub walls: Vec<WallContacts>,
+    /// Motion and loads of the boundaries, in the scene's order.
+    pub boundaries: Vec<BoundaryState>,
+    /// The algorithmic energy book, if the scene asks for it.
+    pub ledger: Option<Ledger>,
+}

@@ -1,0 +1,79 @@
+//! Why a run stopped.
+
+/// Why a run stopped. The state is then that of the last good time step.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// A particle would move further in one step than its neighbours were looked for.
+    #[error(
+        "particle {id} would move {radii:.2} of its radius in one step at t = {time} s; \
+         likely a time step above the stable one ({stable:.2e} s), or an overlap at the start"
+    )]
+    Runaway {
+        /// The particle.
+        id: u32,
+        /// Its way in one step, over its radius.
+        radii: f64,
+        /// Time \[s\].
+        time: f64,
+        /// The computed stable step \[s\].
+        stable: f64,
+    },
+    /// A number ceased to be one.
+    #[error(
+        "particle {id} has a {quantity} that is not finite at t = {time} s; likely a time step above the stable one ({stable:.2e} s)"
+    )]
+    NotFinite {
+        /// The particle.
+        id: u32,
+        /// What is not finite.
+        quantity: &'static str,
+        /// Time \[s\].
+        time: f64,
+        /// The computed stable step \[s\].
+        stable: f64,
+    },
+    /// The centre of a particle is behind a plane.
+    #[error(
+        "particle {id} went through boundary {boundary} at t = {time} s; likely a load above what its stiffness holds, or a boundary moved too fast"
+    )]
+    Behind {
+        /// The particle.
+        id: u32,
+        /// The plane.
+        boundary: String,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// A particle left the domain.
+    #[error("particle {id} left the [domain] at t = {time} s, at ({x:.3e}, {y:.3e}, {z:.3e}) m; likely a missing wall")]
+    Escaped {
+        /// The particle.
+        id: u32,
+        /// Time \[s\].
+        time: f64,
+        /// Position \[m\].
+        x: f64,
+        /// Position \[m\].
+        y: f64,
+        /// Position \[m\].
+        z: f64,
+    },
+    /// The given time step is too long.
+    #[error(
+        "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s; likely a particle pair or load stiffer than thought; set [run] step below it, or \"auto\""
+    )]
+    StepTooLong {
+        /// The step given \[s\].
+        step: f64,
+        /// The stable step \[s\].
+        stable: f64,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// An interval that is no interval.
+    #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
+    Interval {
+        /// What was asked for \[s\].
+        interval: f64,
+    },
+}
