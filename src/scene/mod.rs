@@ -11,7 +11,9 @@ use crate::contact::{Material, PairProperties, Switches};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
 
 /// A scene that can be run: everything the file says, checked, in SI units.
-#[derive(Clone, Debug)]
+///
+/// The default is the empty scene, to build others from in code.
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Settings of the run.
     pub run: Run,
@@ -37,6 +39,8 @@ pub struct Scene {
     pub domain: Option<[[f64; 3]; 2]>,
     /// What a run writes.
     pub output: Output,
+    /// Of the text, every file it names and the program's version; 0 for a scene built in code.
+    pub fingerprint: u64,
 }
 
 /// `[run]`
@@ -56,6 +60,28 @@ pub struct Run {
     pub settle_tolerance: f64,
     /// Global damping coefficient (Cundall) that `cograin settle` adds to particles which have none.
     pub settle_damping: f64,
+    /// Largest overlap that is accepted at the start, over the smaller radius.
+    pub max_overlap: f64,
+}
+
+impl Default for Run {
+    fn default() -> Self {
+        Self {
+            end: None,
+            step: Step::Automatic { safety: Self::SAFETY },
+            threads: None,
+            seed: 1,
+            skin: None,
+            settle_tolerance: 1e-4,
+            settle_damping: 0.7,
+            max_overlap: 0.05,
+        }
+    }
+}
+
+impl Run {
+    /// Fraction of the stable step that an automatic time step takes if the scene names none.
+    pub const SAFETY: f64 = 0.2;
 }
 
 /// The time step.
