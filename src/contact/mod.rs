@@ -279,7 +279,7 @@ pub trait Tangential: Coefficients {
     const HAS_SPRING: bool;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
-    /// Force on i \[N\] and the new spring \[m\]. `pressure` is the normal force that friction sees \[N\],
+    /// Force on i \[N\], the new spring \[m\], and where the spring is at its limit. `pressure` is the normal force that friction sees \[N\],
     /// `step` the time since the spring was last seen \[s\] (0 in the evaluation before the first step).
     fn force<N: Number>(
         law: Self::Lanes<N>,
@@ -288,7 +288,7 @@ pub trait Tangential: Coefficients {
         pressure: N,
         spring: Vector<N>,
         step: N,
-    ) -> (Vector<N>, Vector<N>);
+    ) -> (Vector<N>, Vector<N>, N::Mask);
 }
 
 /// Resistance against rolling.
@@ -328,8 +328,8 @@ coefficients! {
 }
 
 /// What one contact does to its two bodies.
-#[derive(Clone, Copy, Debug)]
-pub struct Reaction<N = f64> {
+#[derive(Clone, Copy)]
+pub struct Reaction<N: Number = f64> {
     /// Force on i; j gets the opposite \[N\].
     pub force: Vector<N>,
     /// n × F_t, which turns both bodies against their arms \[N\].
@@ -338,6 +338,8 @@ pub struct Reaction<N = f64> {
     pub rolling: Vector<N>,
     /// The tangential spring to remember \[m\].
     pub spring: Vector<N>,
+    /// Where the tangential spring is at its limit.
+    pub sliding: N::Mask,
 }
 
 /// A contact law, whole: what the pass in the time step is generic over.
@@ -424,13 +426,15 @@ where
             seen = seen + D::seen_by_friction(cohesion, pull);
         }
         let mut force = contact.normal * along;
-        let mut reaction = Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), spring };
+        let never = N::zero().greater(N::zero());
+        let mut reaction = Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), spring, sliding: never };
         if B::ACTIVE {
-            let (friction, spring) = B::force(tangential, contact, &response, seen.abs(), spring, step);
+            let (friction, spring, sliding) = B::force(tangential, contact, &response, seen.abs(), spring, step);
             force += friction;
             reaction.force = force;
             reaction.couple = contact.normal.cross(friction);
             reaction.spring = spring;
+            reaction.sliding = sliding;
         }
         if C::ACTIVE {
             reaction.rolling = C::torque(rolling, contact, &response);

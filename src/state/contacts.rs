@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Neighbours {
     /// How far beyond touch pairs are listed \[m\].
     pub skin: f64,
+    /// A bound of how far any particle has moved since the lists were made \[m\].
+    pub travel: f64,
     /// Positions when the lists were made; empty where nothing can touch \[m\].
     pub reference: Vec<Row>,
     /// Offset of each boundary when the lists were made \[m\].
@@ -28,9 +30,9 @@ pub struct ContactList {
     pub first: Vec<u32>,
     /// Second particle of each pair (slot).
     pub second: Vec<u32>,
-    /// Bits of each pair: [`TOUCHING`].
+    /// Bits of each pair: [`TOUCHING`] and [`SLIDING`].
     pub flags: Vec<u8>,
-    /// Tangential spring from `second` to `first`'s view \[m\]; empty where the law has none.
+    /// Tangential spring, as `first` sees `second` \[m\]; empty where the law has none.
     pub spring: Vec<Row>,
     /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
     pub pair_constant: Vec<f64>,
@@ -38,6 +40,9 @@ pub struct ContactList {
 
 /// The two bodies overlapped in the last evaluation.
 pub const TOUCHING: u8 = 1;
+
+/// The tangential spring was at its limit in the last evaluation.
+pub const SLIDING: u8 = 2;
 
 /// Particles near one plane, for one contact law.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,7 +53,7 @@ pub struct WallContacts {
     pub law: u32,
     /// The particles (slots), ascending.
     pub particle: Vec<u32>,
-    /// Bits of each: [`TOUCHING`].
+    /// Bits of each: [`TOUCHING`] and [`SLIDING`].
     pub flags: Vec<u8>,
     /// Tangential spring \[m\]; empty where the law has none.
     pub spring: Vec<Row>,

@@ -18,8 +18,8 @@ pub struct Particles {
     pub torque: Vec<Row>,
     /// Index of the material.
     pub material: Vec<u32>,
-    /// Whether the particle moves by the forces on it: 1, or 0 in a boundary's group.
-    pub free: Vec<u8>,
+    /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs.
+    pub owner: Vec<u32>,
     /// Index into the scene's particles, of each slot here.
     pub id: Vec<u32>,
     /// Slot here, of each of the scene's particles.

@@ -48,7 +48,7 @@ impl Tangential for History {
         pressure: N,
         spring: Vector<N>,
         step: N,
-    ) -> (Vector<N>, Vector<N>) {
+    ) -> (Vector<N>, Vector<N>, N::Mask) {
         let grown = spring + contact.slip * step;
         let spring = grown - contact.normal * grown.dot(contact.normal);
         let elastic = response.tangential_stiffness * spring.length();
@@ -58,6 +58,6 @@ impl Tangential for History {
         let damping = N::select(sliding, N::zero(), response.tangential_damping);
         let spring = spring * kept;
         let force = -(spring * response.tangential_stiffness) - contact.slip * damping;
-        (force, spring)
+        (force, spring, sliding)
     }
 }

@@ -25,7 +25,7 @@ impl Tangential for None {
         _pressure: N,
         spring: Vector<N>,
         _step: N,
-    ) -> (Vector<N>, Vector<N>) {
-        (Vector::zero(), spring)
+    ) -> (Vector<N>, Vector<N>, N::Mask) {
+        (Vector::zero(), spring, N::zero().greater(N::zero()))
     }
 }
