@@ -1,6 +1,8 @@
 //! Cohesion sub-models, one a file.
 
 pub mod none;
+pub mod sjkr;
+pub mod sjkr2;
 
 use super::Cohesion;
 use crate::choices::choices;
@@ -9,4 +11,6 @@ choices! {
     /// `[contact.<law>.cohesion.<model>]`
     CohesionChoice of Cohesion, taken by TakeCohesion:
     none::None,
+    sjkr::Sjkr,
+    sjkr2::Sjkr2,
 }

@@ -16,6 +16,10 @@ impl Cohesion for None {
         Ok(Self::new())
     }
 
+    fn reduces_friction(_keys: &NoKeys) -> bool {
+        false
+    }
+
     #[inline(always)]
     fn force<N: Number>(_law: None<N>, _contact: &Contact<N>) -> N {
         N::zero()

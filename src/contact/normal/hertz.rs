@@ -1,6 +1,6 @@
 //! Elastic spheres with viscous loss.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Normal, Response, coefficients};
+use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Response, coefficients};
 use crate::number::Number;
 
 coefficients! {
@@ -38,7 +38,7 @@ coefficients! {
 impl Normal for Hertz {
     type Keys = NoKeys;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let log = libm::log(pair.restitution()?);
         let beta = log / (log * log + std::f64::consts::PI * std::f64::consts::PI).sqrt();
         Ok(Self::new(
@@ -63,5 +63,51 @@ impl Normal for Hertz {
 
     fn tangent_stiffness(&self, contact: &Contact) -> f64 {
         2.0 * self.youngs_modulus * (contact.radius * contact.overlap).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::PairProperties;
+    use crate::contact::specimen::{ALL, assert_close, contact, properties, with_pair};
+    use crate::quantity::Restitution;
+
+    /// E* = 1 Pa, G* = ¼ Pa, √(R* δ) = 2⁻⁸ m, m* = 4 kg.
+    fn law(restitution: f64) -> Hertz {
+        let properties = PairProperties { restitution: Restitution::new(restitution), ..properties() };
+        with_pair(&properties, |pair| Hertz::between(pair, &NoKeys {}, ALL)).unwrap()
+    }
+
+    #[test]
+    fn is_as_stiff_as_hertz_and_mindlin_say() {
+        let response = Hertz::response(law(0.5), &contact());
+        assert_close(response.normal_stiffness, 4.0 / 3.0 / 256.0, 1e-15);
+        // 1/G* = 2 · 2 (2 − 0)(1 + 0)/2 = 4
+        assert_close(response.tangential_stiffness, 8.0 * 0.25 / 256.0, 1e-15);
+    }
+
+    #[test]
+    fn damps_with_the_slopes_of_both_forces() {
+        let response = Hertz::response(law(0.5), &contact());
+        let log = libm::log(0.5);
+        let share = -2.0 * (5.0_f64 / 6.0).sqrt() * log / (log * log + std::f64::consts::PI.powi(2)).sqrt();
+        assert_close(response.normal_damping, share * (2.0 / 256.0 * 4.0_f64).sqrt(), 1e-15);
+        assert_close(response.tangential_damping, share * (8.0 * 0.25 / 256.0 * 4.0_f64).sqrt(), 1e-15);
+    }
+
+    #[test]
+    fn does_not_damp_an_elastic_contact() {
+        let response = Hertz::response(law(1.0), &contact());
+        assert_eq!([response.normal_damping.abs(), response.tangential_damping.abs()], [0.0, 0.0]);
+    }
+
+    #[test]
+    fn tangent_stiffness_is_the_slope_of_the_force() {
+        let force = |overlap| Hertz::response(law(0.5), &Contact { overlap, ..contact() }).normal_stiffness * overlap;
+        let (here, by) = (contact().overlap, 1e-4 * contact().overlap);
+        // central difference: relative error (1e-4)²/24
+        let slope = (force(here + by) - force(here - by)) / (2.0 * by);
+        assert_close(law(0.5).tangent_stiffness(&contact()), slope, 1e-9);
     }
 }

@@ -1,6 +1,10 @@
 //! Normal sub-models, one a file.
 
 pub mod hertz;
+pub mod hertz_stiffness;
+pub mod hooke;
+pub mod hooke_stiffness;
+pub mod hooke_viscous;
 
 use super::Normal;
 use crate::choices::choices;
@@ -9,4 +13,8 @@ choices! {
     /// `[contact.<law>.normal.<model>]`
     NormalChoice of Normal, taken by TakeNormal:
     hertz::Hertz,
+    hertz_stiffness::HertzStiffness,
+    hooke::Hooke,
+    hooke_stiffness::HookeStiffness,
+    hooke_viscous::HookeViscous,
 }

@@ -1,5 +1,6 @@
 //! Rolling sub-models, one a file.
 
+pub mod cdt;
 pub mod none;
 
 use super::Rolling;
@@ -9,4 +10,5 @@ choices! {
     /// `[contact.<law>.rolling.<model>]`
     RollingChoice of Rolling, taken by TakeRolling:
     none::None,
+    cdt::Cdt,
 }

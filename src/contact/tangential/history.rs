@@ -35,6 +35,7 @@ impl Tangential for History {
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const HAS_SPRING: bool = true;
+    const HAS_DASHPOT: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))
@@ -59,5 +60,71 @@ impl Tangential for History {
         let spring = spring * kept;
         let force = -(spring * response.tangential_stiffness) - contact.slip * damping;
         (force, spring, sliding)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::specimen::{contact, response};
+
+    /// Force and spring after `step`; µ = ¼, k_t = 8 N/m, γ_t = 2 kg/s, slip (3, 4, 0) m/s, normal z.
+    fn force(pressure: f64, spring: Vector, step: f64) -> (Vector, Vector, bool) {
+        History::force(History::new(0.25), &contact(), &response(), pressure, spring, step)
+    }
+
+    #[test]
+    fn spring_grows_by_the_slip() {
+        assert_eq!(force(1e3, Vector::new(1.0, 0.0, 0.0), 0.5).1, Vector::new(2.5, 2.0, 0.0));
+    }
+
+    #[test]
+    fn spring_is_projected_on_the_tangent_plane_without_regaining_its_length() {
+        assert_eq!(force(1e3, Vector::new(3.0, 0.0, 4.0), 0.0).1, Vector::new(3.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn sticks_with_spring_and_dashpot() {
+        // −8 · (1, 0, 0) − 2 · (3, 4, 0)
+        assert_eq!(force(1e3, Vector::new(1.0, 0.0, 0.0), 0.0).0, Vector::new(-14.0, -8.0, 0.0));
+    }
+
+    #[test]
+    fn limit_is_put_to_the_spring_alone() {
+        // spring 8 N, limit 9 N, spring and dashpot together 16.1 N
+        assert!(force(36.0, Vector::new(1.0, 0.0, 0.0), 0.0).0.length() > 9.0);
+    }
+
+    #[test]
+    fn slides_at_the_limit_along_the_spring_without_the_dashpot() {
+        // spring 40 N, limit 10 N
+        assert_eq!(force(40.0, Vector::new(3.0, -4.0, 0.0), 0.0).0, Vector::new(-6.0, 8.0, 0.0));
+    }
+
+    #[test]
+    fn says_whether_it_slides() {
+        assert!(force(40.0, Vector::new(3.0, -4.0, 0.0), 0.0).2);
+        assert!(!force(1e3, Vector::new(3.0, -4.0, 0.0), 0.0).2);
+    }
+
+    #[test]
+    fn sliding_shortens_the_spring_to_the_limit() {
+        assert_eq!(force(40.0, Vector::new(3.0, -4.0, 0.0), 0.0).1, Vector::new(0.75, -1.0, 0.0));
+    }
+
+    #[test]
+    fn loses_the_spring_where_the_normal_force_passes_zero() {
+        let (force, spring, _) = force(0.0, Vector::new(3.0, -4.0, 0.0), 0.0);
+        assert_eq!([force.length(), spring.length()], [0.0, 0.0]);
+    }
+
+    #[test]
+    fn is_at_rest_without_spring_slip_stiffness_or_pressure() {
+        let still = Contact { slip: Vector::zero(), ..contact() };
+        let nothing = Response { tangential_stiffness: 0.0, tangential_damping: 0.0, ..response() };
+        for response in [response(), nothing] {
+            let (force, spring, _) = History::force(History::new(0.0), &still, &response, 0.0, Vector::zero(), 1.0);
+            assert_eq!([force.length(), spring.length()], [0.0, 0.0]);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Tangential sub-models, one a file.
 
 pub mod history;
+pub mod no_history;
 pub mod none;
 
 use super::Tangential;
@@ -11,4 +12,5 @@ choices! {
     TangentialChoice of Tangential, taken by TakeTangential:
     none::None,
     history::History,
+    no_history::NoHistory,
 }

@@ -12,6 +12,7 @@ impl Tangential for None {
     type Keys = NoKeys;
     const ACTIVE: bool = false;
     const HAS_SPRING: bool = false;
+    const HAS_DASHPOT: bool = false;
 
     fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new())

@@ -1,0 +1,68 @@
+//! A contact and a pair of materials to try laws on.
+
+use super::{Contact, FrictionNeeds, Material, MaterialPair, PairProperties, Response};
+use crate::number::Vector;
+use crate::quantity::{NonNegative, Positive, Restitution};
+
+/// Friction that takes all there is.
+pub(super) const ALL: FrictionNeeds = FrictionNeeds { stiffness: true, damping: true };
+
+/// No friction.
+pub(super) const NOTHING: FrictionNeeds = FrictionNeeds { stiffness: false, damping: false };
+
+/// A contact whose numbers have short square roots: √(R* δ) is 2⁻⁸ m.
+pub(super) fn contact() -> Contact {
+    Contact {
+        overlap: 1.0 / 16384.0,
+        radius: 0.25,
+        mass: 4.0,
+        section_area: 3.0,
+        section_radius: 0.5,
+        normal: Vector::new(0.0, 0.0, 1.0),
+        normal_velocity: -0.5,
+        slip: Vector::new(3.0, 4.0, 0.0),
+        relative_spin: Vector::new(0.0, 5.0, 0.0),
+        pair_constant: 0.0,
+    }
+}
+
+/// What a normal model might have said of [`contact`].
+pub(super) fn response() -> Response {
+    Response { normal_stiffness: 1024.0, normal_damping: 3.0, tangential_stiffness: 8.0, tangential_damping: 2.0 }
+}
+
+/// A material with E = 2 Pa and ν = 0: two of them have E* = 1 Pa and G* = ¼ Pa.
+pub(super) fn material() -> Material {
+    Material { name: "soft".into(), density: 1.0, youngs_modulus: Some(2.0), poissons_ratio: Some(0.0) }
+}
+
+/// All properties of two materials, each another number.
+pub(super) fn properties() -> PairProperties {
+    PairProperties {
+        restitution: Restitution::new(0.5),
+        friction: NonNegative::new(0.25),
+        rolling_friction: NonNegative::new(0.125),
+        cohesion_energy_density: NonNegative::new(7.0),
+        normal_stiffness: NonNegative::new(100.0),
+        tangential_stiffness: NonNegative::new(50.0),
+        normal_damping: NonNegative::new(6.0),
+        tangential_damping: NonNegative::new(3.0),
+        absolute_normal_damping: NonNegative::new(11.0),
+        absolute_tangential_damping: NonNegative::new(9.0),
+        fluid_viscosity: Positive::new(0.5),
+        critical_stokes_number: Positive::new(30.0),
+        maximum_restitution: Restitution::new(0.875),
+    }
+}
+
+/// Calls `with` for two pieces of one material that have these properties in common.
+pub(super) fn with_pair<T>(properties: &PairProperties, with: impl FnOnce(&MaterialPair) -> T) -> T {
+    let material = material();
+    with(&MaterialPair { a: &material, b: &material, properties })
+}
+
+/// Fails, with both values, unless they agree to `tolerance` of the expected one.
+#[track_caller]
+pub(super) fn assert_close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance * expected.abs(), "{found:e} found, {expected:e} expected");
+}
