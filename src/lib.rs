@@ -10,3 +10,4 @@ pub mod quantity;
 pub mod scene;
 pub mod state;
 pub mod step;
+pub mod verify;

@@ -1,0 +1,224 @@
+//! From a case to a scene: names are translated and values checked, nothing is computed.
+
+use super::case::{Case, GlobalDamping, Scale, Wall};
+use super::error::Mistake;
+use super::law;
+use crate::contact::MaterialPair;
+use crate::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
+use crate::scene::{
+    AppliedForce, AxisMotion, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
+};
+use std::collections::BTreeMap;
+
+/// The scene that a case describes.
+pub(super) fn scene(case: &Case) -> Result<Scene, Mistake> {
+    if case.steps == 0 || case.sample_every == 0 {
+        return Err(Mistake::new("steps, sample_every", "0 found; numbers above 0 are right"));
+    }
+    let step = positive("dt", case.dt)?.get();
+    let materials = law::materials(case)?;
+    let pairs = law::pairs(case)?;
+    let law = law::law(case)?;
+    for (at, properties) in pairs.iter().enumerate() {
+        let (a, b) = (&materials[at / materials.len()], &materials[at % materials.len()]);
+        if let Some(missing) = law.missing(&MaterialPair { a, b, properties }) {
+            return Err(law::absent(missing.key));
+        }
+    }
+    let contact = ContactLaw {
+        name: "contact".into(),
+        between: vec![true; pairs.len()],
+        normal: law.normal,
+        tangential: law.tangential,
+        rolling: law.rolling,
+        cohesion: law.cohesion,
+        switches: law.switches,
+    };
+    let particles = particles(case)?;
+    let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
+    Ok(Scene {
+        run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
+        gravity: finite("gravity", case.gravity)?,
+        materials,
+        pairs,
+        contacts: vec![contact],
+        sets: vec!["particles".into()],
+        boundaries: boundaries(case, &index_of)?,
+        damping: damping(case, &particles)?,
+        forces: forces(case, &index_of)?,
+        particles,
+        ..Scene::default()
+    })
+}
+
+/// A number above 0.
+pub(super) fn positive(field: impl Into<String>, value: f64) -> Result<Positive, Mistake> {
+    Positive::new(value).ok_or_else(|| Mistake::new(field, format!("{value} found; a number above 0 is right")))
+}
+
+/// Three finite numbers.
+fn finite(field: impl Into<String>, value: [f64; 3]) -> Result<[f64; 3], Mistake> {
+    if value.iter().all(|number| number.is_finite()) {
+        Ok(value)
+    } else {
+        Err(Mistake::new(field, format!("{value:?} found; finite numbers are right")))
+    }
+}
+
+/// The place of a material that a case counts from 1.
+fn material(field: impl Into<String>, kind: usize, case: &Case) -> Result<MaterialIndex, Mistake> {
+    if (1..=case.materials.len()).contains(&kind) {
+        Ok(MaterialIndex((kind - 1) as u32))
+    } else {
+        Err(Mistake::new(field, format!("{kind} found; 1 to {} are materials", case.materials.len())))
+    }
+}
+
+/// The spheres, by ascending id.
+fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
+    let one = |index: usize| {
+        let particle = &case.particles[index];
+        let place = |key: &str| format!("particles[{index}].{key}");
+        Ok(Particle {
+            id: ParticleId(particle.id),
+            set: SetIndex(0),
+            material: material(place("type"), particle.kind, case)?,
+            radius: positive(place("radius"), particle.radius)?.get(),
+            density: positive(place("density"), particle.density)?.get(),
+            position: finite(place("position"), particle.position)?,
+            velocity: finite(place("velocity"), particle.velocity)?,
+            angular_velocity: finite(place("omega"), particle.omega)?,
+        })
+    };
+    let all: Vec<Particle> = case.by_id().into_iter().map(one).collect::<Result<_, Mistake>>()?;
+    match all.windows(2).find(|two| two[0].id == two[1].id) {
+        Some(two) => Err(Mistake::new("particles", format!("two of them have id {}", two[0].id.0))),
+        None if all.is_empty() => Err(Mistake::new("particles", "none found; at least one is right")),
+        None => Ok(all),
+    }
+}
+
+/// Planes, then groups of particles with a motion of their own.
+fn boundaries(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary>, Mistake> {
+    let mut all = Vec::new();
+    for (index, wall) in case.walls.iter().enumerate() {
+        all.push(plane(case, index, wall)?);
+    }
+    for (index, motion) in case.prescribed_motion.iter().enumerate() {
+        let place = format!("prescribed_motion[{index}]");
+        if motion.kind != "constant_velocity" {
+            return Err(Mistake::new(place, format!("\"{}\" found; constant_velocity is right", motion.kind)));
+        }
+        let velocity = finite(format!("{place}.velocity"), motion.velocity)?;
+        let members = members(&place, &motion.ids, index_of)?;
+        let first = members.first().map_or(0, |member| *member as usize);
+        all.push(Boundary {
+            name: format!("motion{index}"),
+            shape: Shape::Particles { members },
+            axes: velocity.map(|speed| if speed == 0.0 { AxisMotion::Fixed } else { AxisMotion::Prescribed(speed) }),
+            input: InputCourse::Ramp,
+            reference: case.particles[case.by_id()[first]].position,
+        });
+    }
+    Ok(all)
+}
+
+/// One plane.
+fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
+    let place = |key: &str| format!("walls[{index}].{key}");
+    if wall.kind != "plane" {
+        return Err(Mistake::new(place("kind"), format!("\"{}\" found; plane is right", wall.kind)));
+    }
+    let normal = finite(place("normal"), wall.normal)?;
+    let length = normal.iter().map(|component| component * component).sum::<f64>().sqrt();
+    if length == 0.0 || !length.is_finite() {
+        return Err(Mistake::new(place("normal"), format!("{normal:?} found; a vector with a direction is right")));
+    }
+    let on_axis = |axis: &str| ["x", "y", "z"].iter().position(|name| *name == axis);
+    let point = match (wall.point, wall.axis.as_deref().and_then(on_axis), wall.position) {
+        (Some(point), _, _) => point,
+        (None, Some(axis), Some(position)) => {
+            let mut point = [0.0; 3];
+            point[axis] = position;
+            point
+        }
+        _ => return Err(Mistake::new(place("point"), "absent; a point on the plane, or axis and position, is right")),
+    };
+    let point = finite(place("point"), point)?;
+    Ok(Boundary {
+        name: format!("wall{index}"),
+        shape: Shape::Plane {
+            material: material(place("type"), wall.material, case)?,
+            point,
+            normal: normal.map(|component| component / length),
+        },
+        axes: [AxisMotion::Fixed; 3],
+        input: InputCourse::Ramp,
+        reference: point,
+    })
+}
+
+/// Indices into the scene's particles, ascending.
+fn members(place: &str, ids: &[u32], index_of: &BTreeMap<u32, u32>) -> Result<Vec<u32>, Mistake> {
+    let index = |id: &u32| {
+        let found = index_of.get(id).copied();
+        found.ok_or_else(|| Mistake::new(format!("{place}.ids"), format!("{id} found; it is no particle of the case")))
+    };
+    let mut all: Vec<u32> = ids.iter().map(index).collect::<Result<_, Mistake>>()?;
+    all.sort_unstable();
+    all.dedup();
+    Ok(all)
+}
+
+/// Constant forces.
+fn forces(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<AppliedForce>, Mistake> {
+    let one = |(index, force): (usize, &super::case::ExternalForce)| {
+        let place = format!("external_forces[{index}]");
+        Ok(AppliedForce {
+            name: format!("force{index}"),
+            members: members(&place, &force.ids, index_of)?,
+            force: finite(format!("{place}.force"), force.force)?,
+        })
+    };
+    case.external_forces.iter().enumerate().map(one).collect()
+}
+
+/// Cundall damping of each particle.
+fn damping(case: &Case, particles: &[Particle]) -> Result<Vec<Damping>, Mistake> {
+    let Some(damping) = &case.global_damping else { return Ok(Vec::new()) };
+    if damping.kind != "cundall" {
+        return Err(Mistake::new("global_damping.type", format!("\"{}\" found; cundall is right", damping.kind)));
+    }
+    let factors = particles.iter().map(|particle| scale(damping, particle)).collect::<Result<Vec<f64>, Mistake>>()?;
+    let of = |key: &str, fraction: f64| match NonNegative::new(fraction) {
+        Some(fraction) => Ok(factors.iter().map(|factor| fraction.get() * factor).collect()),
+        None => Err(Mistake::new(format!("global_damping.{key}"), format!("{fraction} found; 0 or above is right"))),
+    };
+    let gravity_damped = match damping.gravity_damped {
+        Some(damped) => damped,
+        None if case.gravity == [0.0; 3] => false,
+        None => {
+            return Err(Mistake::new("global_damping.gravity_damped", "absent; with gravity, true or false is right"));
+        }
+    };
+    Ok(vec![Damping {
+        name: "damping".into(),
+        linear: of("gamma_l", damping.gamma_l)?,
+        angular: of("gamma_a", damping.gamma_a)?,
+        gravity_damped,
+        applied_forces_damped: damping.external_forces_damped.unwrap_or(false),
+    }])
+}
+
+/// The factor on the damping of one particle.
+fn scale(damping: &GlobalDamping, particle: &Particle) -> Result<f64, Mistake> {
+    let Some(Scale { kind, values, divisor }) = &damping.scale else { return Ok(1.0) };
+    match (kind.as_str(), divisor) {
+        ("type", _) => Ok(values.get(&(particle.material.index() + 1).to_string()).copied().unwrap_or(1.0)),
+        ("variable", Some(divisor)) if *divisor != 0.0 => Ok(particle.radius / divisor),
+        ("variable", _) => {
+            Err(Mistake::new("global_damping.scale.divisor", "absent or 0; the radius is divided by it"))
+        }
+        _ => Err(Mistake::new("global_damping.scale.kind", format!("\"{kind}\" found; type or variable is right"))),
+    }
+}

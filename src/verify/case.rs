@@ -1,0 +1,264 @@
+//! `case.json` as it is written.
+
+use super::error::VerifyError;
+use serde::{Deserialize, Deserializer, de::Error};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// A case, as written; fields that only inform the reader are left out.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Case {
+    /// Acceleration of gravity \[m/s²\].
+    #[serde(default)]
+    pub(super) gravity: [f64; 3],
+    /// Time step \[s\].
+    pub(super) dt: f64,
+    /// Number of steps.
+    pub(super) steps: u64,
+    /// Steps between samples.
+    #[serde(default = "one")]
+    pub(super) sample_every: u64,
+    /// Materials by type, from 1.
+    pub(super) materials: Vec<Material>,
+    /// Properties of pairs of types, square matrices; a number that has no types is kept as it is.
+    #[serde(default)]
+    pub(super) pair_properties: BTreeMap<String, serde_json::Value>,
+    /// Numbers of the whole case.
+    #[serde(default)]
+    pub(super) scalar_properties: BTreeMap<String, f64>,
+    /// The contact law.
+    pub(super) model: Model,
+    /// The spheres.
+    pub(super) particles: Vec<Particle>,
+    /// The planes.
+    #[serde(default)]
+    pub(super) walls: Vec<Wall>,
+    /// Cundall damping.
+    #[serde(default)]
+    pub(super) global_damping: Option<GlobalDamping>,
+    /// Constant forces.
+    #[serde(default)]
+    pub(super) external_forces: Vec<ExternalForce>,
+    /// Particles that do not move by forces.
+    #[serde(default)]
+    pub(super) prescribed_motion: Vec<PrescribedMotion>,
+    /// How far the other engine's own samples move when its inputs change by 1e-13, relative.
+    #[serde(default, rename = "sensitivity_to_1e-13_input_perturbation")]
+    pub(super) sensitivity: Option<Sensitivity>,
+}
+
+/// A material.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(super) struct Material {
+    /// \[Pa\]
+    pub(super) youngs_modulus: Option<f64>,
+    /// \[1\]
+    pub(super) poissons_ratio: Option<f64>,
+}
+
+/// The sub-models and flags, in the words of the other engine.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Model {
+    /// Normal sub-model.
+    pub(super) normal: String,
+    /// Tangential sub-model.
+    #[serde(default = "off")]
+    pub(super) tangential: String,
+    /// Rolling sub-model.
+    #[serde(default = "off")]
+    pub(super) rolling_friction: String,
+    /// Cohesion sub-model.
+    #[serde(default = "off")]
+    pub(super) cohesion: String,
+    /// Whether slip is damped.
+    #[serde(default = "on", deserialize_with = "switch")]
+    pub(super) tangential_damping: bool,
+    /// Whether damping is given whatever the masses.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) absolute_damping: bool,
+    /// Whether damping follows the Stokes number.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) viscous: bool,
+    /// Whether friction sees cohesion.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) tangential_reduce: bool,
+    /// Whether an attractive normal force is cut off.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) limit_force: bool,
+    /// The combination in the old notation; informs the reader.
+    #[serde(default, rename = "seed_style")]
+    pub(super) _seed_style: Option<String>,
+    /// Flags that are not known here.
+    #[serde(flatten)]
+    pub(super) others: BTreeMap<String, serde_json::Value>,
+}
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(super) struct Particle {
+    /// Its number.
+    pub(super) id: u32,
+    /// Its material, from 1.
+    #[serde(rename = "type")]
+    pub(super) kind: usize,
+    /// \[m\]
+    pub(super) radius: f64,
+    /// \[kg/m³\]
+    pub(super) density: f64,
+    /// \[m\]
+    pub(super) position: [f64; 3],
+    /// \[m/s\]
+    #[serde(default)]
+    pub(super) velocity: [f64; 3],
+    /// \[rad/s\]
+    #[serde(default)]
+    pub(super) omega: [f64; 3],
+}
+
+/// A wall.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Wall {
+    /// What it is.
+    #[serde(default = "plane")]
+    pub(super) kind: String,
+    /// A point on it \[m\].
+    pub(super) point: Option<[f64; 3]>,
+    /// The axis that it stands across, instead of a point.
+    pub(super) axis: Option<String>,
+    /// Where on that axis \[m\].
+    pub(super) position: Option<f64>,
+    /// Normal towards the particles.
+    pub(super) normal: [f64; 3],
+    /// Its material, from 1.
+    #[serde(rename = "type")]
+    pub(super) material: usize,
+}
+
+/// Cundall damping.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct GlobalDamping {
+    /// Its kind.
+    #[serde(rename = "type", default = "cundall")]
+    pub(super) kind: String,
+    /// Fraction of the force.
+    pub(super) gamma_l: f64,
+    /// Fraction of the torque.
+    pub(super) gamma_a: f64,
+    /// What both are scaled by.
+    #[serde(default)]
+    pub(super) scale: Option<Scale>,
+    /// Whether gravity is damped.
+    pub(super) gravity_damped: Option<bool>,
+    /// Whether constant forces are damped.
+    pub(super) external_forces_damped: Option<bool>,
+}
+
+/// What damping is scaled by.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Scale {
+    /// `type` or `variable`.
+    pub(super) kind: String,
+    /// By type: the factors; types that are not named have 1.
+    #[serde(default)]
+    pub(super) values: BTreeMap<String, f64>,
+    /// By variable: the factor is the radius over this \[m\].
+    pub(super) divisor: Option<f64>,
+}
+
+/// A constant force on some particles.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct ExternalForce {
+    /// On these.
+    pub(super) ids: Vec<u32>,
+    /// On each \[N\].
+    pub(super) force: [f64; 3],
+}
+
+/// A constant velocity of some particles.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct PrescribedMotion {
+    /// Of these.
+    pub(super) ids: Vec<u32>,
+    /// `constant_velocity`
+    pub(super) kind: String,
+    /// \[m/s\]
+    pub(super) velocity: [f64; 3],
+}
+
+/// Relative change of each quantity.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Sensitivity {
+    /// Of position.
+    pub(super) position: f64,
+    /// Of velocity.
+    pub(super) velocity: f64,
+    /// Of angular velocity.
+    pub(super) omega: f64,
+    /// Of force.
+    pub(super) force: f64,
+    /// Of torque.
+    pub(super) torque: f64,
+}
+
+impl Sensitivity {
+    /// In the order of the columns.
+    pub(super) fn to_array(self) -> [f64; 5] {
+        [self.position, self.velocity, self.omega, self.force, self.torque]
+    }
+}
+
+/// The default of `sample_every`.
+fn one() -> u64 {
+    1
+}
+
+/// The default of sub-models.
+fn off() -> String {
+    "off".into()
+}
+
+/// The default of `tangential_damping`.
+fn on() -> bool {
+    true
+}
+
+/// The default kind of wall.
+fn plane() -> String {
+    "plane".into()
+}
+
+/// The default kind of damping.
+fn cundall() -> String {
+    "cundall".into()
+}
+
+/// A flag: true or false, or `"on"`, `"off"` and `"stokes"` as input files have them.
+fn switch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
+    match serde_json::Value::deserialize(deserializer)? {
+        serde_json::Value::Bool(value) => Ok(value),
+        serde_json::Value::String(word) if word == "on" || word == "stokes" => Ok(true),
+        serde_json::Value::String(word) if word == "off" => Ok(false),
+        other => Err(D::Error::custom(format!("{other} found; true, false, \"on\" or \"off\" is right"))),
+    }
+}
+
+impl Case {
+    /// Reads a case.
+    pub(super) fn read(path: &Path) -> Result<Self, VerifyError> {
+        let text = fs::read_to_string(path).map_err(|cause| VerifyError::file(path, &cause))?;
+        serde_json::from_str(&text).map_err(|cause| VerifyError::Case {
+            path: path.to_path_buf(),
+            place: format!("line {}", cause.line()),
+            message: cause.to_string(),
+        })
+    }
+
+    /// Indices of the particles, by ascending id: the order that a scene has.
+    pub(super) fn by_id(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.particles.len()).collect();
+        order.sort_by_key(|index| self.particles[*index].id);
+        order
+    }
+}

@@ -1,0 +1,190 @@
+//! Materials and contact law of a case, translated to ours.
+
+use super::build::positive;
+use super::case::Case;
+use super::error::Mistake;
+use crate::contact::cohesion::{CohesionChoice, sjkr};
+use crate::contact::normal::{NormalChoice, hooke, hooke_stiffness};
+use crate::contact::rolling::RollingChoice;
+use crate::contact::tangential::TangentialChoice;
+use crate::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
+use crate::quantity::{NonNegative, PoissonsRatio, Positive, Restitution};
+
+/// The other engine's name of each pair property, with ours.
+const PROPERTIES: [(&str, &str); 13] = [
+    ("coefficientRestitution", "restitution"),
+    ("coefficientFriction", "friction"),
+    ("coefficientRollingFriction", "rolling_friction"),
+    ("cohesionEnergyDensity", "cohesion_energy_density"),
+    ("kn", "normal_stiffness"),
+    ("kt", "tangential_stiffness"),
+    ("gamman", "normal_damping"),
+    ("gammat", "tangential_damping"),
+    ("gamman_abs", "absolute_normal_damping"),
+    ("gammat_abs", "absolute_tangential_damping"),
+    ("FluidViscosity", "fluid_viscosity"),
+    ("CriticalStokes", "critical_stokes_number"),
+    ("MaximumRestitution", "maximum_restitution"),
+];
+
+/// A property that the model needs and the case does not give.
+pub(super) fn absent(key: &str) -> Mistake {
+    match PROPERTIES.iter().find(|(_, ours)| *ours == key) {
+        Some((theirs, _)) => Mistake::new(format!("pair_properties.{theirs}"), "absent; the chosen model needs it"),
+        None => Mistake::new(format!("materials.{key}"), "absent; the chosen model needs it"),
+    }
+}
+
+/// The materials, named by their type.
+pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
+    let all = (1..).zip(&case.materials).map(|(kind, material)| {
+        let place = |key: &str| format!("materials[{}].{key}", kind - 1);
+        if let Some(value) = material.youngs_modulus {
+            positive(place("youngs_modulus"), value)?;
+        }
+        if let Some(value) = material.poissons_ratio.filter(|value| PoissonsRatio::new(*value).is_none()) {
+            return Err(Mistake::new(
+                place("poissons_ratio"),
+                format!("{value} found; a number from 0 to 0.5 is right"),
+            ));
+        }
+        Ok(Material {
+            name: format!("type{kind}"),
+            density: 1.0, // of no use: each particle has its own
+            youngs_modulus: material.youngs_modulus,
+            poissons_ratio: material.poissons_ratio,
+        })
+    });
+    let all: Vec<Material> = all.collect::<Result<_, Mistake>>()?;
+    if all.is_empty() { Err(Mistake::new("materials", "none found; at least one is right")) } else { Ok(all) }
+}
+
+/// Properties of each two materials.
+pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
+    let count = case.materials.len();
+    let mut pairs = vec![PairProperties::default(); count * count];
+    for (name, value) in &case.pair_properties {
+        let Some((_, ours)) = PROPERTIES.iter().find(|(theirs, _)| theirs == name) else {
+            return Err(Mistake::new(format!("pair_properties.{name}"), "not known here"));
+        };
+        for (at, value) in matrix(name, value, count)?.into_iter().enumerate() {
+            let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
+            set(&mut pairs[at], ours, value)
+                .map_err(|right| Mistake::new(field(), format!("{value} found; {right} is right")))?;
+        }
+    }
+    Ok(pairs)
+}
+
+/// A symmetric square matrix, row by row.
+fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64>, Mistake> {
+    let field = || format!("pair_properties.{name}");
+    let rows: Vec<Vec<f64>> = serde_json::from_value(value.clone())
+        .map_err(|cause| Mistake::new(field(), format!("{cause}; a matrix of numbers is right")))?;
+    if rows.len() != count || rows.iter().any(|row| row.len() != count) {
+        return Err(Mistake::new(field(), format!("not {count} rows of {count} numbers, one for each type")));
+    }
+    for (i, row) in rows.iter().enumerate() {
+        for j in 0..i {
+            if row[j] != rows[j][i] {
+                let found = format!("[{i}][{j}] is {} and [{j}][{i}] is {}", row[j], rows[j][i]);
+                return Err(Mistake::new(field(), format!("{found}; a symmetric matrix is right")));
+            }
+        }
+    }
+    Ok(rows.concat())
+}
+
+/// Sets the property with this name of ours, or says what would be right.
+fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static str> {
+    let non_negative = || NonNegative::new(value).map(Some).ok_or("a number of 0 or above");
+    let positive = || Positive::new(value).map(Some).ok_or("a number above 0");
+    let restitution = || Restitution::new(value).map(Some).ok_or("a number above 0 and at most 1");
+    match name {
+        "restitution" => pair.restitution = restitution()?,
+        "friction" => pair.friction = non_negative()?,
+        "rolling_friction" => pair.rolling_friction = non_negative()?,
+        "cohesion_energy_density" => pair.cohesion_energy_density = non_negative()?,
+        "normal_stiffness" => pair.normal_stiffness = non_negative()?,
+        "tangential_stiffness" => pair.tangential_stiffness = non_negative()?,
+        "normal_damping" => pair.normal_damping = non_negative()?,
+        "tangential_damping" => pair.tangential_damping = non_negative()?,
+        "absolute_normal_damping" => pair.absolute_normal_damping = non_negative()?,
+        "absolute_tangential_damping" => pair.absolute_tangential_damping = non_negative()?,
+        "fluid_viscosity" => pair.fluid_viscosity = positive()?,
+        "critical_stokes_number" => pair.critical_stokes_number = positive()?,
+        _ => pair.maximum_restitution = restitution()?,
+    }
+    Ok(())
+}
+
+/// The contact law.
+pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
+    let model = &case.model;
+    let unknown = |field: &str, found: &str, right: &str| {
+        Mistake::new(format!("model.{field}"), format!("\"{found}\" found; {right} is right"))
+    };
+    for (flag, value) in &model.others {
+        let off = value.is_null() || *value == serde_json::json!(false) || *value == serde_json::json!("off");
+        if !off {
+            return Err(Mistake::new(format!("model.{flag}"), format!("{value} found; this flag is not known here")));
+        }
+    }
+    let speed = || {
+        let value = case.scalar_properties.get("characteristicVelocity").copied();
+        let field = "scalar_properties.characteristicVelocity";
+        let value = value.ok_or_else(|| Mistake::new(field, "absent; the chosen model needs it"))?;
+        Ok(hooke::Keys { characteristic_velocity: positive(field, value)? })
+    };
+    let normal = match model.normal.as_str() {
+        "hertz" => NormalChoice::Hertz(NoKeys {}),
+        "hertz/stiffness" => NormalChoice::HertzStiffness(NoKeys {}),
+        "hooke" if model.viscous => NormalChoice::HookeViscous(speed()?),
+        "hooke" => NormalChoice::Hooke(speed()?),
+        "hooke/stiffness" => {
+            NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: model.absolute_damping })
+        }
+        other => return Err(unknown("normal", other, "hertz, hooke, hertz/stiffness or hooke/stiffness")),
+    };
+    misplaced(case)?;
+    let keys = sjkr::Keys { tangential_reduce: model.tangential_reduce };
+    Ok(LawChoice {
+        normal,
+        tangential: match model.tangential.as_str() {
+            "off" => TangentialChoice::None(NoKeys {}),
+            "history" => TangentialChoice::History(NoKeys {}),
+            "no_history" => TangentialChoice::NoHistory(NoKeys {}),
+            other => return Err(unknown("tangential", other, "history, no_history or off")),
+        },
+        rolling: match model.rolling_friction.as_str() {
+            "off" => RollingChoice::None(NoKeys {}),
+            "cdt" => RollingChoice::Cdt(NoKeys {}),
+            other => return Err(unknown("rolling_friction", other, "cdt or off")),
+        },
+        cohesion: match model.cohesion.as_str() {
+            "off" => CohesionChoice::None(NoKeys {}),
+            "sjkr" => CohesionChoice::Sjkr(keys),
+            "sjkr2" => CohesionChoice::Sjkr2(keys),
+            other => return Err(unknown("cohesion", other, "sjkr, sjkr2 or off")),
+        },
+        switches: Switches::of(model.limit_force, model.tangential_damping),
+    })
+}
+
+/// Flags that the other engine refuses with the model at hand.
+fn misplaced(case: &Case) -> Result<(), Mistake> {
+    let model = &case.model;
+    let refused = |flag: &str, home: &str| {
+        Err(Mistake::new(format!("model.{flag}"), format!("true found; this flag belongs to {home} alone")))
+    };
+    if model.viscous && model.normal != "hooke" {
+        return refused("viscous", "hooke");
+    }
+    if model.absolute_damping && model.normal != "hooke/stiffness" {
+        return refused("absolute_damping", "hooke/stiffness");
+    }
+    if model.tangential_reduce && model.cohesion == "off" {
+        return refused("tangential_reduce", "cohesion");
+    }
+    Ok(())
+}

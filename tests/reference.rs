@@ -1,0 +1,201 @@
+//! Trajectories that other engines left are reproduced, and bad cases are refused with a reason.
+
+use cograin::verify::{Options, find, replay};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Where the cases of contacts lie.
+const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/contact");
+
+/// A folder of this test's own that goes when it is dropped.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    /// An empty folder.
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("cograin-reference-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// A case folder with this text as `case.json`.
+    fn case(&self, text: &str) -> PathBuf {
+        fs::write(self.0.join("case.json"), text).unwrap();
+        self.0.clone()
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The `case.json` of a case as text.
+fn text_of(case: &str) -> String {
+    fs::read_to_string(Path::new(CONTACT).join(case).join("case.json")).unwrap()
+}
+
+/// That text with one piece replaced, which must be there.
+fn changed(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from:?} is not in the case");
+    text.replacen(from, to, 1)
+}
+
+/// The message that refuses this case, without its path.
+fn refusal(name: &str, text: &str) -> String {
+    let scratch = Scratch::new(name);
+    let folder = scratch.case(text);
+    let message = replay(&folder, &Options::default()).expect_err("the case is refused").to_string();
+    message.replace(&format!("{}/", folder.display()), "")
+}
+
+#[test]
+fn every_contact_case_holds() {
+    let cases = find(&[CONTACT.into()]).unwrap();
+    assert_eq!(cases.len(), 42);
+    let reports: Vec<_> = cases.iter().map(|case| replay(case, &Options::default()).unwrap()).collect();
+    let failed: Vec<String> = reports.iter().filter(|report| !report.passed()).map(ToString::to_string).collect();
+    assert!(failed.is_empty(), "\n{}", failed.join("\n"));
+}
+
+#[test]
+fn a_case_with_another_coefficient_fails() {
+    let scratch = Scratch::new("fails");
+    let samples = Path::new(CONTACT).join("hertz_hist_slip_spin/samples.csv");
+    fs::copy(samples, scratch.0.join("samples.csv")).unwrap();
+    let folder = scratch.case(&changed(&text_of("hertz_hist_slip_spin"), "\"radius\": 0.00", "\"radius\": 0.01"));
+    let report = replay(&folder, &Options::default()).unwrap();
+    assert!(!report.passed(), "{report}");
+    assert!(report.to_string().ends_with("FAIL"), "{report}");
+}
+
+#[test]
+fn a_case_without_samples_runs_freely_and_is_written_in_their_columns() {
+    let scratch = Scratch::new("free");
+    let folder = scratch.case(&text_of("hertz_chain3"));
+    let out = scratch.0.join("out");
+    let report = replay(&folder, &Options { write: Some(out.clone()), ..Options::default() }).unwrap();
+    assert!(report.passed() && report.errors.is_none(), "{report}");
+    let ours = fs::read_to_string(out.join(folder.file_name().unwrap()).with_extension("csv")).unwrap();
+    let theirs = fs::read_to_string(Path::new(CONTACT).join("hertz_chain3/samples.csv")).unwrap();
+    let key = |line: &str| line.split(',').take(3).map(str::to_owned).collect::<Vec<_>>();
+    let (ours, theirs): (Vec<&str>, Vec<&str>) = (ours.lines().collect(), theirs.lines().collect());
+    assert_eq!(ours[0], theirs[0]);
+    assert_eq!(ours.len(), theirs.len());
+    for (our, their) in ours.iter().zip(&theirs).skip(1) {
+        assert_eq!((&key(our)[0], &key(our)[2]), (&key(their)[0], &key(their)[2]));
+    }
+}
+
+#[test]
+fn flags_that_are_not_written_take_their_defaults() {
+    let whole = text_of("hertz_hist_slip_spin");
+    let mut bare: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    let model = bare["model"].as_object_mut().unwrap();
+    model.retain(|key, _| ["normal", "tangential"].contains(&key.as_str()));
+    let scratch = Scratch::new("defaults");
+    let samples = Path::new(CONTACT).join("hertz_hist_slip_spin/samples.csv");
+    fs::copy(samples, scratch.0.join("samples.csv")).unwrap();
+    let report = replay(&scratch.case(&bare.to_string()), &Options::default()).unwrap();
+    assert!(report.passed(), "{report}");
+}
+
+#[test]
+fn a_folder_without_cases_is_refused() {
+    let scratch = Scratch::new("none");
+    let message = find(std::slice::from_ref(&scratch.0)).unwrap_err().to_string();
+    assert!(message.ends_with("no case.json here or in a folder below; a case, or a folder of cases, is right"));
+}
+
+#[test]
+fn bad_cases_are_refused_with_field_finding_and_remedy() {
+    let good = text_of("hertz_hist_slip_spin");
+    let with = |from: &str, to: &str| changed(&good, from, to);
+    let table = [
+        ("syntax", "{\n \"dt\": ,".to_owned(), "case.json, line 2: expected value at line 2 column 8"),
+        ("step", with("\"dt\": ", "\"dt\": -"), "case.json, dt: -"),
+        (
+            "steps",
+            with("\"steps\": 450", "\"steps\": 0"),
+            "case.json, steps, sample_every: 0 found; numbers above 0 are right",
+        ),
+        (
+            "model",
+            with("\"normal\": \"hertz\"", "\"normal\": \"jkr\""),
+            "case.json, model.normal: \"jkr\" found; hertz, hooke, hertz/stiffness or hooke/stiffness is right",
+        ),
+        (
+            "property",
+            with("coefficientFriction", "coefficientFiction"),
+            "case.json, pair_properties.coefficientFiction: not known here",
+        ),
+        (
+            "flag",
+            with("\"viscous\": false", "\"viscous\": true"),
+            "case.json, model.viscous: true found; this flag belongs to hooke alone",
+        ),
+        ("type", with("\"type\": 2", "\"type\": 3"), "case.json, particles[1].type: 3 found; 1 to 2 are materials"),
+        ("id", with("\"id\": 2", "\"id\": 1"), "case.json, particles: two of them have id 1"),
+        ("radius", with("\"radius\": 0.0", "\"radius\": -0.0"), "case.json, particles[0].radius: -0.0"),
+        (
+            "speed",
+            with("\"normal\": \"hertz\"", "\"normal\": \"hooke\""),
+            "case.json, scalar_properties.characteristicVelocity: absent; the chosen model needs it",
+        ),
+    ];
+    for (name, text, expected) in table {
+        let found = refusal(name, &text);
+        assert!(found.starts_with(expected), "{found}\nexpected\n{expected}");
+    }
+}
+
+#[test]
+fn asymmetric_and_absent_properties_are_refused() {
+    let mut case: serde_json::Value = serde_json::from_str(&text_of("hertz_hist_slip_spin")).unwrap();
+    case["pair_properties"]["coefficientFriction"] = serde_json::json!([[0.3, 0.2], [0.25, 0.3]]);
+    assert_eq!(
+        refusal("asymmetric", &case.to_string()),
+        "case.json, pair_properties.coefficientFriction: [1][0] is 0.25 and [0][1] is 0.2; a symmetric matrix is right"
+    );
+    case["pair_properties"].as_object_mut().unwrap().remove("coefficientFriction");
+    assert_eq!(
+        refusal("absent", &case.to_string()),
+        "case.json, pair_properties.coefficientFriction: absent; the chosen model needs it"
+    );
+}
+
+#[test]
+fn bad_samples_are_refused_with_their_line() {
+    let whole = fs::read_to_string(Path::new(CONTACT).join("hertz_headon/samples.csv")).unwrap();
+    let with_samples = |name: &str, samples: &str| {
+        let scratch = Scratch::new(name);
+        fs::write(scratch.0.join("samples.csv"), samples).unwrap();
+        let folder = scratch.case(&text_of("hertz_headon"));
+        let message = replay(&folder, &Options::default()).unwrap_err().to_string();
+        message.replace(&format!("{}/", folder.display()), "")
+    };
+    let header = whole.lines().next().unwrap();
+    let row = whole.lines().nth(1).unwrap();
+    assert!(
+        with_samples("column", &whole.replacen(",tz", ",t", 1)).starts_with("samples.csv, line 1: no column \"tz\"")
+    );
+    assert_eq!(
+        with_samples("row", &format!("{header}\n{row}\n")),
+        "samples.csv, line 1: no row of particle 2 at step 0"
+    );
+    assert_eq!(
+        with_samples("twice", &format!("{header}\n{row}\n{row}\n")),
+        "samples.csv, line 3: a second row of particle 1 at step 0"
+    );
+    let foreign = row.replacen("0,0,1,", "0,0,7,", 1);
+    assert_eq!(
+        with_samples("foreign", &format!("{header}\n{foreign}\n")),
+        "samples.csv, line 2: id 7 is no particle of the case"
+    );
+    let not_finite = row.replacen("0,0,1,", "0,0,1,nan,", 1);
+    assert_eq!(
+        with_samples("nan", &format!("{header}\n{not_finite}\n")),
+        "samples.csv, line 2: x: \"nan\" found; a finite number is right"
+    );
+}
