@@ -3,6 +3,7 @@
 //! Data goes one way: scene file → [`scene::Scene`] → [`state::State`] and passes →
 //! [`step::Simulation::advance`] → interface and outputs → unit and command line.
 
+pub mod bond;
 mod choices;
 pub mod contact;
 pub mod number;

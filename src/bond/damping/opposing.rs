@@ -1,0 +1,50 @@
+//! Damping of constant share against the rate.
+
+use super::Lost;
+use crate::bond::{Coefficients, Damping, Elastic, Motion, Pair};
+use crate::number::{Number, Vector};
+
+/// Smallest divisor of a rate, so that no motion gives no damping.
+const LEAST_RATE: f64 = 1e-300;
+
+/// Each part is opposed to its rate by a share of its own magnitude.
+///
+/// ```text
+/// X_damping = −α |X| v/max(|v|, v_min)        v_min = threshold · R_min/Δt for the two forces, else 0
+/// ```
+///
+/// | symbol | meaning                                       | unit       | comes from        |
+/// |--------|-----------------------------------------------|------------|-------------------|
+/// | X      | normal, shear force, torsion, bending torque  | N, N m     | the formulation   |
+/// | v      | its rate: v_n, v_s, w_n, w_t                  | m/s, rad/s | the motion        |
+/// | α      | share of each part                            | 1          | `damping.opposing` |
+///
+/// Rates are those in the bond's own frame: nothing depends on the axes of the scene, angular momentum is
+/// kept. As with every damping by a share of the force, a bond under load comes to rest only within ±α |X|.
+#[derive(Clone, Copy, Debug)]
+pub struct Opposing;
+
+/// −α |X| v/max(|v|, v_min).
+#[inline(always)]
+fn against<N: Number>(share: N, part: N, rate: Vector<N>, least: N) -> Vector<N> {
+    rate * -(share * part / rate.length().max(least))
+}
+
+impl Damping for Opposing {
+    const NEEDS_MASSES: bool = false;
+
+    #[inline(always)]
+    fn damp<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
+        let least = N::splat(LEAST_RATE);
+        let least_speed = (law.threshold * pair.least_radius).max(least);
+        let [normal, shear, torsion, bending] = law.damping;
+        let approach = motion.axis * motion.normal_velocity;
+        let twist = motion.axis * motion.twist_rate;
+        Lost {
+            normal: against(normal, elastic.normal.abs(), approach, least_speed),
+            shear: against(shear, elastic.shear.length(), motion.slip, least_speed),
+            torsion: against(torsion, elastic.torsion.abs(), twist, least),
+            bending: against(bending, elastic.bending.length(), motion.bending_rate, least),
+        }
+    }
+}

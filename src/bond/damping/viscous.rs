@@ -1,0 +1,58 @@
+//! Dashpots.
+
+use super::Lost;
+use crate::bond::{Coefficients, Damping, Elastic, Motion, Pair};
+use crate::number::Number;
+
+/// A dashpot beside the spring of each part, set by the share of critical damping.
+///
+/// ```text
+/// X_damping = −2 ζ √(K M) v
+/// K: k_n A, k_t A, k_t J, k_n I
+/// 1/M: 1/m_i + 1/m_j;  the same + l_i²/I_i + l_j²/I_j;  1/I_i + 1/I_j;  1/I_i + 1/I_j
+/// ```
+///
+/// | symbol   | meaning                          | unit   | comes from        |
+/// |----------|----------------------------------|--------|-------------------|
+/// | K        | stiffness of the part            | N/m, N m | the law         |
+/// | M        | effective mass or inertia        | kg, kg m² | both bodies    |
+/// | l        | torque arm                       | m      | the pair          |
+/// | ζ        | damping ratio of each part       | 1      | `damping.viscous` |
+/// | v        | v_n, v_s, w_n, w_t               | m/s, rad/s | the motion    |
+///
+/// ζ is the damping ratio of the pair alone in each of its motions, at small amplitude. The bond rests under any
+/// load, and nothing depends on the axes of the scene. Between two bodies without motion of their own there
+/// is no damping.
+#[derive(Clone, Copy, Debug)]
+pub struct Viscous;
+
+/// 2 ζ √(K M), from 1/M.
+#[inline(always)]
+fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
+    let moves = inverse_mass.greater(N::zero());
+    let square = stiffness / N::select(moves, inverse_mass, N::splat(1.0));
+    N::splat(2.0) * ratio * N::select(moves, square, N::zero()).sqrt()
+}
+
+impl Damping for Viscous {
+    const NEEDS_MASSES: bool = true;
+
+    #[inline(always)]
+    fn damp<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
+        let one = N::splat(1.0);
+        let section = &motion.section;
+        let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
+        let (arm_i, arm_j) = (pair.share_i * motion.distance, pair.share_j * motion.distance);
+        let along = one / pair.mass_i + one / pair.mass_j;
+        let across = along + arm_i * arm_i * lighter_i + arm_j * arm_j * lighter_j;
+        let turning = lighter_i + lighter_j;
+        let [normal, shear, torsion, bending] = law.damping;
+        let axial = law.normal_stiffness(elastic.compression) * section.area;
+        Lost {
+            normal: motion.axis * -(dashpot(normal, axial, along) * motion.normal_velocity),
+            shear: motion.slip * -dashpot(shear, law.shear * section.area, across),
+            torsion: motion.axis * -(dashpot(torsion, law.torsion * section.polar, turning) * motion.twist_rate),
+            bending: motion.bending_rate * -dashpot(bending, law.bending * section.axial, turning),
+        }
+    }
+}

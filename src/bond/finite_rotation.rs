@@ -1,0 +1,229 @@
+//! Force and moments as the gradient of one stored energy of positions and attitudes.
+
+use super::angle::{arctangent_ratio, continued, tangent_ratio, twice_angle};
+use super::engine_exact::relaxation_loss;
+use super::{Coefficients, Elastic, Formulation, Motion, Pair, Quaternion, Rows};
+use crate::number::{Number, Vector};
+
+/// A bond with one stored energy, exact for rotations of any size.
+///
+/// ```text
+/// U = ½ k_n A (d0 − r)² + ½ k_t A L² |γ|² + ½ k_t J ψ² + ½ k_n I |κ|²
+/// γ = s_i φ_i + s_j φ_j        κ = φ_i − φ_j        ψ = Ψ − Ψ0
+/// F_i = −∂U/∂x_i,   T_i = −∂U/∂θ_i,   T_j = −∂U/∂θ_j
+/// ```
+///
+/// | symbol   | meaning                                                                  | unit | comes from   |
+/// |----------|--------------------------------------------------------------------------|------|--------------|
+/// | a_i, a_j | the axis at creation, carried by body i, by body j                       | 1    | state, attitudes |
+/// | φ        | rotation vector of the shortest turn from a to e; across e               | rad  | a, e         |
+/// | s        | R/(R_i + R_j): share of the arm                                          | 1    | the pair     |
+/// | γ        | mean turn of the axis against the bodies: shear is L γ                   | rad  | φ            |
+/// | κ        | bending                                                                  | rad  | φ            |
+/// | Ψ        | turn of j against i about e once both are brought to e by their shortest turns, followed over any number of turns | rad | attitudes |
+/// | L        | distance at creation                                                     | m    | state        |
+/// | d0, Ψ0   | length and twist without force (relaxation shifts them, and the a)       | m, rad | state      |
+///
+/// φ_i, φ_j, ψ and r are six coordinates of the relative placement of two bodies, so U is a function of that
+/// placement alone: turning the pair as a whole changes nothing, closed loops do no work, momentum and angular
+/// momentum are kept. Exchanging i and j changes the sign of e and of the a, hence no strain. To first order in
+/// the strains force and moments are those of the document; in a plane motion γ and κ are exactly linear in the angles.
+/// Against the rate form the shear differs in the second order of the strains (arm L, not the present r).
+///
+/// With m = a × e/(1 + a·e) = tan(|φ|/2) φ/|φ|, φ = 2 arctan(|m|) m/|m|, and the variations
+/// δm = [δa × e + a × δe − m (δa·e + a·δe)]/(1 + a·e), δΨ = (a_j + e)·δθ_j/(1 + a_j·e) − (a_i + e)·δθ_i/(1 + a_i·e) + (m_i − m_j)·δe.
+/// The angle functions are polynomials that are right to rounding (`angle.rs`).
+///
+/// Holds while each body is turned by less than π against the axis and |κ| < π; beyond, `overbent`.
+///
+/// Source: own derivation; the decomposition follows the idea of Y. Wang, *Acta Geotech.* 4 (2009) 117–127, made
+/// symmetric in the two bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct FiniteRotation<const RELAXING: bool>;
+
+/// Largest square of tan(|φ|/2) that is followed: |φ| up to π − 2e-4.
+const STEEPEST: f64 = 1e8;
+
+/// Smallest divisor for the square of tan(|φ|/2); what it divides is 0 to rounding long before.
+const LEAST_SQUARE: f64 = 1e-290;
+
+/// One body's end of the bond.
+#[derive(Clone, Copy)]
+struct End<N: Number> {
+    /// a: the axis at creation, carried by the body.
+    carried: Vector<N>,
+    /// a·e.
+    cosine: N,
+    /// 1/(1 + a·e).
+    share: N,
+    /// m = tan(|φ|/2) φ/|φ|.
+    tangent: Vector<N>,
+    /// |m|².
+    square: N,
+    /// arctan(|m|)/|m|.
+    ratio: N,
+}
+
+impl<N: Number> End<N> {
+    /// Of a body that carries this axis.
+    #[inline(always)]
+    fn of(carried: Vector<N>, axis: Vector<N>) -> Self {
+        let one = N::splat(1.0);
+        let cosine = carried.dot(axis);
+        let share = one / (one + cosine);
+        let tangent = carried.cross(axis) * share;
+        let square = tangent.dot(tangent);
+        Self { carried, cosine, share, tangent, square, ratio: arctangent_ratio(square) }
+    }
+
+    /// φ: rotation vector from the carried axis to the bond's \[rad\].
+    #[inline(always)]
+    fn rotation(&self) -> Vector<N> {
+        self.tangent * (N::splat(2.0) * self.ratio)
+    }
+
+    /// From ∂U/∂φ: the torque on the body, and ∂U/∂e \[N m\].
+    #[inline(always)]
+    fn moment(&self, gradient: Vector<N>, axis: Vector<N>) -> (Vector<N>, Vector<N>) {
+        // d(arctan(√y)/√y)/dy = (1/(1 + y) − arctan(√y)/√y)/(2 y), and 1/(1 + y) = (1 + a·e)/2. What it
+        // loses to cancellation near y = 0 is multiplied by y again.
+        let half_versine = N::splat(0.5) * (N::splat(1.0) + self.cosine);
+        let slope = (half_versine - self.ratio) / self.square.max(N::splat(LEAST_SQUARE));
+        let by_tangent = gradient * (N::splat(2.0) * self.ratio)
+            + self.tangent * (N::splat(2.0) * slope * gradient.dot(self.tangent));
+        let along = by_tangent.dot(self.tangent);
+        let to_axis = (by_tangent.cross(self.carried) - self.carried * along) * self.share;
+        let torque =
+            self.tangent * along - (axis * self.carried.dot(by_tangent) - by_tangent * self.cosine) * self.share;
+        (torque, to_axis)
+    }
+
+    /// The carried axis for which φ is this \[rad\]; also its m.
+    #[inline(always)]
+    fn at(rotation: Vector<N>, axis: Vector<N>) -> (Vector<N>, Vector<N>) {
+        let one = N::splat(1.0);
+        let half = rotation * N::splat(0.5);
+        let angle_square = half.dot(half);
+        let first = tangent_ratio(angle_square);
+        // One step of Newton's method takes away what the fraction is off for large angles.
+        let square = angle_square * first * first;
+        let reached = arctangent_ratio(square) * first;
+        let tangent = half * (first + (one - reached) * (one + square));
+        let square = tangent.dot(tangent);
+        let carried = (axis * (one - square) + axis.cross(tangent) * N::splat(2.0)) * (one / (one + square));
+        (carried, tangent)
+    }
+}
+
+/// The turn about e that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i), not normalised.
+///
+/// Its vector part lies along e; given are the scalar part and the part along e.
+#[inline(always)]
+fn twist<N: Number>(relative: Quaternion<N>, i: &End<N>, j: &End<N>, axis: Vector<N>) -> (N, N) {
+    let scalar = relative.scalar - j.tangent.dot(relative.vector);
+    let vector = relative.vector + j.tangent * relative.scalar + j.tangent.cross(relative.vector);
+    (scalar + vector.dot(i.tangent), axis.dot(vector) - i.tangent.cross(axis).dot(vector))
+}
+
+impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
+    const ROWS: usize = 3;
+    const FIXED_ROWS: usize = if RELAXING { 0 } else { 2 };
+    const NEEDS_ATTITUDES: bool = true;
+
+    /// The reference is that of the beginning of the time step, but for the distance: the step's shear, twist and
+    /// bending count, as in the other formulations.
+    #[inline(always)]
+    fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
+        let before = pair.connection - pair.velocity * law.step;
+        let axis = before * (N::splat(1.0) / before.length());
+        let attitude_i = pair.attitude_i.turned(pair.spin_i, -law.step);
+        let attitude_j = pair.attitude_j.turned(pair.spin_j, -law.step);
+        let length = pair.connection.length();
+        let own = attitude_i.conjugate().turn(axis);
+        let other = (attitude_j.conjugate() * attitude_i).normalised();
+        [[own.x, own.y, own.z, length], other.to_row(), [N::zero(), N::zero(), length, N::zero()]]
+    }
+
+    #[inline(always)]
+    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N> {
+        let (half, one) = (N::splat(0.5), N::splat(1.0));
+        let (axis, section) = (motion.axis, &motion.section);
+        let [[ox, oy, oz, reference], other, [last_twist, free_twist, length, spare]] = *rows;
+
+        let own = Vector::new(ox, oy, oz);
+        let frame_j = pair.attitude_j * Quaternion::from_row(other);
+        let i = End::of(pair.attitude_i.turn(own), axis);
+        let j = End::of(frame_j.turn(own), axis);
+        let relative = frame_j * pair.attitude_i.conjugate();
+        let (along, across) = twist(relative, &i, &j, axis);
+        let whole_twist = continued(twice_angle(along, across), last_twist);
+        let twisted = whole_twist - free_twist;
+        let (rotation_i, rotation_j) = (i.rotation(), j.rotation());
+        let sheared = rotation_i * pair.share_i + rotation_j * pair.share_j;
+        let bent = rotation_i - rotation_j;
+
+        let compression = reference - motion.distance;
+        let normal = law.normal_stiffness(compression) * section.area * compression;
+        let shear_stiffness = law.shear * section.area * length * length;
+        let bending_stiffness = law.bending * section.axial;
+        let torsion = law.torsion * section.polar * twisted;
+        let bending = bent * bending_stiffness;
+        let shearing = sheared * shear_stiffness;
+
+        let (torque_i, axis_i) = i.moment(shearing * pair.share_i + bending, axis);
+        let (torque_j, axis_j) = j.moment(shearing * pair.share_j - bending, axis);
+        let to_axis = axis_i + axis_j + (i.tangent - j.tangent) * torsion;
+        let across_axis = to_axis - axis * to_axis.dot(axis);
+        let force = axis * normal - across_axis * (one / motion.distance);
+
+        let left = law.relaxed.map(|relaxed| one - relaxed);
+        let parts = [
+            half * normal * compression,
+            half * shearing.dot(sheared),
+            half * torsion * twisted,
+            half * bending.dot(bent),
+        ];
+        let mut energy = N::zero();
+        for (part, left) in parts.into_iter().zip(left) {
+            energy = energy + part * left * left;
+        }
+        let mut state = [rows[0], rows[1], [whole_twist, free_twist, length, spare]];
+        if RELAXING {
+            let sheared = sheared * left[1];
+            let bent = bent * left[3];
+            let (carried_i, tangent_i) = End::at(sheared + bent * pair.share_j, axis);
+            let (_, tangent_j) = End::at(sheared - bent * pair.share_i, axis);
+            let own = pair.attitude_i.conjugate().turn(carried_i);
+            let about = Quaternion { scalar: along, vector: axis * across };
+            let frame = Quaternion { scalar: one, vector: -tangent_j } * about;
+            let relative = frame * Quaternion { scalar: one, vector: tangent_i };
+            let other = (pair.attitude_j.conjugate() * relative * pair.attitude_i).normalised();
+            let shifted = reference + (motion.distance - reference) * law.relaxed[0];
+            state = [
+                [own.x, own.y, own.z, shifted],
+                other.to_row(),
+                [whole_twist, free_twist + twisted * law.relaxed[2], length, spare],
+            ];
+        }
+
+        let shallow = N::both(
+            N::splat(STEEPEST).greater(i.square.max(j.square)),
+            N::splat(std::f64::consts::PI * std::f64::consts::PI).greater(bent.dot(bent)),
+        );
+        let overbent = N::select(shallow, N::zero(), one).greater(N::zero());
+        Elastic {
+            compression,
+            normal,
+            shear: axis.cross(sheared) * (law.shear * section.area * length),
+            torsion,
+            bending,
+            force,
+            torque_i: torque_i + (i.carried + axis) * (torsion * i.share),
+            torque_j: torque_j - (j.carried + axis) * (torsion * j.share),
+            energy,
+            relaxed: if RELAXING { relaxation_loss(left, parts) } else { N::zero() },
+            overbent,
+            rows: state,
+        }
+    }
+}

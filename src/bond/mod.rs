@@ -1,0 +1,220 @@
+//! What bonded bodies do to each other: pure functions of one bond and its own state.
+//!
+//! A bond law is composed of a formulation (elastic force and moments from the motion), damping and
+//! breakage; each is one file. Laws are written over [`Number`], so the same source runs one bond at a time
+//! or several in a vector register: masks and selects, no branch that changes a value.
+//!
+//! What a pass does, for each living bond and in this order (`docs/bonds.md` has the whole step):
+//!
+//! 1. loads the two bodies ([`Body`]) and [`BondLaw::ROWS`] rows of state, makes a [`Pair`] of them;
+//! 2. calls [`BondLaw::react`] with the [`Coefficients`] of this step;
+//! 3. adds force and torque to i, takes force from j, adds the torque of j;
+//! 4. stores rows [`BondLaw::FIXED_ROWS`] to [`BondLaw::ROWS`] (none in the evaluation before the first step);
+//! 5. where [`Reaction::cause`] is not 0, removes the bond and books [`Reaction::elastic`] as released; where
+//!    [`Reaction::overbent`] holds, stops with an error that names the pair.
+//!
+//! Coefficients are the same for all bonds of one law; what differs from bond to bond (radius, arms,
+//! effective masses) follows from the bodies. State rows a bond: 2 in `incremental`, 3 in the others.
+//!
+//! Signs: the axis points from j to i; force and torques are those on i, the force on j is the opposite.
+//! The velocities are those of half a time step before the positions (velocity Verlet).
+
+pub mod angle;
+pub mod attitude;
+pub mod breakage;
+pub mod coefficients;
+pub mod damping;
+pub mod engine_exact;
+pub mod finite_rotation;
+pub mod incremental;
+pub mod motion;
+
+pub use attitude::Quaternion;
+pub use breakage::{Breakage, Cause};
+pub use coefficients::{Coefficients, Law};
+pub use damping::Damping;
+pub use motion::{Body, Motion, Pair, Section};
+
+use crate::number::{Number, Vector};
+use std::marker::PhantomData;
+
+/// The largest number of state rows that a formulation has.
+pub const MOST_ROWS: usize = 3;
+
+/// State of one bond, or of a lane vector of bonds; rows beyond [`Formulation::ROWS`] are not looked at.
+pub type Rows<N = f64> = [[N; 4]; MOST_ROWS];
+
+/// What the elastic part of a bond answers to the motion of its bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Elastic<N: Number> {
+    /// u: above 0 compressed, below stretched \[m\].
+    pub compression: N,
+    /// Normal force along the axis, above 0 when it pushes \[N\].
+    pub normal: N,
+    /// Shear force on i \[N\].
+    pub shear: Vector<N>,
+    /// Torsion on i along the axis \[N m\].
+    pub torsion: N,
+    /// Bending torque on i \[N m\].
+    pub bending: Vector<N>,
+    /// Elastic force on i \[N\].
+    pub force: Vector<N>,
+    /// Elastic torque on i \[N m\].
+    pub torque_i: Vector<N>,
+    /// Elastic torque on j \[N m\].
+    pub torque_j: Vector<N>,
+    /// Elastic energy, after relaxation \[J\].
+    pub energy: N,
+    /// Elastic energy that relaxation took in this evaluation \[J\].
+    pub relaxed: N,
+    /// Where the bond is bent further than the formulation can follow (π).
+    pub overbent: N::Mask,
+    /// The state to remember.
+    pub rows: Rows<N>,
+}
+
+/// How elastic force and moments follow from the motion of two bonded bodies.
+pub trait Formulation: Send + Sync + 'static {
+    /// Rows of state.
+    const ROWS: usize;
+    /// How many of them, from the first, no evaluation changes.
+    const FIXED_ROWS: usize;
+    /// Whether bodies need an attitude.
+    const NEEDS_ATTITUDES: bool;
+    /// State of a bond that is made now. The increment of the present time step (of length
+    /// [`Coefficients::step`], 0 before the first) still counts: the evaluation that follows has it.
+    fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
+    /// Axis, distance and rates as the formulation sees them.
+    #[inline(always)]
+    fn motion<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Motion<N> {
+        Motion::with_arm(law, pair, pair.share_i)
+    }
+    /// Force, torques and new state.
+    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N>;
+}
+
+/// What one bond does to its two bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction<N: Number> {
+    /// Force on i; j gets the opposite. 0 where the bond broke \[N\].
+    pub force: Vector<N>,
+    /// Torque on i \[N m\].
+    pub torque_i: Vector<N>,
+    /// Torque on j \[N m\].
+    pub torque_j: Vector<N>,
+    /// The part of `force` that damping made, for the energy book \[N\].
+    pub damping_force: Vector<N>,
+    /// The part of `torque_i` that damping made \[N m\].
+    pub damping_torque_i: Vector<N>,
+    /// The part of `torque_j` that damping made \[N m\].
+    pub damping_torque_j: Vector<N>,
+    /// Elastic energy; where the bond broke, what is released \[J\].
+    pub elastic: N,
+    /// Elastic energy that relaxation took in this evaluation \[J\].
+    pub relaxed: N,
+    /// 0, or why the bond broke: [`Cause::code`].
+    pub cause: N,
+    /// Where the bond is bent beyond π.
+    pub overbent: N::Mask,
+    /// The state to remember.
+    pub rows: Rows<N>,
+}
+
+/// A bond law, whole: what the pass in the time step is generic over.
+pub trait BondLaw: Send + Sync + 'static {
+    /// Rows of state.
+    const ROWS: usize;
+    /// How many of them, from the first, no evaluation changes.
+    const FIXED_ROWS: usize;
+    /// Whether [`Body::attitude`] is looked at.
+    const NEEDS_ATTITUDES: bool;
+    /// Whether [`Body::mass`] and [`Body::inertia`] are looked at.
+    const NEEDS_MASSES: bool;
+    /// State of a bond that is made now; evaluate it in the same step with [`BondLaw::react`].
+    fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
+    /// Force, torque, breakage and new state of one bond.
+    fn react<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, rows: &Rows<N>) -> Reaction<N>;
+    /// What the bond carries at this moment, for outputs: nothing advances, nothing breaks.
+    fn carried(law: &Law, pair: &Pair, rows: &Rows) -> Carried;
+}
+
+/// What a bond carries, for outputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried {
+    /// Normal force, above 0 when it pushes \[N\].
+    pub normal: f64,
+    /// Shear force on i \[N\].
+    pub shear: [f64; 3],
+    /// Torsion on i along the axis \[N m\].
+    pub torsion: f64,
+    /// Bending torque on i \[N m\].
+    pub bending: [f64; 3],
+    /// Normal stress with the law's rule for compression \[Pa\].
+    pub normal_stress: f64,
+    /// Shear stress \[Pa\].
+    pub shear_stress: f64,
+    /// Elastic energy \[J\].
+    pub energy: f64,
+}
+
+/// The law that the scene composed of a formulation, damping and breakage.
+#[derive(Clone, Copy, Debug)]
+pub struct Composed<F, D, B>(PhantomData<(F, D, B)>);
+
+impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
+    const ROWS: usize = F::ROWS;
+    const FIXED_ROWS: usize = F::FIXED_ROWS;
+    const NEEDS_ATTITUDES: bool = F::NEEDS_ATTITUDES;
+    const NEEDS_MASSES: bool = D::NEEDS_MASSES;
+
+    #[inline(always)]
+    fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
+        F::create(law, pair)
+    }
+
+    #[inline(always)]
+    fn react<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, rows: &Rows<N>) -> Reaction<N> {
+        let motion = F::motion(law, pair);
+        let elastic = F::respond(law, pair, &motion, rows);
+        let cause = B::judge(law, &motion, &elastic);
+        let lost = D::damp(law, pair, &motion, &elastic);
+
+        let damping_force = lost.normal + lost.shear;
+        let couple = lost.shear.cross(motion.axis) * motion.distance;
+        let twist = lost.torsion + lost.bending;
+        let damping_torque_i = couple * pair.share_i + twist;
+        let damping_torque_j = couple * pair.share_j - twist;
+
+        let none = Vector::zero();
+        let broken = cause.greater(N::zero());
+        Reaction {
+            force: Vector::select(broken, none, elastic.force + damping_force),
+            torque_i: Vector::select(broken, none, elastic.torque_i + damping_torque_i),
+            torque_j: Vector::select(broken, none, elastic.torque_j + damping_torque_j),
+            damping_force: Vector::select(broken, none, damping_force),
+            damping_torque_i: Vector::select(broken, none, damping_torque_i),
+            damping_torque_j: Vector::select(broken, none, damping_torque_j),
+            elastic: elastic.energy,
+            relaxed: elastic.relaxed,
+            cause,
+            overbent: elastic.overbent,
+            rows: elastic.rows,
+        }
+    }
+
+    fn carried(law: &Law, pair: &Pair, rows: &Rows) -> Carried {
+        let law = law.coefficients::<f64>(0.0);
+        let motion = F::motion(&law, pair);
+        let elastic = F::respond(&law, pair, &motion, rows);
+        let stress = breakage::Stress::of(&law, &motion.section, &elastic);
+        Carried {
+            normal: elastic.normal,
+            shear: elastic.shear.to_array(),
+            torsion: elastic.torsion,
+            bending: elastic.bending.to_array(),
+            normal_stress: stress.normal,
+            shear_stress: stress.shear,
+            energy: elastic.energy,
+        }
+    }
+}
