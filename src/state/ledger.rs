@@ -1,30 +1,77 @@
 //! The algorithmic energy book.
 
+use super::Row;
 use serde::{Deserialize, Serialize};
 
-/// Work of each kind of force on the moving particles since time 0, as the integrator does it: each half kick
-/// times the mean of the velocities before and after. Their sum is the change of kinetic energy, to rounding.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// The kinds of force that are booked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Contacts between particles.
+    Contacts,
+    /// Bonds.
+    Bonds,
+    /// Planes on particles.
+    Walls,
+    /// Global damping.
+    Damping,
+    /// Gravity.
+    Gravity,
+    /// Applied forces.
+    Applied,
+}
+
+impl Source {
+    /// Kinds whose loads are remembered from one half kick to the next; the others follow from the scene.
+    pub const RECORDED: usize = 4;
+    /// All kinds, recorded ones first.
+    pub const ALL: [Self; 6] =
+        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied];
+
+    /// Its name in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Contacts => "contacts",
+            Self::Bonds => "bonds",
+            Self::Walls => "walls",
+            Self::Damping => "damping",
+            Self::Gravity => "gravity",
+            Self::Applied => "applied",
+        }
+    }
+}
+
+/// Loads of one kind on each particle.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Loads {
+    /// Force \[N\]; empty where the scene has no such kind.
+    pub force: Vec<Row>,
+    /// Torque \[N m\].
+    pub torque: Vec<Row>,
+}
+
+/// Work of each kind of force on the particles that move by the forces on them, as the integrator does it: each half
+/// kick times the mean of the velocities before and after. The sum is the change of kinetic energy, to rounding,
+/// unless a force is forgotten.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
-    /// Kinetic energy at time 0 \[J\].
+    /// Kinetic energy when the book was opened \[J\].
     pub initial_kinetic: f64,
-    /// Of contacts between particles \[J\].
-    pub contacts: f64,
-    /// Of planes on particles \[J\].
-    pub walls: f64,
-    /// Of bonds \[J\].
-    pub bonds: f64,
-    /// Of gravity \[J\].
-    pub gravity: f64,
-    /// Of applied forces \[J\].
-    pub applied: f64,
-    /// Of global damping \[J\].
-    pub damping: f64,
+    /// Work of each of [`Source::ALL`] since then \[J\].
+    pub work: [f64; 6],
+    /// Sum of the magnitudes of all entries \[J\]: what a residual is measured against.
+    pub turnover: f64,
+    /// Loads of each recorded kind at the present time.
+    pub loads: [Loads; Source::RECORDED],
 }
 
 impl Ledger {
+    /// Work of one kind of force \[J\].
+    pub fn work_of(&self, source: Source) -> f64 {
+        self.work[source as usize]
+    }
+
     /// Work of all forces \[J\].
     pub fn total(&self) -> f64 {
-        self.contacts + self.walls + self.bonds + self.gravity + self.applied + self.damping
+        self.work.iter().sum()
     }
 }

@@ -1,0 +1,94 @@
+//! Kinetic energy, and the algorithmic energy book for the scenes that ask for it.
+
+use super::fields::Fields;
+use super::pass::{CHUNK, Context};
+use crate::state::ledger::{Loads, Source};
+use crate::state::{Particles, Row, State};
+
+/// Kinetic energy of the particles that move by the forces on them \[J\].
+pub(super) fn kinetic(particles: &Particles, context: &Context) -> f64 {
+    let count = particles.len();
+    let sums = context.collect(count.div_ceil(CHUNK), |piece| {
+        let mut sum = 0.0;
+        for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
+            if particles.owner[slot] == 0 {
+                let (v, w) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
+                sum += 0.5 * v[3] * dot(v, v) + 0.5 * w[3] * dot(w, w);
+            }
+        }
+        sum
+    });
+    sums.into_iter().sum()
+}
+
+/// Scalar product of the first three numbers of two rows.
+fn dot(a: &Row, b: &Row) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Remembers the loads that came since the last call as those of this kind. `seen` is what was there before.
+pub(super) fn record(state: &mut State, source: Source, seen: &mut Loads) {
+    let Some(ledger) = &mut state.ledger else { return };
+    let part = &mut ledger.loads[source as usize];
+    difference(&state.particles.force, &mut seen.force, &mut part.force);
+    difference(&state.particles.torque, &mut seen.torque, &mut part.torque);
+}
+
+/// Writes what was added to `seen` into `part`, and brings `seen` up to date.
+fn difference(now: &[Row], seen: &mut Vec<Row>, part: &mut Vec<Row>) {
+    seen.resize(now.len(), [0.0; 4]);
+    part.clear();
+    part.extend(now.iter().zip(seen.iter()).map(|(now, seen)| [0, 1, 2, 3].map(|k| now[k] - seen[k])));
+    seen.copy_from_slice(now);
+}
+
+/// Takes weight and applied force out of the loads recorded for damping: what is left is damping.
+pub(super) fn settle_damping(state: &mut State, fields: &Fields) {
+    let Some(ledger) = &mut state.ledger else { return };
+    let particles = &state.particles;
+    for (slot, row) in ledger.loads[Source::Damping as usize].force.iter_mut().enumerate() {
+        let (weight, applied) = (fields.weight(particles.velocity[slot][3]), fields.applied(particles.id[slot]));
+        for axis in 0..3 {
+            row[axis] -= weight[axis] + applied[axis];
+        }
+    }
+}
+
+/// Books the half kick that is about to be made with the present loads.
+pub(super) fn book(state: &mut State, fields: &Fields, step: f64, context: &Context) {
+    let Some(ledger) = &mut state.ledger else { return };
+    let particles = &state.particles;
+    let count = particles.len();
+    let loads = &ledger.loads;
+    let sums = context.collect(count.div_ceil(CHUNK), |piece| {
+        let mut sum = [0.0; 6];
+        let slots = piece * CHUNK..((piece + 1) * CHUNK).min(count);
+        for slot in slots.filter(|&slot| particles.owner[slot] == 0) {
+            let drift = mean(&particles.velocity[slot], &particles.force[slot], step);
+            let turn = mean(&particles.angular_velocity[slot], &particles.torque[slot], step);
+            for (sum, loads) in sum.iter_mut().zip(loads) {
+                if let (Some(force), Some(torque)) = (loads.force.get(slot), loads.torque.get(slot)) {
+                    *sum += 0.5 * step * (dot(force, &drift) + dot(torque, &turn));
+                }
+            }
+            let [x, y, z] = fields.weight(particles.velocity[slot][3]);
+            sum[Source::Gravity as usize] += 0.5 * step * dot(&[x, y, z, 0.0], &drift);
+            let [x, y, z] = fields.applied(particles.id[slot]);
+            sum[Source::Applied as usize] += 0.5 * step * dot(&[x, y, z, 0.0], &drift);
+        }
+        sum
+    });
+    for sum in sums {
+        for (work, part) in ledger.work.iter_mut().zip(sum) {
+            *work += part;
+            ledger.turnover += part.abs();
+        }
+    }
+}
+
+/// Mean of the velocity before and after half a kick.
+fn mean(velocity: &Row, load: &Row, step: f64) -> Row {
+    let factor = 0.5 * step / velocity[3];
+    let middle = |k: usize| 0.5 * (velocity[k] + (velocity[k] + factor * load[k]));
+    [middle(0), middle(1), middle(2), 0.0]
+}

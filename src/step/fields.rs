@@ -1,0 +1,149 @@
+//! Gravity, applied forces and Cundall's global damping.
+
+use super::integrate::Rows;
+use super::pass::Context;
+use crate::scene::Scene;
+use crate::state::{Row, State};
+
+/// What acts on each particle by itself.
+pub(super) struct Fields {
+    /// Acceleration of gravity \[m/s²\].
+    gravity: [f64; 3],
+    /// Applied force of each particle of the scene \[N\]; empty where there is none.
+    applied: Vec<[f64; 3]>,
+    /// Damping of each particle of the scene; empty where there is none.
+    damping: Vec<Damped>,
+}
+
+/// Cundall's damping of one particle.
+#[derive(Clone, Copy, Default)]
+struct Damped {
+    /// Fraction of the force.
+    linear: f64,
+    /// Fraction of the torque.
+    angular: f64,
+    /// Whether gravity is damped.
+    gravity: bool,
+    /// Whether applied forces are damped.
+    applied: bool,
+}
+
+impl Fields {
+    /// Reads them from the scene.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let count = scene.particles.len();
+        let mut applied = vec![[0.0; 3]; if scene.forces.is_empty() { 0 } else { count }];
+        for force in &scene.forces {
+            for &member in &force.members {
+                for (sum, part) in applied[member as usize].iter_mut().zip(force.force) {
+                    *sum += part;
+                }
+            }
+        }
+        let mut damping = vec![Damped::default(); if scene.damping.is_empty() { 0 } else { count }];
+        for set in &scene.damping {
+            for (index, damped) in damping.iter_mut().enumerate() {
+                if set.linear[index] != 0.0 || set.angular[index] != 0.0 {
+                    *damped = Damped {
+                        linear: set.linear[index],
+                        angular: set.angular[index],
+                        gravity: set.gravity_damped,
+                        applied: set.applied_forces_damped,
+                    };
+                }
+            }
+        }
+        Self { gravity: scene.gravity, applied, damping }
+    }
+
+    /// Damps particles that the scene does not damp by this fraction of force and torque, gravity included.
+    pub(super) fn damp_rest(&mut self, fraction: f64, count: usize) {
+        self.damping.resize(count, Damped::default());
+        for damped in &mut self.damping {
+            if damped.linear == 0.0 && damped.angular == 0.0 {
+                *damped = Damped { linear: fraction, angular: fraction, gravity: true, applied: true };
+            }
+        }
+    }
+
+    /// Whether any particle is damped.
+    pub(super) fn damps(&self) -> bool {
+        !self.damping.is_empty()
+    }
+
+    /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
+    pub(super) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
+        for (slot, force) in state.particles.force.iter_mut().enumerate() {
+            if state.particles.owner[slot] != 0 {
+                let load = self.loads(state.particles.velocity[slot][3], state.particles.id[slot]);
+                add(force, load);
+            }
+        }
+        let ids = std::mem::take(&mut state.particles.id);
+        let rows = Rows::of(&mut state.particles);
+        let sums = context.collect(rows.pieces(), |piece| {
+            let mut sum = [0.0; 3];
+            rows.each_free(piece, |body| {
+                let id = ids[body.slot];
+                if self.damping.is_empty() {
+                    add(body.force, self.loads(body.velocity[3], id));
+                    return;
+                }
+                let damped = self.damping[id as usize];
+                let (before, after) = self.split(body.velocity[3], id, damped);
+                add(body.force, before);
+                for axis in 0..3 {
+                    let loss = brake(damped.linear, body.force[axis], body.velocity[axis]);
+                    body.force[axis] -= loss;
+                    sum[axis] -= loss;
+                    body.torque[axis] -= brake(damped.angular, body.torque[axis], body.spin[axis]);
+                }
+                add(body.force, after);
+            });
+            sum
+        });
+        state.particles.id = ids;
+        sums.into_iter().fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
+    }
+
+    /// Applied force on a particle of the scene \[N\].
+    pub(super) fn applied(&self, id: u32) -> [f64; 3] {
+        self.applied.get(id as usize).copied().unwrap_or_default()
+    }
+
+    /// Weight of a mass \[N\].
+    pub(super) fn weight(&self, mass: f64) -> [f64; 3] {
+        self.gravity.map(|part| mass * part)
+    }
+
+    /// Weight and applied force \[N\].
+    fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        [weight[0] + applied[0], weight[1] + applied[1], weight[2] + applied[2]]
+    }
+
+    /// What comes before the damping, and what after it \[N\].
+    fn split(&self, mass: f64, id: u32, damped: Damped) -> ([f64; 3], [f64; 3]) {
+        let (mut before, mut after) = ([0.0; 3], [0.0; 3]);
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        for axis in 0..3 {
+            *(if damped.gravity { &mut before[axis] } else { &mut after[axis] }) += weight[axis];
+            *(if damped.applied { &mut before[axis] } else { &mut after[axis] }) += applied[axis];
+        }
+        (before, after)
+    }
+}
+
+/// What damping takes from a component of a load: a fraction that lowers its power, also at rest.
+#[inline(always)]
+fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {
+    if load * velocity >= 0.0 { fraction * load } else { -fraction * load }
+}
+
+/// Adds a load to a row.
+#[inline(always)]
+fn add(row: &mut Row, load: [f64; 3]) {
+    for axis in 0..3 {
+        row[axis] += load[axis];
+    }
+}

@@ -1,0 +1,194 @@
+//! Several numbers side by side: vector registers behind the [`Number`] of the laws.
+//!
+//! The width is chosen once, when a simulation is made, from what the processor offers. Every width gives
+//! the same bits: operations are exactly rounded and never fused, and results are added in the same order.
+
+mod one;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use crate::number::{Number, Vector};
+use crate::state::Row;
+
+#[cfg(target_arch = "x86_64")]
+pub use x86::{Four, Eight, Two};
+
+/// A [`Number`] that knows how to be read from and written to rows of four.
+pub trait Lane: Number {
+    /// Numbers side by side.
+    const WIDTH: usize;
+
+    /// Reads [`Lane::WIDTH`] rows and transposes them: the first numbers of all rows, the second ones, ...
+    ///
+    /// # Safety
+    /// `index` holds [`Lane::WIDTH`] numbers, each below the length of what `rows` points to.
+    unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4];
+
+    /// Transposes back and writes the first `count` rows.
+    ///
+    /// # Safety
+    /// As for [`Lane::load_rows`]; nobody else reads or writes these rows meanwhile.
+    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32, count: usize);
+
+    /// Transposes back and writes all rows to consecutive places.
+    ///
+    /// # Safety
+    /// `rows` points to [`Lane::WIDTH`] rows.
+    unsafe fn store_block(values: [Self; 4], rows: *mut Row);
+
+    /// Reads one number for each index, `stride` numbers apart.
+    ///
+    /// # Safety
+    /// `index` holds [`Lane::WIDTH`] numbers; each times `stride` is below the length of what `base` points to.
+    unsafe fn gather(base: *const f64, index: *const u32, stride: usize) -> Self;
+
+    /// Writes the numbers to consecutive places.
+    ///
+    /// # Safety
+    /// `place` points to [`Lane::WIDTH`] numbers.
+    unsafe fn store(self, place: *mut f64);
+
+    /// The mask as bits, lane 0 lowest.
+    fn bits(mask: Self::Mask) -> u32;
+}
+
+/// The first three of four columns as a vector.
+#[inline(always)]
+pub fn vector<N: Number>([x, y, z, _]: [N; 4]) -> Vector<N> {
+    Vector::new(x, y, z)
+}
+
+/// A vector and zero as four columns.
+#[inline(always)]
+pub fn columns<N: Number>(vector: Vector<N>) -> [N; 4] {
+    [vector.x, vector.y, vector.z, N::zero()]
+}
+
+/// Lane widths that can be chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// One number at a time, on every processor.
+    One,
+    /// SSE2.
+    Two,
+    /// AVX2.
+    Four,
+    /// AVX-512.
+    Eight,
+}
+
+impl Width {
+    /// Every width there is, narrow to wide.
+    pub const ALL: [Self; 4] = [Self::One, Self::Two, Self::Four, Self::Eight];
+
+    /// The widest this processor offers.
+    pub fn widest() -> Self {
+        Self::ALL.into_iter().rev().find(|width| width.offered()).unwrap_or(Self::One)
+    }
+
+    /// Whether this processor offers it.
+    pub fn offered(self) -> bool {
+        match self {
+            Self::One => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Two => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Four => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Eight => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512dq")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+}
+
+/// Work that can be done in any lane width.
+pub trait Kernel {
+    /// Does the work in lanes of `N`. Must be `#[inline(always)]` with all it calls, so that it is compiled for the
+    /// processor features of the width.
+    fn run<N: Lane>(self);
+}
+
+/// Runs a kernel in this width.
+///
+/// # Panics
+/// If the processor does not offer the width.
+pub fn run<K: Kernel>(width: Width, kernel: K) {
+    debug_assert!(width.offered(), "{width:?} is not offered by this processor");
+    match width {
+        Width::One => kernel.run::<f64>(),
+        #[cfg(target_arch = "x86_64")]
+        Width::Two => kernel.run::<Two>(),
+        // SAFETY: `Width::widest` and the tests choose only what the processor offers.
+        #[cfg(target_arch = "x86_64")]
+        Width::Four => unsafe { x86::run_four(kernel) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Width::Eight => unsafe { x86::run_eight(kernel) },
+        #[cfg(not(target_arch = "x86_64"))]
+        _ => kernel.run::<f64>(),
+    }
+}
+
+/// A place that several threads write to, each to its own part.
+///
+/// The passes divide particles and pairs by geometry such that no two parts worked on at the same time touch the
+/// same rows; the compiler cannot see that.
+#[derive(Clone, Copy)]
+pub struct Shared<T> {
+    /// Where the slice begins.
+    start: *mut T,
+    /// How many there are, for debug assertions.
+    length: usize,
+}
+
+// SAFETY: what is behind it is plain data; who writes where is the passes' promise, stated at each use.
+unsafe impl<T: Send> Send for Shared<T> {}
+// SAFETY: as above.
+unsafe impl<T: Send> Sync for Shared<T> {}
+
+impl<T> Shared<T> {
+    /// The whole slice, for as long as the pass holds it.
+    pub fn new(slice: &mut [T]) -> Self {
+        Self { start: slice.as_mut_ptr(), length: slice.len() }
+    }
+
+    /// Where the slice begins.
+    #[inline(always)]
+    pub fn pointer(self) -> *mut T {
+        self.start
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub fn length(self) -> usize {
+        self.length
+    }
+
+    /// One element, to be changed.
+    ///
+    /// # Safety
+    /// `index` is below the length, and nobody else reads or writes this element meanwhile.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref, reason = "disjoint use is the caller's promise")]
+    pub unsafe fn at<'a>(self, index: usize) -> &'a mut T {
+        debug_assert!(index < self.length, "{index} is not below {}", self.length);
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.start.add(index) }
+    }
+
+    /// A part, to be changed.
+    ///
+    /// # Safety
+    /// The part is inside, and nobody else reads or writes it meanwhile.
+    #[inline(always)]
+    pub unsafe fn part<'a>(self, from: usize, to: usize) -> &'a mut [T] {
+        debug_assert!(from <= to && to <= self.length);
+        // SAFETY: the caller's promise.
+        unsafe { std::slice::from_raw_parts_mut(self.start.add(from), to - from) }
+    }
+}

@@ -1,0 +1,73 @@
+//! What the passes of a time step have in common.
+
+use super::error::RunError;
+use super::lanes::Width;
+use crate::contact::Response;
+use crate::state::State;
+use rayon::prelude::*;
+
+/// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
+/// depend on the number of threads.
+pub(super) const CHUNK: usize = 1024;
+
+/// What a pass needs to know beside the state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Context {
+    /// Time since springs were last advanced \[s\]: the time step, or 0 in the evaluation before the first one.
+    pub step: f64,
+    /// Lane width.
+    pub width: Width,
+    /// Whether several threads work.
+    pub parallel: bool,
+}
+
+impl Context {
+    /// Does pieces 0 to `count` − 1 of the work, in any order.
+    pub(super) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {
+        if self.parallel && count > 1 {
+            (0..count).into_par_iter().for_each(piece);
+        } else {
+            (0..count).for_each(piece);
+        }
+    }
+
+    /// What the pieces 0 to `count` − 1 give, in order.
+    pub(super) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        if self.parallel && count > 1 {
+            (0..count).into_par_iter().map(piece).collect()
+        } else {
+            (0..count).map(piece).collect()
+        }
+    }
+}
+
+/// One kind of interaction, composed for the scene.
+pub(super) trait Pass: Send + Sync {
+    /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
+    /// that must not be continued from; the evaluation is complete all the same.
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
+
+    /// Whether particles feel torque from it.
+    fn has_torque(&self) -> bool;
+
+    /// Prepares its part of the state after the neighbour lists were made anew.
+    fn prepare(&self, state: &mut State);
+
+    /// Tells the stiffness of each interaction at work, for the stable time step.
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link));
+}
+
+/// The stiffness of one interaction at work.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    /// One particle (slot).
+    pub first: u32,
+    /// The other particle (slot), or none at a wall.
+    pub second: Option<u32>,
+    /// Stiffnesses \[N/m\] and damping coefficients \[kg/s\].
+    pub response: Response,
+    /// Arm at the first particle \[m\].
+    pub first_arm: f64,
+    /// Arm at the second particle \[m\].
+    pub second_arm: f64,
+}

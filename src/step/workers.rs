@@ -1,0 +1,66 @@
+//! The threads of one simulation.
+
+use std::thread::JoinHandle;
+
+/// Fewer particles than this are not worth a second thread.
+const FEW: usize = 2000;
+
+/// A thread pool of its own, so that two simulations in one process do not disturb each other; joined when dropped.
+pub(super) struct Workers {
+    /// The pool; none where one thread works.
+    pool: Option<rayon::ThreadPool>,
+    /// Its threads.
+    handles: Vec<JoinHandle<()>>,
+}
+
+impl Workers {
+    /// As many threads as asked for, or as the machine offers; one for a few particles.
+    pub(super) fn new(threads: Option<usize>, particles: usize) -> Self {
+        let alone = Self { pool: None, handles: Vec::new() };
+        let offered = || std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = threads.filter(|&threads| threads > 0).unwrap_or_else(offered);
+        if threads < 2 || particles < FEW {
+            return alone;
+        }
+        let mut handles = Vec::new();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .spawn_handler(|thread| {
+                handles.push(std::thread::Builder::new().name("cograin".into()).spawn(|| thread.run())?);
+                Ok(())
+            })
+            .build();
+        match pool {
+            Ok(pool) => Self { pool: Some(pool), handles },
+            Err(_) => alone,
+        }
+    }
+
+    /// Whether several threads work.
+    pub(super) fn parallel(&self) -> bool {
+        self.pool.is_some()
+    }
+
+    /// How many threads work.
+    pub(super) fn count(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Does the work where the threads are.
+    pub(super) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
+
+impl Drop for Workers {
+    fn drop(&mut self) {
+        drop(self.pool.take());
+        for handle in self.handles.drain(..) {
+            // A worker that panicked has told so already, where its work was waited for.
+            drop(handle.join());
+        }
+    }
+}
