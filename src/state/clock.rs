@@ -11,8 +11,13 @@ pub struct Clock {
     pub lost: f64,
     /// The time step \[s\].
     pub step: f64,
+    /// Length of the last step made, 0 before the first \[s\]: an interval that is no whole number of time steps
+    /// is divided into shorter ones.
+    pub last_step: f64,
     /// Largest stable time step, as last found \[s\].
     pub stable: f64,
+    /// Largest speed of a particle expected in the middle of the next step \[m/s\].
+    pub speed: f64,
     /// Time steps made since time 0.
     pub steps: u64,
     /// Times the neighbour lists were made.

@@ -24,8 +24,7 @@ impl Source {
     /// Kinds whose loads are remembered from one half kick to the next; the others follow from the scene.
     pub const RECORDED: usize = 4;
     /// All kinds, recorded ones first.
-    pub const ALL: [Self; 6] =
-        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied];
+    pub const ALL: [Self; 6] = [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied];
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {

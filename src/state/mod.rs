@@ -38,4 +38,8 @@ pub struct State {
     pub boundaries: Vec<BoundaryState>,
     /// The algorithmic energy book, if the scene asks for it.
     pub ledger: Option<Ledger>,
+    /// Sum of the global damping forces at the present time \[N\].
+    pub damping_force: [f64; 3],
+    /// Impulse of global damping on the particles since time 0 \[N s\].
+    pub damping_impulse: [f64; 3],
 }

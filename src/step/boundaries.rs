@@ -71,8 +71,7 @@ fn drive(moved: &mut BoundaryState, axis: usize, course: InputCourse, progress: 
         InputCourse::Smooth => share * share * (3.0 - 2.0 * share),
         InputCourse::Hold => 1.0,
     };
-    moved.displacement[axis] =
-        if progress.done == progress.count { target } else { start + (target - start) * share };
+    moved.displacement[axis] = if progress.done == progress.count { target } else { start + (target - start) * share };
     moved.velocity[axis] = match course {
         InputCourse::Ramp => (target - start) / (progress.count as f64 * progress.step),
         InputCourse::Smooth => (moved.displacement[axis] - before) / progress.step,

@@ -7,10 +7,12 @@
 
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, columns, vector};
+use super::observe::{self, ContactRecord};
 use super::pass::{Context, Link, Pass};
-use crate::contact::{Contact, Law, MaterialPair};
+use crate::contact::{Contact, Law, MaterialPair, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State};
 use std::marker::PhantomData;
 
@@ -31,6 +33,8 @@ pub(super) struct Table {
     materials: usize,
     /// The one material that all particles of the scene are made of, if it is one.
     single: Option<u32>,
+    /// Whether the law governs these two materials.
+    governed: Vec<bool>,
 }
 
 impl Table {
@@ -41,18 +45,15 @@ impl Table {
         for a in 0..materials {
             for b in 0..materials {
                 let entry = a * materials + b;
-                let pair = MaterialPair {
-                    a: &scene.materials[a],
-                    b: &scene.materials[b],
-                    properties: &scene.pairs[entry],
-                };
+                let pair =
+                    MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties: &scene.pairs[entry] };
                 let row = if between[entry] { law.row(&pair).ok() } else { None };
                 rows.extend(row.unwrap_or_else(|| vec![0.0; L::COUNT]));
             }
         }
         let mut present = scene.particles.iter().map(|particle| particle.material.0);
         let single = present.next().filter(|&first| present.all(|other| other == first));
-        Self { rows, count: L::COUNT, materials, single }
+        Self { rows, count: L::COUNT, materials, single, governed: between.to_vec() }
     }
 
     /// The one row that all particles have with each other, if it is one.
@@ -88,6 +89,14 @@ impl Table {
             row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry.as_ptr(), L::COUNT) };
             k += 1;
         }
+    }
+
+    /// The stiffest response of an impact between any two of the materials.
+    pub(super) fn stiffest<L: Law>(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+        let rows = self.rows.chunks_exact(self.count.max(1));
+        let responses = rows.zip(&self.governed).filter(|(_, governed)| **governed);
+        let responses = responses.map(|(row, _)| observe::impact::<L>(row, radius, mass, speed));
+        responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
     }
 
     /// The coefficients for two materials.
@@ -144,6 +153,10 @@ impl<L: Law> Pass for ContactPass<L> {
         L::HAS_TORQUE
     }
 
+    fn source(&self) -> Source {
+        Source::Contacts
+    }
+
     fn prepare(&self, state: &mut State) {
         let list = &mut state.contacts[self.index];
         if !L::HAS_SPRING {
@@ -167,8 +180,31 @@ impl<L: Law> Pass for ContactPass<L> {
             if let Some((contact, arms)) = pair_contact(&state.particles, list, pair) {
                 let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
                 let response = L::stiffness(row, &contact);
-                tell(Link { first: i, second: Some(j), response, first_arm: arms[0], second_arm: arms[1] });
+                let [first_arm, second_arm] = arms;
+                tell(Link { first: i, second: Some(j), response, first_arm, second_arm, normal: contact.normal });
             }
+        }
+    }
+
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+        self.table.stiffest::<L>(radius, mass, speed)
+    }
+
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+        let list = &state.contacts[self.index];
+        let before = |slot: u32| observe::half_step_back(&state.particles, slot as usize, step);
+        for pair in (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0) {
+            let (i, j) = (list.first[pair], list.second[pair]);
+            let ((v, w), (u, z)) = (before(i), before(j));
+            let positions = &state.particles.position;
+            let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
+            let (contact, arm, _) = meet(positions[i as usize], positions[j as usize], v, u, w, z, constant);
+            let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
+            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
+            let (reaction, sliding) = observe::react::<L>(row, &contact, spring, list.flags[pair]);
+            let point = Vector::from(positions[i as usize]) - contact.normal * arm;
+            let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
+            tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
         }
     }
 }
@@ -182,11 +218,7 @@ fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
 }
 
 /// The contact of a listed pair and its arms, if the two touch.
-pub(super) fn pair_contact(
-    particles: &Particles,
-    list: &ContactList,
-    pair: usize,
-) -> Option<(Contact, [f64; 2])> {
+pub(super) fn pair_contact(particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
     let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
     let reach = particles.position[i][3] + particles.position[j][3];
     let apart = Vector::from(particles.position[i]) - Vector::from(particles.position[j]);
@@ -369,8 +401,7 @@ fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer
             lane += 1;
         }
         // SAFETY: a list holds slots of particles, below their number.
-        let (i, j) =
-            unsafe { (N::load_rows(positions, first.as_ptr()), N::load_rows(positions, second.as_ptr())) };
+        let (i, j) = unsafe { (N::load_rows(positions, first.as_ptr()), N::load_rows(positions, second.as_ptr())) };
         let apart = vector(i) - vector(j);
         let reach = i[3] + j[3];
         let touch = N::bits((reach * reach).greater(apart.dot(apart)));
@@ -403,12 +434,7 @@ fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer
 
 /// Phase B: the law on the touching pairs of the buffer.
 #[inline(always)]
-fn react_batch<L: Law, N: Lane>(
-    work: &Work<L>,
-    row: &mut [N; MOST_COEFFICIENTS],
-    count: usize,
-    buffer: &mut Buffer,
-) {
+fn react_batch<L: Law, N: Lane>(work: &Work<L>, row: &mut [N; MOST_COEFFICIENTS], count: usize, buffer: &mut Buffer) {
     let step = N::splat(work.step);
     let mut done = 0;
     while done < count {
@@ -435,11 +461,8 @@ fn react_batch<L: Law, N: Lane>(
         let (contact, first_arm, second_arm) = unsafe {
             let (i, j) = (first.as_ptr(), second.as_ptr());
             let (x, v, w) = (work.position.as_ptr(), work.velocity.as_ptr(), work.angular_velocity.as_ptr());
-            let constant = if L::HAS_PAIR_CONSTANT {
-                N::gather(work.pair_constant.as_ptr(), pairs, 1)
-            } else {
-                N::zero()
-            };
+            let constant =
+                if L::HAS_PAIR_CONSTANT { N::gather(work.pair_constant.as_ptr(), pairs, 1) } else { N::zero() };
             meet(
                 N::load_rows(x, i),
                 N::load_rows(x, j),

@@ -1,13 +1,47 @@
 //! One time step: the passes, in their order, over the state.
 
+mod assemble;
+mod boundaries;
+mod contacts;
+mod energy;
 mod error;
+mod fields;
+mod integrate;
+pub mod lanes;
+mod neighbours;
+mod observe;
+mod pass;
+mod stable;
+mod walls;
+mod workers;
 
 pub use error::RunError;
+pub use observe::ContactRecord;
+pub use stable::Limit;
 
 use crate::quantity::BoundaryIndex;
-use crate::scene::Scene;
+use crate::scene::{Scene, Step};
 use crate::state::State;
+use crate::state::ledger::{Loads, Source};
+use boundaries::Progress;
+use lanes::Width;
+use pass::{Context, Pass};
 use std::sync::Arc;
+
+/// Time steps between two looks at the stable time step, where it is chosen automatically.
+const STEPS_BETWEEN_LIMITS: u64 = 500;
+
+/// How much longer an automatic time step must have become possible before it is lengthened.
+const LENGTHENING: f64 = 1.1;
+
+/// Way of a particle in one time step, over its radius, that is no longer taken for motion.
+const RUNAWAY: f64 = 0.5;
+
+/// Intervals this close to a whole number of time steps, over the time step, are taken for that number.
+const WHOLE: f64 = 1e-6;
+
+/// The automatic time step of a scene in which nothing is stiff \[s\].
+const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 
 /// A scene in motion: its state and the passes composed for it.
 pub struct Simulation {
@@ -15,22 +49,65 @@ pub struct Simulation {
     scene: Arc<Scene>,
     /// Everything that changes.
     state: State,
+    /// Interactions, in the order they are evaluated.
+    passes: Vec<Box<dyn Pass>>,
+    /// Gravity, applied forces, damping.
+    fields: fields::Fields,
+    /// The neighbour search.
+    search: neighbours::Search,
+    /// Whether anything turns the particles.
+    turning: bool,
+    /// Lane width.
+    width: Width,
+    /// Threads.
+    workers: workers::Workers,
 }
 
 impl Simulation {
-    /// The scene at time 0, forces evaluated, springs and bonds unmoved.
-    pub fn new(_scene: Arc<Scene>) -> Result<Self, RunError> {
-        unreachable!("the engine is being built")
+    /// The scene at time 0: forces evaluated, springs unmoved.
+    pub fn new(scene: Arc<Scene>) -> Result<Self, RunError> {
+        let state = assemble::state(&scene);
+        let mut simulation = Self::resume(scene, state);
+        simulation.begin()?;
+        Ok(simulation)
+    }
+
+    /// Makes the lists and evaluates the forces, springs unmoved.
+    fn begin(&mut self) -> Result<(), RunError> {
+        boundaries::place_groups(&self.scene, &mut self.state);
+        self.search.rebuild(&mut self.state);
+        self.prepare_passes();
+        self.start()
     }
 
     /// The scene in a state saved earlier. The state must be of this scene ([`State::from_bytes`] sees to it).
-    pub fn resume(_scene: Arc<Scene>, _state: State) -> Self {
-        unreachable!("the engine is being built")
+    pub fn resume(scene: Arc<Scene>, state: State) -> Self {
+        let passes = assemble::passes(&scene);
+        Self {
+            turning: passes.iter().any(|pass| pass.has_torque()),
+            passes,
+            fields: fields::Fields::of(&scene),
+            search: neighbours::Search::of(&scene),
+            width: Width::widest(),
+            workers: workers::Workers::new(scene.run.threads, scene.particles.len()),
+            scene,
+            state,
+        }
     }
 
     /// Puts back a state of this simulation; it continues from there bit for bit.
     pub fn restore(&mut self, state: &State) {
         self.state.clone_from(state);
+    }
+
+    /// Works in this lane width from now on. Every width gives the same bits.
+    pub fn set_width(&mut self, width: Width) {
+        self.width = if width.offered() { width } else { Width::One };
+    }
+
+    /// Damps every particle that the scene does not damp by this fraction (Cundall), gravity included.
+    pub fn damp_rest(&mut self, fraction: f64) {
+        self.fields.damp_rest(fraction, self.scene.particles.len());
     }
 
     /// What is simulated.
@@ -55,6 +132,17 @@ impl Simulation {
         boundary.target_rate[axis] = 0.0;
     }
 
+    /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 2) and displacement \[m\] of each.
+    /// Springs stay as they are; forces are evaluated anew. For use before the first interval only.
+    pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
+        for &(boundary, axis, displacement) in starts {
+            let boundary = &mut self.state.boundaries[boundary.index()];
+            boundary.displacement[axis] = displacement;
+            boundary.target[axis] = displacement;
+        }
+        self.begin()
+    }
+
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s\].
     pub fn set_displacement_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
@@ -63,7 +151,243 @@ impl Simulation {
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end.
     ///
     /// On an error the state is that of the last good time step, at [`Simulation::time`].
-    pub fn advance(&mut self, _interval: f64) -> Result<(), RunError> {
-        unreachable!("the engine is being built")
+    pub fn advance(&mut self, interval: f64) -> Result<(), RunError> {
+        if !interval.is_finite() || interval <= 0.0 {
+            return Err(RunError::Interval { interval });
+        }
+        self.lengthen_step();
+        let (count, step) = divide(interval, self.state.clock.step);
+        boundaries::begin(&mut self.state, interval);
+        let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
+        let context = Context { step, width: self.width, parallel: workers.parallel() };
+        let (done, result) = workers.run(|| self.run(count, step, &context));
+        self.workers = workers;
+        boundaries::end(&mut self.state, done as f64 * step);
+        result.map_err(|error| self.named(error))
     }
+
+    /// Makes up to `count` time steps. Returns how many, and why it stopped early.
+    fn run(&mut self, count: u64, step: f64, context: &Context) -> (u64, Result<(), RunError>) {
+        for done in 1..=count {
+            if let Err(error) = self.check_way(step) {
+                return (done - 1, Err(error));
+            }
+            if let Err(error) = self.step(Progress { done, count, step, time: 0.0 }, context) {
+                return (done, Err(error));
+            }
+        }
+        (count, self.check_domain())
+    }
+
+    /// Makes one time step.
+    fn step(&mut self, progress: Progress, context: &Context) -> Result<(), RunError> {
+        let step = progress.step;
+        self.state.clock.advance(step);
+        self.state.clock.steps += 1;
+        self.state.clock.last_step = step;
+        energy::book(&mut self.state, &self.fields, step, context);
+        let speed = integrate::kick_and_drift(&mut self.state.particles, step, self.turning, context);
+        let time = self.state.clock.time;
+        let ways = boundaries::advance(&self.scene, &mut self.state, Progress { time, ..progress });
+        boundaries::place_groups(&self.scene, &mut self.state);
+        let speed = speed.max(boundaries::fastest_group(&self.scene, &self.state));
+        self.state.neighbours.travel += speed * step;
+        let mut result = Ok(());
+        if self.search.outdated(&mut self.state) {
+            result = self.check_domain();
+            self.search.rebuild(&mut self.state);
+            self.prepare_passes();
+        }
+        let before = boundaries::clear_loads(&mut self.state);
+        let damping_before = self.state.damping_force;
+        result = result.and(self.evaluate(context));
+        energy::book(&mut self.state, &self.fields, step, context);
+        let speed = integrate::kick_again(&mut self.state.particles, step, self.turning, context);
+        self.state.clock.speed = speed;
+        boundaries::book(&mut self.state, &before, &ways, step);
+        for axis in 0..3 {
+            self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
+        }
+        if !speed.is_finite() {
+            result = Err(self.not_finite());
+        }
+        result.and_then(|()| self.shorten_step())
+    }
+
+    /// Evaluates all forces and torques at the present positions.
+    fn evaluate(&mut self, context: &Context) -> Result<(), RunError> {
+        let state = &mut self.state;
+        integrate::clear_loads(&mut state.particles, self.turning, context);
+        let mut result = Ok(());
+        let mut seen = Loads::default();
+        for (place, pass) in self.passes.iter().enumerate() {
+            result = result.and(pass.apply(state, context));
+            let next = self.passes.get(place + 1).map(|next| next.source());
+            if next != Some(pass.source()) {
+                energy::record(state, pass.source(), &mut seen);
+            }
+        }
+        boundaries::sum_groups(&self.scene, state);
+        state.damping_force = self.fields.apply(state, context);
+        if self.fields.damps() {
+            energy::record(state, Source::Damping, &mut seen);
+            energy::settle_damping(state, &self.fields);
+        }
+        result
+    }
+
+    /// The evaluation before the first step, and what follows from it.
+    fn start(&mut self) -> Result<(), RunError> {
+        boundaries::clear_loads(&mut self.state);
+        let context = Context { step: 0.0, width: self.width, parallel: false };
+        let result = self.evaluate(&context);
+        for boundary in &mut self.state.boundaries {
+            boundary.mean_force = boundary.force;
+            boundary.mean_moment = boundary.moment;
+        }
+        let kinetic = energy::kinetic(&self.state.particles, &context);
+        if let Some(ledger) = &mut self.state.ledger {
+            ledger.initial_kinetic = kinetic;
+        }
+        result.map_err(|error| self.named(error))?;
+        let limit = self.limit();
+        self.state.clock.stable = limit.safe;
+        match self.scene.run.step {
+            Step::Given(step) => {
+                self.state.clock.step = step;
+                if step > limit.unstable {
+                    return Err(RunError::StepTooLong { step, stable: limit.safe, time: self.time() });
+                }
+            }
+            Step::Automatic { safety } => {
+                self.state.clock.step = (safety * limit.safe).min(LONGEST_AUTOMATIC_STEP);
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets every pass prepare its part of the state after the lists were made anew.
+    fn prepare_passes(&mut self) {
+        for pass in &self.passes {
+            pass.prepare(&mut self.state);
+        }
+    }
+
+    /// The stable time step of the present network of contacts, and of impacts at the present speeds.
+    pub fn limit(&self) -> Limit {
+        let mut network = stable::Network::of(&self.state);
+        for pass in &self.passes {
+            pass.stiffness(&self.state, &mut |link| network.add(link));
+        }
+        let mut limit = network.limit();
+        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.passes) {
+            if safe < limit.safe {
+                limit.safe = safe;
+                limit.particle = Some(particle);
+            }
+        }
+        limit
+    }
+
+    /// Shortens an automatic time step at once when it is time to look and the packing has become stiffer.
+    fn shorten_step(&mut self) -> Result<(), RunError> {
+        let Step::Automatic { safety } = self.scene.run.step else { return Ok(()) };
+        if self.state.clock.steps % STEPS_BETWEEN_LIMITS == 0 {
+            self.state.clock.stable = self.limit().safe;
+            let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
+            self.state.clock.step = self.state.clock.step.min(step);
+        }
+        Ok(())
+    }
+
+    /// Lengthens an automatic time step, between communication steps, where the packing allows a good deal more.
+    fn lengthen_step(&mut self) {
+        let Step::Automatic { safety } = self.scene.run.step else { return };
+        let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
+        if step > LENGTHENING * self.state.clock.step {
+            self.state.clock.step = step;
+        }
+    }
+
+    /// Refuses a step in which a particle would move further than makes sense.
+    fn check_way(&self, step: f64) -> Result<(), RunError> {
+        let smallest = self.search.smallest_radius();
+        if self.state.clock.speed * step <= RUNAWAY * smallest {
+            return Ok(());
+        }
+        let particles = &self.state.particles;
+        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
+            let (velocity, force) = (particles.velocity[slot], particles.force[slot]);
+            let next = |axis: usize| velocity[axis] + 0.5 * step / velocity[3] * force[axis];
+            let radius = particles.position[slot][3];
+            let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
+            if way > RUNAWAY * radius {
+                return Err(RunError::Runaway {
+                    id: particles.id[slot],
+                    radii: way / radius,
+                    time: self.time(),
+                    stable: self.state.clock.stable,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds what is not finite.
+    fn not_finite(&self) -> RunError {
+        let particles = &self.state.particles;
+        let finite = |row: &[f64; 4]| row.iter().all(|number| number.is_finite());
+        for slot in 0..particles.len() {
+            let quantities = [
+                ("position", &particles.position[slot]),
+                ("force", &particles.force[slot]),
+                ("torque", &particles.torque[slot]),
+                ("velocity", &particles.velocity[slot]),
+                ("angular velocity", &particles.angular_velocity[slot]),
+            ];
+            if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
+                let (time, stable) = (self.time(), self.state.clock.stable);
+                return RunError::NotFinite { id: particles.id[slot], quantity, time, stable };
+            }
+        }
+        RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), stable: self.state.clock.stable }
+    }
+
+    /// Finds a particle outside the domain.
+    fn check_domain(&self) -> Result<(), RunError> {
+        let Some([low, high]) = self.scene.domain else { return Ok(()) };
+        let particles = &self.state.particles;
+        for (slot, row) in particles.position.iter().enumerate() {
+            if (0..3).any(|axis| row[axis] < low[axis] || row[axis] > high[axis]) {
+                let [x, y, z, _] = *row;
+                return Err(RunError::Escaped { id: particles.id[slot], time: self.time(), x, y, z });
+            }
+        }
+        Ok(())
+    }
+
+    /// The error with the particle's number in the scene instead of its index.
+    fn named(&self, mut error: RunError) -> RunError {
+        match &mut error {
+            RunError::Runaway { id, .. }
+            | RunError::NotFinite { id, .. }
+            | RunError::Behind { id, .. }
+            | RunError::Escaped { id, .. } => {
+                *id = self.scene.particles.get(*id as usize).map_or(*id, |particle| particle.id.0);
+            }
+            RunError::StepTooLong { .. } | RunError::Interval { .. } => {}
+        }
+        error
+    }
+}
+
+/// Divides an interval into equal time steps: of exactly `step`, where a whole number of them fits, otherwise shorter.
+fn divide(interval: f64, step: f64) -> (u64, f64) {
+    let ratio = interval / step;
+    let whole = ratio.round();
+    if whole >= 1.0 && (ratio - whole).abs() <= WHOLE {
+        return (whole as u64, step);
+    }
+    let count = ratio.ceil().max(1.0);
+    (count as u64, interval / count)
 }

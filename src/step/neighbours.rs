@@ -4,7 +4,6 @@
 //! reach of a pair, and inside a slab into square columns of cells. Pairs therefore reach no further than the next
 //! slab. Springs follow the pair of particles, never a place in a list.
 
-use super::error::RunError;
 use super::walls;
 use crate::scene::{Scene, Shape};
 use crate::state::contacts::TOUCHING;
@@ -23,6 +22,8 @@ pub(super) struct Search {
     planes: Vec<(u32, u32, [f64; 3], [f64; 3])>,
     /// Radius of the largest particle \[m\].
     largest: f64,
+    /// Radius of the smallest particle \[m\].
+    smallest: f64,
     /// Whether anything can touch.
     needed: bool,
 }
@@ -43,13 +44,14 @@ impl Search {
             materials,
             planes: planes.collect(),
             largest: scene.particles.iter().fold(0.0, |largest, particle| particle.radius.max(largest)),
+            smallest: scene.particles.iter().fold(f64::INFINITY, |smallest, particle| particle.radius.min(smallest)),
             needed: !scene.contacts.is_empty() && !scene.particles.is_empty(),
         }
     }
 
-    /// Whether anything can touch.
-    pub(super) fn needed(&self) -> bool {
-        self.needed
+    /// Radius of the smallest particle \[m\].
+    pub(super) fn smallest_radius(&self) -> f64 {
+        self.smallest
     }
 
     /// The contact law of two materials.
@@ -82,9 +84,9 @@ impl Search {
     }
 
     /// Sorts the particles and makes the lists anew.
-    pub(super) fn rebuild(&self, state: &mut State) -> Result<(), RunError> {
+    pub(super) fn rebuild(&self, state: &mut State) {
         if !self.needed {
-            return Ok(());
+            return;
         }
         let reach = 2.0 * self.largest + state.neighbours.skin;
         let grid = Grid::around(&state.particles, reach);
@@ -104,18 +106,13 @@ impl Search {
         state.neighbours.travel = 0.0;
         state.neighbours.made_at = state.clock.steps;
         state.clock.rebuilds += 1;
-        Ok(())
     }
 
     /// The list of one plane and law.
     fn near_plane(&self, state: &State, index: usize, new_slot: &[u32]) -> crate::state::WallContacts {
         let old = &state.walls[index];
-        let (boundary, material, point, normal) = self
-            .planes
-            .iter()
-            .copied()
-            .find(|plane| plane.0 == old.boundary)
-            .expect("a wall list belongs to a plane");
+        let (boundary, material, point, normal) =
+            self.planes.iter().copied().find(|plane| plane.0 == old.boundary).expect("a wall list belongs to a plane");
         let offset = state.boundaries[boundary as usize].displacement;
         let particles = &state.particles;
         walls::list(old, new_slot, particles, |slot| {
@@ -128,14 +125,7 @@ impl Search {
     }
 
     /// The half lists of all laws.
-    fn pairs(
-        &self,
-        particles: &Particles,
-        grid: &Grid,
-        order: &Order,
-        skin: f64,
-        laws: usize,
-    ) -> Vec<ContactList> {
+    fn pairs(&self, particles: &Particles, grid: &Grid, order: &Order, skin: f64, laws: usize) -> Vec<ContactList> {
         let mut lists = vec![ContactList::default(); laws];
         let mut near = Vec::new();
         for slab in 0..grid.counts[0] {

@@ -2,8 +2,11 @@
 
 use super::error::RunError;
 use super::lanes::Width;
+use super::observe::ContactRecord;
 use crate::contact::Response;
+use crate::number::Vector;
 use crate::state::State;
+use crate::state::ledger::Source;
 use rayon::prelude::*;
 
 /// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
@@ -53,8 +56,18 @@ pub(super) trait Pass: Send + Sync {
     /// Prepares its part of the state after the neighbour lists were made anew.
     fn prepare(&self, state: &mut State);
 
+    /// The kind of force it is, for the energy book.
+    fn source(&self) -> Source;
+
     /// Tells the stiffness of each interaction at work, for the stable time step.
     fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link));
+
+    /// The stiffest that it gets between two bodies of this effective radius \[m\] and mass \[kg\] which meet at
+    /// this speed \[m/s\].
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response>;
+
+    /// Tells each contact at work as it was in the last evaluation. Changes nothing.
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord));
 }
 
 /// The stiffness of one interaction at work.
@@ -70,4 +83,6 @@ pub(super) struct Link {
     pub first_arm: f64,
     /// Arm at the second particle \[m\].
     pub second_arm: f64,
+    /// Unit normal, from the second to the first.
+    pub normal: Vector,
 }

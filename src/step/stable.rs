@@ -5,8 +5,9 @@
 //! particles would feel alone, |a − b|² ≤ 2 |a|² + 2 |b|², so a bound holds particle by particle: the largest
 //! eigenvalue of its own 6 × 6 block. It is safe, and at most √2 below the true limit where only springs act.
 
-use super::pass::Link;
+use super::pass::{Link, Pass};
 use crate::number::Vector;
+use crate::scene::Scene;
 use crate::state::State;
 
 /// A symmetric matrix over the six freedoms of a particle, scaled by its mass and moment of inertia.
@@ -14,6 +15,9 @@ type Block = [[f64; 6]; 6];
 
 /// Squarings in the bound of the largest eigenvalue: the trace of the 32nd power.
 const SQUARINGS: u32 = 5;
+
+/// 32nd root of 6: how far the bound of the largest of six eigenvalues may be above it.
+const ROOT_OF_SIX: f64 = 1.057_590_4;
 
 /// What limits the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,15 +55,15 @@ impl<'a> Network<'a> {
     }
 
     /// Adds one interaction.
-    pub(super) fn add(&mut self, link: Link, normal: Vector) {
+    pub(super) fn add(&mut self, link: Link) {
         let owner = &self.state.particles.owner;
         let moving = |slot: u32| owner[slot as usize] == 0;
         let both = link.second.is_some_and(moving) && moving(link.first);
         if moving(link.first) {
-            self.add_end(link.first as usize, &link, link.first_arm, normal, both);
+            self.add_end(link.first as usize, &link, link.first_arm, link.normal, both);
         }
         if let Some(second) = link.second.filter(|&second| moving(second)) {
-            self.add_end(second as usize, &link, link.second_arm, -normal, both);
+            self.add_end(second as usize, &link, link.second_arm, -link.normal, both);
         }
     }
 
@@ -112,9 +116,9 @@ impl<'a> Network<'a> {
                 limit.safe = safe;
                 limit.particle = Some(self.state.particles.id[slot]);
             }
-            let trace: f64 = (0..6).map(|k| self.single[slot][k][k]).sum();
-            // The mean of the six eigenvalues is not above the largest.
-            limit.unstable = limit.unstable.min(2.0 / (trace / 6.0).sqrt());
+            // Moving this particle alone gives a Rayleigh quotient, hence a bound from below.
+            let alone = largest_eigenvalue(&self.single[slot]) / ROOT_OF_SIX;
+            limit.unstable = limit.unstable.min(2.0 / alone.sqrt());
         }
         limit
     }
@@ -142,4 +146,31 @@ fn largest_eigenvalue(block: &Block) -> f64 {
         root = root.sqrt();
     }
     trace * root
+}
+
+/// The bound for impacts still to come: the two smallest particles meeting at twice the largest present speed, with
+/// what gravity adds over a radius. Returns the step \[s\] and the particle.
+pub(super) fn impact_limit(scene: &Scene, state: &State, passes: &[Box<dyn Pass>]) -> Option<(f64, u32)> {
+    let particles = &state.particles;
+    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+    let smallest =
+        free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
+    let (mass, radius) = (particles.velocity[smallest][3], particles.position[smallest][3]);
+    let speeds = particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    let fastest = speeds.fold(0.0, f64::max).sqrt();
+    let gravity = Vector::from(scene.gravity).length();
+    let speed = 2.0 * fastest + (2.0 * gravity * radius).sqrt();
+    let inertia = particles.angular_velocity[smallest][3];
+    let mut safe = f64::INFINITY;
+    for pass in passes {
+        let Some(response) = pass.impact(0.5 * radius, 0.5 * mass, speed) else { continue };
+        let turn = 1.0 / mass + radius * radius / inertia;
+        // Both move: their one spring acts on the reduced mass.
+        let k = 2.0 * (response.normal_stiffness / mass).max(response.tangential_stiffness * turn);
+        let c = 2.0 * (response.normal_damping / mass).max(response.tangential_damping * turn);
+        if k > 0.0 || c > 0.0 {
+            safe = safe.min(4.0 / (c + (c * c + 4.0 * k).sqrt()));
+        }
+    }
+    (safe < f64::INFINITY).then(|| (safe, particles.id[smallest]))
 }

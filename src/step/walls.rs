@@ -6,10 +6,12 @@
 use super::contacts::{MOST_COEFFICIENTS, Table};
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, columns, vector};
+use super::observe::{self, ContactRecord};
 use super::pass::{CHUNK, Context, Link, Pass};
-use crate::contact::{Contact, Law};
+use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::ledger::Source;
 use crate::state::{Particles, Row, State, WallContacts};
 use std::f64::consts::PI;
 use std::marker::PhantomData;
@@ -108,12 +110,7 @@ impl<L: Law> WallPass<L> {
             return None;
         }
         let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-        Some(plane.meet(
-            particles.position[slot],
-            particles.velocity[slot],
-            particles.angular_velocity[slot],
-            constant,
-        ))
+        Some(plane.meet(particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot], constant))
     }
 }
 
@@ -170,6 +167,10 @@ impl<L: Law> Pass for WallPass<L> {
         L::HAS_TORQUE
     }
 
+    fn source(&self) -> Source {
+        Source::Walls
+    }
+
     fn prepare(&self, state: &mut State) {
         let list = &mut state.walls[self.index];
         if !L::HAS_SPRING {
@@ -192,8 +193,32 @@ impl<L: Law> Pass for WallPass<L> {
             if let Some((contact, arm)) = self.contact(state, entry) {
                 let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
                 let response = L::stiffness(row, &contact);
-                tell(Link { first: list.particle[entry], second: None, response, first_arm: arm, second_arm: 0.0 });
+                let (first, normal) = (list.particle[entry], contact.normal);
+                tell(Link { first, second: None, response, first_arm: arm, second_arm: 0.0, normal });
             }
+        }
+    }
+
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+        // Against a plane the effective radius and mass are the particle's own, twice those of an equal pair.
+        self.table.stiffest::<L>(2.0 * radius, 2.0 * mass, speed)
+    }
+
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+        let list = &state.walls[self.index];
+        let plane = self.plane(state);
+        for entry in (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0) {
+            let slot = list.particle[entry] as usize;
+            let (velocity, spin) = observe::half_step_back(&state.particles, slot, step);
+            let position = state.particles.position[slot];
+            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
+            let (contact, arm) = plane.meet(position, velocity, spin, constant);
+            let row = self.table.row(state.particles.material[slot], self.material);
+            let spring = list.spring.get(entry).copied().unwrap_or([0.0; 4]);
+            let (reaction, sliding) = observe::react::<L>(row, &contact, spring, list.flags[entry]);
+            let point = Vector::from(position) - contact.normal * arm;
+            let ids = (state.particles.id[slot], None);
+            tell(ContactRecord::new(ids, Some(list.boundary), point, &contact, &reaction, sliding));
         }
     }
 }
@@ -391,11 +416,8 @@ fn react_batch<L: Law, N: Lane>(
         // SAFETY: a list holds slots of particles, below their number.
         let (contact, arm) = unsafe {
             let slots = slots.as_ptr();
-            let constant = if L::HAS_PAIR_CONSTANT {
-                N::gather(work.pair_constant.as_ptr(), entries, 1)
-            } else {
-                N::zero()
-            };
+            let constant =
+                if L::HAS_PAIR_CONSTANT { N::gather(work.pair_constant.as_ptr(), entries, 1) } else { N::zero() };
             plane.meet(
                 N::load_rows(work.position.as_ptr(), slots),
                 N::load_rows(work.velocity.as_ptr(), slots),

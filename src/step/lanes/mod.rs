@@ -11,7 +11,7 @@ use crate::number::{Number, Vector};
 use crate::state::Row;
 
 #[cfg(target_arch = "x86_64")]
-pub use x86::{Four, Eight, Two};
+pub use x86::{Eight, Four, Two};
 
 /// A [`Number`] that knows how to be read from and written to rows of four.
 pub trait Lane: Number {

@@ -289,9 +289,7 @@ impl Lane for Two {
     #[inline(always)]
     unsafe fn gather(base: *const f64, index: *const u32, stride: usize) -> Self {
         // SAFETY: the caller's promise.
-        unsafe {
-            Self(_mm_set_pd(*base.add(*index.add(1) as usize * stride), *base.add(*index as usize * stride)))
-        }
+        unsafe { Self(_mm_set_pd(*base.add(*index.add(1) as usize * stride), *base.add(*index as usize * stride))) }
     }
 
     #[inline(always)]
@@ -469,10 +467,7 @@ impl Lane for Eight {
             let mut lane = 0;
             while lane < 4 {
                 if lane < count {
-                    _mm256_storeu_pd(
-                        rows.add(*index.add(lane) as usize).cast(),
-                        _mm512_castpd512_pd256(pairs[lane]),
-                    );
+                    _mm256_storeu_pd(rows.add(*index.add(lane) as usize).cast(), _mm512_castpd512_pd256(pairs[lane]));
                 }
                 if lane + 4 < count {
                     _mm256_storeu_pd(

@@ -1,0 +1,163 @@
+//! From a checked scene to its state at time 0 and the passes composed for it.
+
+use super::contacts::{ContactPass, MOST_COEFFICIENTS, Table};
+use super::pass::Pass;
+use super::walls::{Plane, WallPass};
+use crate::contact::{Law, LawChoice, TakeLaw};
+use crate::number::Vector;
+use crate::scene::{AxisMotion, ContactLaw, Scene, Shape};
+use crate::state::{BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
+use std::marker::PhantomData;
+
+/// Skin of the neighbour lists over the mean radius, where the scene does not say.
+const SKIN: f64 = 0.1;
+
+/// The state of a scene at time 0, without lists and forces.
+pub(super) fn state(scene: &Scene) -> State {
+    let particles = particles(scene);
+    let mean = scene.particles.iter().map(|p| p.radius).sum::<f64>() / scene.particles.len().max(1) as f64;
+    let neighbours = Neighbours { skin: scene.run.skin.unwrap_or(SKIN * mean), ..Neighbours::default() };
+    State {
+        clock: Clock::default(),
+        neighbours,
+        contacts: vec![ContactList::default(); scene.contacts.len()],
+        walls: wall_lists(scene),
+        boundaries: scene.boundaries.iter().map(boundary).collect(),
+        ledger: scene.output.energy.then(Ledger::default),
+        damping_force: [0.0; 3],
+        damping_impulse: [0.0; 3],
+        particles,
+    }
+}
+
+/// The particles in the scene's order.
+fn particles(scene: &Scene) -> Particles {
+    let mut particles = Particles::default();
+    for (index, particle) in scene.particles.iter().enumerate() {
+        let [x, y, z] = particle.position;
+        let [u, v, w] = particle.velocity;
+        let [a, b, c] = particle.angular_velocity;
+        let (radius, mass) = (particle.radius, particle.mass());
+        particles.position.push([x, y, z, radius]);
+        particles.velocity.push([u, v, w, mass]);
+        particles.angular_velocity.push([a, b, c, 0.4 * mass * radius * radius]);
+        particles.material.push(particle.material.0);
+        particles.id.push(index as u32);
+        particles.slot.push(index as u32);
+    }
+    let count = scene.particles.len();
+    particles.force = vec![[0.0; 4]; count];
+    particles.torque = vec![[0.0; 4]; count];
+    particles.owner = vec![0; count];
+    for (index, boundary) in scene.boundaries.iter().enumerate() {
+        if let Shape::Particles { members } = &boundary.shape {
+            for &member in members {
+                particles.owner[member as usize] = index as u32 + 1;
+            }
+        }
+    }
+    particles
+}
+
+/// A boundary at time 0.
+fn boundary(boundary: &crate::scene::Boundary) -> BoundaryState {
+    let velocity = boundary.axes.map(|axis| match axis {
+        AxisMotion::Prescribed(velocity) => velocity,
+        AxisMotion::Fixed | AxisMotion::Driven => 0.0,
+    });
+    BoundaryState { velocity, ..BoundaryState::default() }
+}
+
+/// Planes and contact laws that can meet: boundary and law.
+fn meetings(scene: &Scene) -> Vec<(u32, u32)> {
+    let mut meetings = Vec::new();
+    let count = scene.materials.len();
+    for (index, boundary) in scene.boundaries.iter().enumerate() {
+        let Shape::Plane { material, .. } = &boundary.shape else { continue };
+        for (number, law) in scene.contacts.iter().enumerate() {
+            let meets = |other: usize| law.between[other * count + material.index()];
+            if scene.particles.iter().any(|particle| meets(particle.material.index())) {
+                meetings.push((index as u32, number as u32));
+            }
+        }
+    }
+    meetings
+}
+
+/// Empty lists of the planes and contact laws that can meet.
+fn wall_lists(scene: &Scene) -> Vec<WallContacts> {
+    let lists = meetings(scene).into_iter();
+    lists.map(|(boundary, law)| WallContacts { boundary, law, ..WallContacts::default() }).collect()
+}
+
+/// The passes of a scene: contacts between particles law by law, then planes.
+pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
+    let mut passes = Vec::new();
+    for (index, law) in scene.contacts.iter().enumerate() {
+        passes.push(choice(law).visit(BetweenParticles { scene, index }));
+    }
+    for (list, (boundary, law)) in meetings(scene).into_iter().enumerate() {
+        let maker = AtPlane { scene, list, boundary: boundary as usize, law: law as usize };
+        passes.push(choice(&scene.contacts[law as usize]).visit(maker));
+    }
+    passes
+}
+
+/// The names of a law's sub-models.
+fn choice(law: &ContactLaw) -> LawChoice {
+    LawChoice {
+        normal: law.normal,
+        tangential: law.tangential,
+        rolling: law.rolling,
+        cohesion: law.cohesion,
+        switches: law.switches,
+    }
+}
+
+/// Makes the pass of a law between particles.
+struct BetweenParticles<'a> {
+    /// Where materials stand.
+    scene: &'a Scene,
+    /// Which law of the scene it is.
+    index: usize,
+}
+
+impl TakeLaw for BetweenParticles<'_> {
+    type Output = Box<dyn Pass>;
+    fn take<L: Law>(self, law: L) -> Box<dyn Pass> {
+        const { assert!(L::COUNT <= MOST_COEFFICIENTS) };
+        let table = Table::of(&law, self.scene, &self.scene.contacts[self.index].between);
+        Box::new(ContactPass::<L> { index: self.index, table, law: PhantomData })
+    }
+}
+
+/// Makes the pass of a law at a plane.
+struct AtPlane<'a> {
+    /// Where materials and boundaries stand.
+    scene: &'a Scene,
+    /// Which list of the state is its own.
+    list: usize,
+    /// The plane.
+    boundary: usize,
+    /// Which law of the scene it is.
+    law: usize,
+}
+
+impl TakeLaw for AtPlane<'_> {
+    type Output = Box<dyn Pass>;
+    fn take<L: Law>(self, law: L) -> Box<dyn Pass> {
+        let boundary = &self.scene.boundaries[self.boundary];
+        let Shape::Plane { material, point, normal } = &boundary.shape else {
+            unreachable!("only planes meet particles in lists of their own")
+        };
+        Box::new(WallPass::<L> {
+            index: self.list,
+            name: boundary.name.clone(),
+            plane: Plane { point: (*point).into(), normal: (*normal).into(), velocity: Vector::zero() },
+            material: material.0,
+            reference: boundary.reference.into(),
+            table: Table::of(&law, self.scene, &self.scene.contacts[self.law].between),
+            law: PhantomData,
+        })
+    }
+}

@@ -1,0 +1,170 @@
+//! Reading a simulation without touching it.
+
+use super::pass::Context;
+use super::{Simulation, energy};
+use crate::contact::{Contact, Law, Reaction, Response};
+use crate::number::Vector;
+use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::{Particles, Row};
+
+/// One contact at work, as it was when the present forces were evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRecord {
+    /// The particle: index into the scene's particles.
+    pub first: u32,
+    /// The other particle, unless it is a plane.
+    pub second: Option<u32>,
+    /// The plane: index into the scene's boundaries.
+    pub boundary: Option<u32>,
+    /// Where they touch \[m\].
+    pub point: [f64; 3],
+    /// Unit normal, from the other body to the first particle.
+    pub normal: [f64; 3],
+    /// Overlap \[m\].
+    pub overlap: f64,
+    /// Force along the normal on the first particle, cohesion included \[N\].
+    pub normal_force: f64,
+    /// Force in the tangent plane on the first particle \[N\].
+    pub tangential_force: [f64; 3],
+    /// Whether the tangential spring is at its limit.
+    pub sliding: bool,
+}
+
+impl ContactRecord {
+    /// The record of a contact and what it does.
+    pub(super) fn new(
+        (first, second): (u32, Option<u32>),
+        boundary: Option<u32>,
+        point: Vector,
+        contact: &Contact,
+        reaction: &Reaction,
+        sliding: bool,
+    ) -> Self {
+        let along = reaction.force.dot(contact.normal);
+        Self {
+            first,
+            second,
+            boundary,
+            point: point.to_array(),
+            normal: contact.normal.to_array(),
+            overlap: contact.overlap,
+            normal_force: along,
+            tangential_force: (reaction.force - contact.normal * along).to_array(),
+            sliding,
+        }
+    }
+}
+
+/// Velocity with mass and angular velocity with moment of inertia of a particle at the middle of the last time step,
+/// when its forces were evaluated.
+pub(super) fn half_step_back(particles: &Particles, slot: usize, step: f64) -> (Row, Row) {
+    let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+    if particles.owner[slot] == 0 {
+        for axis in 0..3 {
+            velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
+            spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
+        }
+    }
+    (velocity, spin)
+}
+
+/// What a contact does, with the spring that the last evaluation left. One that slid then has no tangential dashpot.
+pub(super) fn react<L: Law>(row: &[f64], contact: &Contact, spring: Row, flags: u8) -> (Reaction, bool) {
+    let sliding = flags & SLIDING != 0;
+    let mut contact = *contact;
+    if sliding {
+        contact.slip = Vector::zero();
+    }
+    (L::react(row, &contact, spring.into(), 0.0), sliding)
+}
+
+/// Stiffness at the deepest point of a head-on impact: where the spring has taken up the kinetic energy.
+pub(super) fn impact<L: Law>(row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
+    /// Iterations of overlap = speed √(mass/stiffness); each at least halves the error of Hertz's law.
+    const ITERATIONS: usize = 30;
+    let mut contact = Contact {
+        overlap: 1e-6 * radius,
+        radius,
+        mass,
+        section_area: 0.0,
+        section_radius: radius,
+        normal: Vector::new(1.0, 0.0, 0.0),
+        normal_velocity: 0.0,
+        slip: Vector::zero(),
+        relative_spin: Vector::zero(),
+        pair_constant: L::pair_constant(row, radius, mass),
+    };
+    for _ in 0..ITERATIONS {
+        let stiffness = L::stiffness(row, &contact).normal_stiffness;
+        if stiffness > 0.0 {
+            contact.overlap = (speed * (mass / stiffness).sqrt()).max(1e-12 * radius);
+        }
+    }
+    L::stiffness(row, &contact)
+}
+
+impl Simulation {
+    /// Kinetic energy of the particles that move by the forces on them \[J\].
+    pub fn kinetic_energy(&self) -> f64 {
+        energy::kinetic(&self.state.particles, &self.quiet())
+    }
+
+    /// Contacts between particles and of particles with planes.
+    pub fn contact_count(&self) -> usize {
+        let touching = |flags: &Vec<u8>| flags.iter().filter(|flags| **flags & TOUCHING != 0).count();
+        let pairs = self.state.contacts.iter().map(|list| touching(&list.flags)).sum::<usize>();
+        pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
+    }
+
+    /// Every contact at work, between particles first, then at planes.
+    pub fn contacts(&self) -> Vec<ContactRecord> {
+        let mut records = Vec::new();
+        for pass in &self.passes {
+            pass.contacts(&self.state, self.state.clock.last_step, &mut |record| records.push(record));
+        }
+        records
+    }
+
+    /// Largest overlap over the smaller radius of the two (the particle's, at a plane).
+    pub fn largest_overlap(&self) -> f64 {
+        let radius = |index: u32| self.scene.particles[index as usize].radius;
+        let records = self.contacts().into_iter();
+        let shares = records.map(|c| c.overlap / c.second.map_or(f64::INFINITY, radius).min(radius(c.first)));
+        shares.fold(0.0, f64::max)
+    }
+
+    /// Mean unbalanced force of the free particles over the mean normal force of the contacts; infinite without
+    /// contacts.
+    pub fn unbalanced_force(&self) -> f64 {
+        let particles = &self.state.particles;
+        let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+        let (mut sum, mut count) = (0.0, 0_usize);
+        for slot in free {
+            sum += Vector::from(particles.force[slot]).length();
+            count += 1;
+        }
+        let contacts = self.contacts();
+        let forces: f64 = contacts.iter().map(|contact| contact.normal_force.abs()).sum();
+        if count == 0 || contacts.is_empty() || forces == 0.0 {
+            return f64::INFINITY;
+        }
+        (sum / count as f64) / (forces / contacts.len() as f64)
+    }
+
+    /// Potential energy of gravity is not counted: this is the sum over the energy book of what was not accounted
+    /// for \[J\]; `None` where the scene keeps no book.
+    pub fn energy_residual(&self) -> Option<f64> {
+        let ledger = self.state.ledger.as_ref()?;
+        Some(self.kinetic_energy() - ledger.initial_kinetic - ledger.total())
+    }
+
+    /// Threads at work.
+    pub fn threads(&self) -> usize {
+        self.workers.count()
+    }
+
+    /// A context for reading.
+    fn quiet(&self) -> Context {
+        Context { step: 0.0, width: self.width, parallel: false }
+    }
+}
