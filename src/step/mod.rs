@@ -280,11 +280,11 @@ impl Simulation {
             pass.stiffness(&self.state, &mut |link| network.add(link));
         }
         let mut limit = network.limit();
-        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.passes) {
-            if safe < limit.safe {
-                limit.safe = safe;
-                limit.particle = Some(particle);
-            }
+        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.passes)
+            && safe < limit.safe
+        {
+            limit.safe = safe;
+            limit.particle = Some(particle);
         }
         limit
     }
@@ -292,7 +292,7 @@ impl Simulation {
     /// Shortens an automatic time step at once when it is time to look and the packing has become stiffer.
     fn shorten_step(&mut self) -> Result<(), RunError> {
         let Step::Automatic { safety } = self.scene.run.step else { return Ok(()) };
-        if self.state.clock.steps % STEPS_BETWEEN_LIMITS == 0 {
+        if self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LIMITS) {
             self.state.clock.stable = self.limit().safe;
             let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
             self.state.clock.step = self.state.clock.step.min(step);
