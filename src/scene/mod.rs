@@ -3,12 +3,25 @@
 //! A `Scene` cannot be wrong: single values are checked by their type as they are read, relations between
 //! tables in `check.rs`. Nothing after this module asks again.
 
+mod check;
+mod document;
+mod error;
+mod file;
+mod import;
+mod nearest;
+mod source;
+mod words;
+
+pub use error::{Mistake, SceneError, SceneErrors};
+pub use source::Source;
+
 use crate::contact::cohesion::CohesionChoice;
 use crate::contact::normal::NormalChoice;
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
 use crate::contact::{Material, PairProperties, Switches};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+use serde::Deserialize;
 
 /// A scene that can be run: everything the file says, checked, in SI units.
 ///
@@ -189,7 +202,8 @@ pub enum AxisMotion {
 }
 
 /// How a driven axis moves inside a communication step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum InputCourse {
     /// At constant velocity, arriving at the end of the step.
     #[default]

@@ -1,0 +1,108 @@
+//! From tables, each right in itself, to a scene that is right as a whole.
+
+mod close;
+mod contacts;
+mod groups;
+mod particles;
+mod sense;
+pub(super) mod written;
+
+use super::document::{Document, Faults};
+use super::error::{Mistake, SceneErrors};
+use super::file::{OutputTable, RunTable, StepKey};
+use super::source::Source;
+use super::{Output, Run, Scene, Step};
+use sense::Finding;
+use written::Written;
+
+/// The scene that a source describes. Mistakes found so far are in `faults`.
+pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) -> Result<Scene, SceneErrors> {
+    let written = Written::read(document, &mut faults);
+    faults.so_far()?;
+    let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
+    let materials = contacts::materials(&written);
+    let run = run(&written.run, &mut faults);
+    let output = output(&written.output, &mut faults);
+    let pairs = contacts::pairs(&written, &materials, &mut faults);
+    let laws = contacts::laws(&written.contacts, &materials, &mut faults);
+    let born = particles::particles(&written, source, &materials, &mut faults);
+    faults.so_far()?;
+    let boundaries = groups::boundaries(&written, &materials, &born, &mut faults);
+    let damping = groups::damping(&written, &materials, &born, &mut faults);
+    let forces = groups::forces(&written, &born, &mut faults);
+    let scene = Scene {
+        run,
+        gravity: written.gravity.0,
+        materials,
+        pairs,
+        contacts: laws,
+        sets: born.sets,
+        particles: born.particles,
+        boundaries,
+        damping,
+        forces,
+        domain: written.domain.map(|domain| domain.corners.0),
+        output,
+        fingerprint: source.fingerprint(),
+    };
+    for finding in sense::laws(&scene).into_iter().chain(sense::places(&scene)) {
+        report(finding, document, &mut faults);
+    }
+    faults.finish().map(|()| scene)
+}
+
+/// Reports what was found in the scene at the line of the table as the text has it.
+fn report(finding: Finding, document: &Document, faults: &mut Faults) {
+    let Finding { mut table, key, otherwise, mistake } = finding;
+    if !document.has(&table)
+        && let [kind, a, b] = table.split('.').collect::<Vec<_>>()[..]
+        && document.has(&format!("{kind}.{b}.{a}"))
+    {
+        table = format!("{kind}.{b}.{a}");
+    }
+    match document.has(&table) {
+        true => faults.add(&table, &key, mistake),
+        false => faults.at_line(document.line_of(&otherwise, ""), &table, &key, mistake),
+    }
+}
+
+/// `[run]`
+fn run(table: &RunTable, faults: &mut Faults) -> Run {
+    let defaults = Run::default();
+    if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
+        let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
+        faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    }
+    Run {
+        end: table.end.map(super::super::quantity::Positive::get),
+        step: match table.step {
+            Some(StepKey::Given(step)) => Step::Given(step),
+            Some(StepKey::Automatic) | None => {
+                Step::Automatic { safety: table.safety.as_ref().map_or(Run::SAFETY, |safety| safety.0) }
+            }
+        },
+        threads: table.threads.map(|threads| threads.get() as usize),
+        seed: table.seed.unwrap_or(defaults.seed),
+        skin: table.skin.map(super::super::quantity::Positive::get),
+        settle_tolerance: table
+            .settle_tolerance
+            .map_or(defaults.settle_tolerance, super::super::quantity::Positive::get),
+        settle_damping: table.settle_damping.map_or(defaults.settle_damping, super::super::quantity::Fraction::get),
+        max_overlap: table.max_overlap.map_or(defaults.max_overlap, super::super::quantity::NonNegative::get),
+    }
+}
+
+/// `[output]`
+fn output(table: &OutputTable, faults: &mut Faults) -> Output {
+    if table.contacts && table.frame_interval.is_none() {
+        let right = "contacts are written with the frames".to_owned();
+        faults.add("output", "frame_interval", Mistake::Missing { right });
+    }
+    Output {
+        history_interval: table.history_interval.map(super::super::quantity::Positive::get),
+        frame_interval: table.frame_interval.map(super::super::quantity::Positive::get),
+        contacts: table.contacts,
+        energy: table.energy,
+        checkpoint_interval: table.checkpoint_interval.map(super::super::quantity::Positive::get),
+    }
+}

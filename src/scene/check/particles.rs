@@ -1,0 +1,310 @@
+//! From particle sets as they are written to the particles of the scene.
+
+use super::contacts::unknown_material;
+use super::written::{Named, Written};
+use crate::contact::Material;
+use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::scene::Particle;
+use crate::scene::document::Faults;
+use crate::scene::error::Mistake;
+use crate::scene::file::{ListEntry, ParticlesTable, Triple};
+use crate::scene::import::{self, Rows};
+use crate::scene::source::Source;
+use std::collections::BTreeMap;
+
+/// All particles, and where each comes from.
+#[derive(Default)]
+pub(super) struct Born {
+    /// By ascending number.
+    pub(super) particles: Vec<Particle>,
+    /// Row in its set, of each.
+    pub(super) rows: Vec<u32>,
+    /// Names of the sets.
+    pub(super) sets: Vec<String>,
+    /// Columns of each set that damping asks for.
+    pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
+}
+
+/// A particle whose number is not yet known.
+struct Newborn {
+    /// Its number, if the scene gives one.
+    id: Option<u32>,
+    /// The rest; its number means nothing.
+    particle: Particle,
+}
+
+/// One set while it is read.
+struct Nursery<'a> {
+    /// Its table, as `particles.beam`.
+    table: String,
+    /// Its index.
+    set: SetIndex,
+    /// What is written.
+    written: &'a ParticlesTable,
+    /// All materials.
+    materials: &'a [Material],
+}
+
+/// Reads all sets.
+pub(super) fn particles(written: &Written, source: &Source, materials: &[Material], faults: &mut Faults) -> Born {
+    let extra: Vec<String> = written
+        .damping
+        .iter()
+        .filter_map(|(_, damping)| damping.scale.as_ref().and_then(|scale| scale.column.clone()))
+        .collect();
+    let mut born = Born::default();
+    let mut places = Vec::new();
+    let mut newborn = Vec::new();
+    for (index, (name, table)) in written.particles.iter().enumerate() {
+        let set = SetIndex(index as u32);
+        let nursery = Nursery { table: format!("particles.{name}"), set, written: table, materials };
+        let (list, place, columns) = nursery.read(source, &extra, faults);
+        newborn.extend((0..).zip(list));
+        born.sets.push(name.clone());
+        born.columns.push(columns);
+        places.push(place);
+    }
+    number(newborn, &mut born, &places, &written.particles, faults);
+    born
+}
+
+/// Where the rows of a set stand.
+enum Place {
+    /// In its table's list.
+    List,
+    /// In the lines of a file.
+    File(String, Vec<u32>),
+    /// Nowhere: they are generated.
+    Nowhere,
+}
+
+impl Place {
+    /// Reports a mistake at a row, counted from 0.
+    fn report(&self, table: &str, row: usize, key: &str, mistake: Mistake, faults: &mut Faults) {
+        match self {
+            Self::List => faults.add(table, &format!("list.{}.{key}", row + 1), mistake),
+            Self::File(file, lines) => {
+                let line = lines.get(row).map(|line| *line as usize);
+                faults.in_file(file, line, table, key, mistake);
+            }
+            Self::Nowhere => faults.add(table, key, mistake),
+        }
+    }
+}
+
+/// The particles of a set, their place, and the columns that damping asks for.
+type Offspring = (Vec<Newborn>, Place, BTreeMap<String, Vec<f64>>);
+
+impl Nursery<'_> {
+    /// Reads the set.
+    fn read(&self, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
+        let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
+        let origins = ["list", "file"];
+        let given = [self.written.list.is_some(), self.written.file.is_some()];
+        let given: Vec<&str> =
+            origins.into_iter().zip(given).filter(|(_, given)| *given).map(|(name, _)| name).collect();
+        match given[..] {
+            [_] => {}
+            [] => {
+                let right = format!("one of {} says where its particles come from", origins.join(", "));
+                faults.add(&self.table, "", Mistake::Missing { right });
+                return nobody;
+            }
+            [_, second, ..] => {
+                let (found, right) = (given.join(" and "), "one origin of the particles".to_owned());
+                faults.add(&self.table, second, Mistake::Wrong { found, right });
+                return nobody;
+            }
+        }
+        if let Some(list) = &self.written.list {
+            return (self.listed(list, faults), Place::List, BTreeMap::new());
+        }
+        match &self.written.file {
+            Some(file) => self.filed(file, source, extra, faults),
+            None => nobody,
+        }
+    }
+
+    /// Particles written one by one.
+    fn listed(&self, list: &[ListEntry], faults: &mut Faults) -> Vec<Newborn> {
+        let fallback = self.fallback(faults);
+        let mut newborn = Vec::new();
+        for (row, entry) in list.iter().enumerate() {
+            let material = match &entry.material {
+                Some(name) => self.material(name, &format!("list.{}.material", row + 1), faults),
+                None => fallback,
+            };
+            let Some(material) = material else {
+                if entry.material.is_none() && self.written.material.is_none() {
+                    self.no_material(faults);
+                    break;
+                }
+                continue;
+            };
+            let mut particle = self.particle(material, entry.position.0, entry.radius.get());
+            let or = |own: Option<Triple>, otherwise| own.map_or(otherwise, |own| own.0);
+            particle.density = entry.density.map_or(particle.density, crate::quantity::Positive::get);
+            particle.velocity = or(entry.velocity, particle.velocity);
+            particle.angular_velocity = or(entry.angular_velocity, particle.angular_velocity);
+            newborn.push(Newborn { id: entry.id, particle });
+        }
+        newborn
+    }
+
+    /// Particles from a file.
+    fn filed(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
+        let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
+        let Some(bytes) = source.files.get(file) else { return nobody };
+        match import::read(bytes, extra) {
+            Ok(rows) => self.rows(file, rows, extra, faults),
+            Err(list) => {
+                for fault in list {
+                    faults.in_file(file, fault.line, &self.table, &fault.column, fault.mistake);
+                }
+                nobody
+            }
+        }
+    }
+
+    /// Particles from the rows of a file.
+    fn rows(&self, file: &str, mut rows: Rows, extra: &[String], faults: &mut Faults) -> Offspring {
+        let before = faults.count();
+        let materials = self.labelled(file, &rows, faults);
+        let mut newborn = Vec::with_capacity(rows.count);
+        let column = |name: &str| rows.columns.get(name).map(Vec::as_slice);
+        let triple = |names: [&str; 3]| match names.map(column) {
+            [None, None, None] => None,
+            columns => Some(columns),
+        };
+        let at =
+            |columns: [Option<&[f64]>; 3], row: usize| columns.map(|column| column.map_or(0.0, |column| column[row]));
+        let (position, radius) = (triple(["x", "y", "z"]), column("radius"));
+        let (velocity, spin) = (triple(["vx", "vy", "vz"]), triple(["wx", "wy", "wz"]));
+        let (id, density) = (column("id"), column("density"));
+        for row in 0..rows.count {
+            let material = materials[if rows.label.is_empty() { 0 } else { rows.label[row] as usize }];
+            let (Some(material), Some(position), Some(radius)) = (material, position, radius) else { break };
+            let mut particle = self.particle(material, at(position, row), radius[row]);
+            particle.density = density.map_or(particle.density, |density| density[row]);
+            particle.velocity = velocity.map_or(particle.velocity, |velocity| at(velocity, row));
+            particle.angular_velocity = spin.map_or(particle.angular_velocity, |spin| at(spin, row));
+            let number = id.map(|id| id[row]);
+            for (key, found, right, fine) in [
+                ("radius", particle.radius, "a number above 0", particle.radius > 0.0),
+                ("density", particle.density, "a number above 0", particle.density > 0.0),
+                ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
+            ] {
+                if !fine && faults.count() < before + 10 {
+                    let mistake = Mistake::Wrong { found: format!("{found:?}"), right: right.to_owned() };
+                    faults.in_file(file, rows.line(row), &self.table, key, mistake);
+                }
+            }
+            newborn.push(Newborn { id: number.map(|number| number as u32), particle });
+        }
+        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        (newborn, Place::File(file.to_owned(), rows.lines), columns)
+    }
+
+    /// The material of each label of a file; of the set, if the file has none.
+    fn labelled(&self, file: &str, rows: &Rows, faults: &mut Faults) -> Vec<Option<MaterialIndex>> {
+        if rows.label.is_empty() {
+            if self.written.material.is_none() && rows.count > 0 {
+                self.no_material(faults);
+            }
+            return vec![self.fallback(faults)];
+        }
+        let mut found = Vec::new();
+        for (index, label) in rows.labels.iter().enumerate() {
+            let mapped = self.written.materials.get(label);
+            let material = match mapped {
+                Some(name) => self.material(name, &format!("materials.{label}"), faults),
+                None => {
+                    self.materials.iter().position(|material| material.name == *label).map(|i| MaterialIndex(i as u32))
+                }
+            };
+            if material.is_none() && mapped.is_none() {
+                let row = rows.label.iter().position(|label| *label as usize == index).unwrap_or(0);
+                let mistake = match label.parse::<i64>() {
+                    Ok(_) => Mistake::Wrong {
+                        found: format!("type {label}"),
+                        right: format!("a type named in materials, as materials = {{ {label} = \"..\" }},"),
+                    },
+                    Err(_) => unknown_material(self.materials, label),
+                };
+                faults.in_file(file, rows.line(row), &self.table, "material", mistake);
+            }
+            found.push(material);
+        }
+        found
+    }
+
+    /// A particle of which only this is known.
+    fn particle(&self, material: MaterialIndex, position: [f64; 3], radius: f64) -> Particle {
+        let own = self.written.density.map(crate::quantity::Positive::get);
+        Particle {
+            id: ParticleId(0),
+            set: self.set,
+            material,
+            radius,
+            density: own.unwrap_or(self.materials[material.index()].density),
+            position,
+            velocity: self.written.velocity.unwrap_or_default().0,
+            angular_velocity: self.written.angular_velocity.unwrap_or_default().0,
+        }
+    }
+
+    /// The set's own material.
+    fn fallback(&self, faults: &mut Faults) -> Option<MaterialIndex> {
+        self.written.material.as_ref().and_then(|name| self.material(name, "material", faults))
+    }
+
+    /// Where a material stands.
+    fn material(&self, name: &str, key: &str, faults: &mut Faults) -> Option<MaterialIndex> {
+        super::contacts::material_index(self.materials, name, &self.table, key, faults)
+    }
+
+    /// Neither the set nor its particles say what they are made of.
+    fn no_material(&self, faults: &mut Faults) {
+        let right = "the name of a [material] table".to_owned();
+        faults.add(&self.table, "material", Mistake::Missing { right });
+    }
+}
+
+/// Whether a number can be a particle's.
+fn whole(number: Option<f64>) -> bool {
+    number.is_none_or(|number| number >= 0.0 && number <= f64::from(u32::MAX) && number == number.trunc())
+}
+
+/// Gives numbers to those who have none, above all given ones, and sorts by number.
+fn number(
+    newborn: Vec<(u32, Newborn)>,
+    born: &mut Born,
+    places: &[Place],
+    sets: &Named<ParticlesTable>,
+    faults: &mut Faults,
+) {
+    let mut next = newborn.iter().filter_map(|(_, newborn)| newborn.id).max().map_or(1, |id| u64::from(id) + 1);
+    let mut all: Vec<(u64, u32, Particle)> = Vec::with_capacity(newborn.len());
+    for (row, newborn) in newborn {
+        let id = newborn.id.map_or(next, u64::from);
+        next += u64::from(newborn.id.is_none());
+        all.push((id, row, newborn.particle));
+    }
+    all.sort_by_key(|(id, ..)| *id);
+    for two in all.windows(2).filter(|two| two[0].0 == two[1].0).take(10) {
+        let (id, row, particle) = &two[1];
+        let other = sets[two[0].2.set.index()].0.clone();
+        let mistake = Mistake::DuplicateId { id: *id as u32, other };
+        let set = particle.set.index();
+        places[set].report(&format!("particles.{}", sets[set].0), *row as usize, "id", mistake, faults);
+    }
+    if let Some((id, ..)) = all.last().filter(|(id, ..)| *id > u64::from(u32::MAX)) {
+        let right = "numbers up to 4294967295".to_owned();
+        faults.add("particles", "", Mistake::Wrong { found: format!("particle {id}"), right });
+    }
+    for (id, row, mut particle) in all {
+        particle.id = ParticleId(id as u32);
+        born.particles.push(particle);
+        born.rows.push(row);
+    }
+}

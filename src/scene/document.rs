@@ -1,0 +1,258 @@
+//! The text of a scene as tables whose lines are known, and from tables to typed values.
+
+use super::error::{Mistake, SceneError, SceneErrors};
+use super::words;
+use serde::de::DeserializeOwned;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+
+/// A scene's text, parsed.
+pub(super) struct Document<'a> {
+    /// The scene's name, for messages.
+    name: &'a str,
+    /// The text.
+    text: &'a str,
+    /// The top table.
+    root: Spanned<DeValue<'a>>,
+}
+
+impl<'a> Document<'a> {
+    /// Parses the text; all mistakes of syntax are reported.
+    pub(super) fn parse(name: &'a str, text: &'a str) -> Result<Self, SceneErrors> {
+        let (root, errors) = DeTable::parse_recoverable(text);
+        let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+        let document = Self { name, text, root };
+        if errors.is_empty() {
+            return Ok(document);
+        }
+        let mut faults = Faults::new(&document);
+        for error in errors {
+            let line = error.span().map(|span| document.line(span.start));
+            let mistake = Mistake::Syntax { message: error.message().to_owned() };
+            faults.at_line(line, "", "", mistake);
+        }
+        faults.finish().map(|()| document)
+    }
+
+    /// The line, counted from 1, of a byte of the text.
+    fn line(&self, offset: usize) -> usize {
+        let end = offset.min(self.text.len());
+        1 + self.text.as_bytes()[..end].iter().filter(|byte| **byte == b'\n').count()
+    }
+
+    /// The value at a dotted path; the empty path is the top.
+    fn find(&self, path: &str) -> Option<&Spanned<DeValue<'a>>> {
+        let mut value = &self.root;
+        for segment in segments(path) {
+            value = child(value, segment)?.1;
+        }
+        Some(value)
+    }
+
+    /// Whether the scene has this table or key.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.find(path).is_some()
+    }
+
+    /// The keys of a table, in the order in which the text has them.
+    pub(super) fn names(&self, table: &str) -> Vec<String> {
+        let Some(DeValue::Table(table)) = self.find(table).map(Spanned::get_ref) else { return Vec::new() };
+        let mut names: Vec<(usize, String)> =
+            table.iter().map(|(key, _)| (key.span().start, key.get_ref().to_string())).collect();
+        names.sort_unstable();
+        names.into_iter().map(|(_, name)| name).collect()
+    }
+
+    /// Whether the value at the path is a table.
+    pub(super) fn is_table(&self, path: &str) -> bool {
+        matches!(self.find(path).map(Spanned::get_ref), Some(DeValue::Table(_)))
+    }
+
+    /// The text at the path, if that is what stands there.
+    pub(super) fn text(&self, path: &str) -> Option<&str> {
+        self.find(path)?.get_ref().as_str()
+    }
+
+    /// The value at the path, as the scene has it.
+    pub(super) fn written(&self, path: &str) -> &str {
+        self.find(path).and_then(|value| self.text.get(value.span())).unwrap_or_default()
+    }
+
+    /// The line of a key, or of the deepest table above it that the text has.
+    pub(super) fn line_of(&self, table: &str, key: &str) -> Option<usize> {
+        let mut value = &self.root;
+        let mut offset = None;
+        for segment in segments(table).chain(segments(key)) {
+            let Some((key_start, below)) = child(value, segment) else { break };
+            offset = Some(if self.has_header(below) { below.span().start } else { key_start });
+            value = below;
+        }
+        offset.map(|offset| self.line(offset))
+    }
+
+    /// Whether a table has a `[header]` of its own.
+    fn has_header(&self, value: &Spanned<DeValue>) -> bool {
+        matches!(value.get_ref(), DeValue::Table(_)) && self.text[value.span()].starts_with('[')
+    }
+
+    /// Reads a table into a type; an absent table is read as an empty one.
+    ///
+    /// All mistakes are reported: what is unknown or wrong is taken out and the table read again.
+    pub(super) fn read<T: DeserializeOwned>(&self, table: &str, faults: &mut Faults) -> Option<T> {
+        self.read_key(table, "", faults)
+    }
+
+    /// Reads the value of a key of a table into a type.
+    pub(super) fn read_key<T: DeserializeOwned>(&self, table: &str, key: &str, faults: &mut Faults) -> Option<T> {
+        let empty = || Spanned::new(0..0, DeValue::Table(DeTable::new()));
+        let mut value = self.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
+        let before = faults.count();
+        let mut wrong: Vec<String> = Vec::new();
+        loop {
+            let error = match T::deserialize(ValueDeserializer::from(value.clone())) {
+                Ok(read) => return (faults.count() == before).then_some(read),
+                Err(error) => error,
+            };
+            let path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
+            let mistake = words::mistake(&error, path.last().map_or("", String::as_str));
+            let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
+            // A key that was taken out as wrong is not missing.
+            if path.is_empty() && words::missing_field(&error).is_some_and(|field| wrong.iter().any(|key| key == field))
+            {
+                return None;
+            }
+            let whole = segments(key).map(str::to_owned).chain(path.iter().cloned()).collect();
+            self.report(table, whole, &error, mistake, faults);
+            let out = if unknown { &path[..] } else { path.get(..1).unwrap_or_default() };
+            wrong.extend(out.first().cloned());
+            if !take_out(&mut value, out) {
+                return None;
+            }
+        }
+    }
+
+    /// Reports what serde found, at the innermost table that has a header.
+    fn report(&self, table: &str, mut path: Vec<String>, error: &Error, mistake: Mistake, faults: &mut Faults) {
+        let mut table = table.to_owned();
+        while let Some(first) = path.first() {
+            let below = format!("{table}.{first}");
+            if !self.find(&below).is_some_and(|value| self.has_header(value)) {
+                break;
+            }
+            table = below;
+            path.remove(0);
+        }
+        let key = match words::missing_field(error) {
+            Some(field) => path.iter().map(String::as_str).chain([field]).collect::<Vec<_>>().join("."),
+            None => path.join("."),
+        };
+        faults.add(&table, &key, mistake);
+    }
+}
+
+/// The names in a dotted path.
+fn segments(path: &str) -> impl Iterator<Item = &str> {
+    path.split('.').filter(|segment| !segment.is_empty())
+}
+
+/// Where a key or entry stands, and its value. Entries of lists count from 1.
+fn child<'v, 'a>(value: &'v Spanned<DeValue<'a>>, segment: &str) -> Option<(usize, &'v Spanned<DeValue<'a>>)> {
+    match value.get_ref() {
+        DeValue::Table(table) => table.get_key_value(segment).map(|(key, value)| (key.span().start, value)),
+        DeValue::Array(list) => {
+            let value = list.get(segment.parse::<usize>().ok()?.checked_sub(1)?)?;
+            Some((value.span().start, value))
+        }
+        _ => None,
+    }
+}
+
+/// The way from a value down to the key or entry at a place of the text.
+fn path_to(value: &Spanned<DeValue>, place: &Range<usize>) -> Vec<String> {
+    let holds = |span: Range<usize>| span.start <= place.start && place.end <= span.end;
+    let below = match value.get_ref() {
+        DeValue::Table(table) => table
+            .iter()
+            .find(|(key, value)| holds(key.span()) || holds(value.span()) || !path_to(value, place).is_empty())
+            .map(|(key, value)| (key.get_ref().to_string(), value)),
+        DeValue::Array(list) => list
+            .iter()
+            .enumerate()
+            .find(|(_, value)| holds(value.span()))
+            .map(|(i, value)| ((i + 1).to_string(), value)),
+        _ => None,
+    };
+    let Some((name, below)) = below else { return Vec::new() };
+    let mut path = vec![name];
+    path.extend(path_to(below, place));
+    path
+}
+
+/// Removes the key at the path; whether it was there.
+fn take_out(value: &mut Spanned<DeValue>, path: &[String]) -> bool {
+    match (value.get_mut(), path) {
+        (DeValue::Table(table), [key]) => table.remove(key.as_str()).is_some(),
+        (DeValue::Table(table), [key, rest @ ..]) => {
+            table.get_mut(key.as_str()).is_some_and(|value| take_out(value, rest))
+        }
+        (DeValue::Array(list), [entry, rest @ ..]) => entry
+            .parse::<usize>()
+            .ok()
+            .and_then(|entry| list.get_mut(entry.checked_sub(1)?))
+            .is_some_and(|value| take_out(value, rest)),
+        _ => false,
+    }
+}
+
+/// Collects mistakes.
+pub(super) struct Faults<'d, 'a> {
+    /// Where lines are looked up.
+    document: &'d Document<'a>,
+    /// The mistakes so far.
+    list: Vec<SceneError>,
+}
+
+impl<'d, 'a> Faults<'d, 'a> {
+    /// None yet.
+    pub(super) fn new(document: &'d Document<'a>) -> Self {
+        Self { document, list: Vec::new() }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// A mistake at a key of a table, or at the table itself.
+    pub(super) fn add(&mut self, table: &str, key: &str, mistake: Mistake) {
+        self.at_line(self.document.line_of(table, key), table, key, mistake);
+    }
+
+    /// A mistake at a line of the scene.
+    pub(super) fn at_line(&mut self, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
+        let file = self.document.name.to_owned();
+        self.list.push(SceneError { file, line, table: table.to_owned(), key: key.to_owned(), mistake });
+    }
+
+    /// A mistake in a file that the scene names.
+    pub(super) fn in_file(&mut self, file: &str, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
+        let (file, table, key) = (file.to_owned(), table.to_owned(), key.to_owned());
+        self.list.push(SceneError { file, line, table, key, mistake });
+    }
+
+    /// All of them, in the order of the scene's lines and then of other files'; none is success.
+    pub(super) fn finish(mut self) -> Result<(), SceneErrors> {
+        if self.list.is_empty() {
+            return Ok(());
+        }
+        let name = self.document.name;
+        self.list.sort_by_key(|error| (error.file != name, error.line.unwrap_or(usize::MAX)));
+        Err(SceneErrors { list: self.list })
+    }
+
+    /// Stops here if there is any.
+    pub(super) fn so_far(&self) -> Result<(), SceneErrors> {
+        Self { document: self.document, list: self.list.clone() }.finish()
+    }
+}

@@ -1,0 +1,98 @@
+//! A scene with every file it names, and how it is read.
+
+use super::check;
+use super::document::{Document, Faults};
+use super::error::{Mistake, SceneError, SceneErrors};
+use super::{Scene, check::written};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+use xxhash_rust::xxh3::Xxh3;
+
+/// Everything that is needed to read a scene again, elsewhere: its text and the files that it names.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// The scene's file name, for messages.
+    pub name: String,
+    /// The scene's text.
+    pub text: String,
+    /// Bytes of each file, by the name that the scene has for it.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Source {
+    /// Of text, files and the program's version: what a saved state belongs to. Never 0.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hash = Xxh3::new();
+        let mut part = |bytes: &[u8]| {
+            hash.update(&(bytes.len() as u64).to_le_bytes());
+            hash.update(bytes);
+        };
+        part(env!("CARGO_PKG_VERSION").as_bytes());
+        part(self.text.as_bytes());
+        for (name, bytes) in &self.files {
+            part(name.as_bytes());
+            part(bytes);
+        }
+        hash.digest().max(1)
+    }
+}
+
+impl Scene {
+    /// Reads a scene and the files that it names, which are looked for beside it.
+    pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
+        let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
+        let text = fs::read_to_string(path).map_err(|error| unreadable(&name, &error))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut source = Source { name, text, files: BTreeMap::new() };
+        let document = Document::parse(&source.name, &source.text)?;
+        let mut faults = Faults::new(&document);
+        for (set, file) in written::files(&document) {
+            match fs::read(folder.join(&file)) {
+                Ok(bytes) => {
+                    source.files.insert(file, bytes);
+                }
+                Err(error) => faults.add(
+                    &format!("particles.{set}"),
+                    "file",
+                    Mistake::Unreadable { file, reason: reason(&error) },
+                ),
+            }
+        }
+        let scene = check::scene(&source, &document, faults)?;
+        Ok((scene, source))
+    }
+
+    /// Reads a scene from its source alone.
+    pub fn from_source(source: &Source) -> Result<Self, SceneErrors> {
+        let document = Document::parse(&source.name, &source.text)?;
+        let mut faults = Faults::new(&document);
+        for (set, file) in written::files(&document) {
+            if !source.files.contains_key(&file) {
+                let reason = "it was not handed over with the scene".to_owned();
+                faults.add(&format!("particles.{set}"), "file", Mistake::Unreadable { file, reason });
+            }
+        }
+        check::scene(source, &document, faults)
+    }
+}
+
+/// The scene itself cannot be read.
+fn unreadable(name: &str, error: &Error) -> SceneErrors {
+    let mistake = Mistake::Unreadable { file: "the scene".to_owned(), reason: reason(error) };
+    let (file, table, key) = (name.to_owned(), String::new(), String::new());
+    SceneErrors { list: vec![SceneError { file, line: None, table, key, mistake }] }
+}
+
+/// Why a file cannot be read, in the same words on every system.
+fn reason(error: &Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        ErrorKind::InvalidData => "it is not UTF-8 text".to_owned(),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,129 @@
+//! Scenes that are accepted, and scenes that are refused with the very message they hold after `#!`.
+
+use cograin::scene::{AxisMotion, InputCourse, Scene, Shape, Source, Step};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The folder of the test scenes.
+fn folder(kind: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes").join(kind)
+}
+
+/// The scenes of a folder, by name.
+fn scenes(kind: &str) -> Vec<PathBuf> {
+    let mut scenes: Vec<PathBuf> = fs::read_dir(folder(kind))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    scenes.sort();
+    scenes
+}
+
+/// A good scene.
+fn good(name: &str) -> Scene {
+    Scene::read(&folder("good").join(name)).map_err(|errors| errors.to_string()).unwrap().0
+}
+
+#[test]
+fn every_bad_scene_gives_its_message() {
+    let mut faults = Vec::new();
+    for path in scenes("bad") {
+        let text = fs::read_to_string(&path).unwrap();
+        let expected: Vec<&str> =
+            text.lines().filter_map(|line| line.strip_prefix("#!")).map(str::trim_start).collect();
+        let found = match Scene::read(&path) {
+            Ok(_) => "accepted".to_owned(),
+            Err(errors) => errors.to_string(),
+        };
+        if found != expected.join("\n") {
+            let name = path.file_name().unwrap().to_string_lossy();
+            faults.push(format!("{name}:\nexpected\n{}\nfound\n{found}\n", expected.join("\n")));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_good_scene_is_accepted_from_its_file_and_from_its_source_alone() {
+    for path in scenes("good") {
+        let (scene, source) = Scene::read(&path).map_err(|errors| errors.to_string()).unwrap();
+        let again = Scene::from_source(&source).map_err(|errors| errors.to_string()).unwrap();
+        assert_eq!(scene.particles, again.particles, "{}", path.display());
+        assert_eq!(scene.fingerprint, again.fingerprint);
+        assert_ne!(scene.fingerprint, 0);
+    }
+}
+
+#[test]
+fn an_empty_scene_has_the_defaults() {
+    let scene = Scene::from_source(&Source::default()).unwrap();
+    assert_eq!(scene.run.step, Step::Automatic { safety: 0.2 });
+    assert_eq!((scene.run.seed, scene.run.threads, scene.run.skin), (1, None, None));
+    assert_eq!(scene.run.max_overlap, 0.05);
+    assert_eq!(scene.gravity, [0.0; 3]);
+    assert!(scene.particles.is_empty() && scene.contacts.is_empty() && scene.domain.is_none());
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_refused() {
+    let errors = Scene::read(&folder("bad").join("nowhere.toml")).unwrap_err();
+    assert_eq!(errors.to_string(), "nowhere.toml: the scene cannot be read: there is no such file");
+}
+
+#[test]
+fn everything_written_arrives() {
+    let scene = good("everything.toml");
+    assert_eq!(scene.run.step, Step::Given(1e-6));
+    assert_eq!((scene.run.end, scene.run.threads, scene.run.seed), (Some(0.5), Some(2), 7));
+    assert_eq!((scene.run.skin, scene.run.max_overlap), (Some(1e-4), 0.1));
+    assert_eq!(scene.gravity, [0.0, 0.0, -9.81]);
+    let names: Vec<&str> = scene.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["glass", "steel"]);
+    assert_eq!(scene.pairs[1], scene.pairs[2]);
+    assert_eq!(scene.pairs[1].friction.unwrap().get(), 0.2);
+    assert_eq!(scene.pairs[3].friction, None);
+    assert_eq!(scene.contacts[0].between, [true, false, false, false]);
+    assert_eq!(scene.contacts[1].between, [false, true, true, false]);
+    assert_eq!(scene.contacts[0].switches.least_force, 0.0);
+    assert_eq!(scene.contacts[1].switches.least_force, f64::NEG_INFINITY);
+    assert_eq!(scene.contacts[0].switches.tangential_damping_factor, 1.0);
+    assert_eq!(scene.contacts[1].switches.tangential_damping_factor, 0.0);
+    assert_eq!(scene.domain, Some([[-1.0; 3], [1.0; 3]]));
+    assert_eq!(scene.output.frame_interval, Some(1e-2));
+    assert!(scene.output.contacts && scene.output.energy);
+}
+
+#[test]
+fn particles_without_a_number_are_numbered_above_those_with_one() {
+    let scene = good("everything.toml");
+    let ids: Vec<u32> = scene.particles.iter().map(|particle| particle.id.0).collect();
+    assert_eq!(ids, [12, 13, 14, 15, 16]);
+    assert_eq!(scene.particles[0].density, 2600.0);
+    assert_eq!(scene.particles[1].velocity, [0.0, 0.0, -1.0]);
+    assert_eq!(scene.particles[1].density, 2500.0);
+    assert_eq!(scene.particles[2].angular_velocity, [1.0, 2.0, 3.0]);
+    assert_eq!(scene.sets, ["few", "held"]);
+}
+
+#[test]
+fn boundaries_move_along_the_axes_named() {
+    let scene = good("everything.toml");
+    let (floor, grip) = (&scene.boundaries[0], &scene.boundaries[1]);
+    assert_eq!(floor.axes, [AxisMotion::Prescribed(0.1), AxisMotion::Fixed, AxisMotion::Driven]);
+    assert_eq!(floor.input, InputCourse::Smooth);
+    assert!(matches!(floor.shape, Shape::Plane { normal: [0.0, 0.0, 1.0], .. }));
+    assert_eq!(grip.shape, Shape::Particles { members: vec![3, 4] });
+    assert_eq!(grip.axes, [AxisMotion::Fixed; 3]);
+    assert_eq!(grip.reference, [0.0, 0.109, 0.02]);
+}
+
+#[test]
+fn damping_and_forces_are_per_particle() {
+    let scene = good("everything.toml");
+    let damping = &scene.damping[0];
+    assert_eq!(damping.linear, [0.35, 0.35, 0.35, 0.0, 0.0]);
+    assert_eq!(damping.angular, [0.25, 0.25, 0.25, 0.0, 0.0]);
+    assert!(damping.gravity_damped && !damping.applied_forces_damped);
+    assert_eq!(scene.forces[0].members, [0, 1]);
+}
