@@ -26,6 +26,11 @@ macro_rules! choices {
             /// The models' names in a scene.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($file)),+];
 
+            /// The model's name in a scene.
+            pub fn name(&self) -> &'static str {
+                match self { $(Self::$model(_) => stringify!($file),)+ }
+            }
+
             /// Goes from the name in the scene to the type in the program.
             pub fn visit<V: $visitor>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$model(keys) => visitor.take::<$file::$model>(keys),)+ }

@@ -19,7 +19,7 @@ use crate::contact::cohesion::CohesionChoice;
 use crate::contact::normal::NormalChoice;
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
-use crate::contact::{Material, PairProperties, Switches};
+use crate::contact::{LawChoice, Material, PairProperties, Switches};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
 use serde::Deserialize;
 
@@ -126,6 +126,14 @@ pub struct ContactLaw {
     pub cohesion: CohesionChoice,
     /// Switches of every law.
     pub switches: Switches,
+}
+
+impl ContactLaw {
+    /// What the law is composed of.
+    pub fn choice(&self) -> LawChoice {
+        let Self { normal, tangential, rolling, cohesion, switches, .. } = *self;
+        LawChoice { normal, tangential, rolling, cohesion, switches }
+    }
 }
 
 /// A sphere as the scene starts it.

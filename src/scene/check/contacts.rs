@@ -94,8 +94,6 @@ fn governed(law: &Law, materials: &[Material], table: &str, faults: &mut Faults)
 
 /// The law as the program keeps it.
 fn composed(name: &str, law: &Law, between: Vec<bool>) -> ContactLaw {
-    let least_force = if law.table.limit_force { 0.0 } else { f64::NEG_INFINITY };
-    let damping = if law.table.tangential_damping.unwrap_or(true) { 1.0 } else { 0.0 };
     ContactLaw {
         name: name.to_owned(),
         between,
@@ -103,6 +101,6 @@ fn composed(name: &str, law: &Law, between: Vec<bool>) -> ContactLaw {
         tangential: law.tangential,
         rolling: law.rolling,
         cohesion: law.cohesion,
-        switches: Switches::new(least_force, damping),
+        switches: Switches::of(law.table.limit_force, law.table.tangential_damping.unwrap_or(true)),
     }
 }

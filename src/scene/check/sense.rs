@@ -5,7 +5,7 @@ use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::rolling::TakeRolling;
 use crate::contact::tangential::TakeTangential;
-use crate::contact::{Cohesion, MaterialPair, Missing, Normal, Rolling, Tangential};
+use crate::contact::{Cohesion, FrictionNeeds, MaterialPair, Missing, Normal, Rolling, Tangential};
 use crate::scene::error::{Mistake, SceneError, SceneErrors};
 use crate::scene::{ContactLaw, Scene, Shape};
 
@@ -51,7 +51,7 @@ impl Scene {
 
 /// Whether each two materials that can touch have a law, and the law its properties.
 pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = scene.contacts.iter().filter_map(nothing_to_damp).collect();
+    let mut findings: Vec<Finding> = scene.contacts.iter().filter_map(objection).collect();
     if scene.contacts.is_empty() {
         return findings;
     }
@@ -96,23 +96,35 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
     (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(|(a, b)| touch(*a, *b)).collect()
 }
 
-/// What the sub-models of a law miss for two materials.
+/// What the sub-models of a law miss for two materials, all of it.
 fn missing(law: &ContactLaw, pair: &MaterialPair) -> Vec<Missing> {
-    let ask = Ask(pair);
+    let (has_spring, has_dashpot) = law.tangential.visit(Parts);
+    let damping = has_dashpot && law.switches.damps_slip();
+    let ask = Ask(pair, FrictionNeeds { stiffness: has_spring, damping });
     [law.normal.visit(ask), law.tangential.visit(ask), law.rolling.visit(ask), law.cohesion.visit(ask)]
         .into_iter()
         .flatten()
         .collect()
 }
 
+/// Asks a tangential model whether it has a spring, and a dashpot.
+struct Parts;
+
+impl TakeTangential for Parts {
+    type Output = (bool, bool);
+    fn take<M: Tangential>(self, _keys: &M::Keys) -> (bool, bool) {
+        (M::HAS_SPRING, M::HAS_DASHPOT)
+    }
+}
+
 /// Asks a sub-model for its coefficients, for what it misses.
 #[derive(Clone, Copy)]
-struct Ask<'a>(&'a MaterialPair<'a>);
+struct Ask<'a>(&'a MaterialPair<'a>, FrictionNeeds);
 
 impl TakeNormal for Ask<'_> {
     type Output = Option<Missing>;
     fn take<M: Normal>(self, keys: &M::Keys) -> Option<Missing> {
-        M::between(self.0, keys).err()
+        M::between(self.0, keys, self.1).err()
     }
 }
 
@@ -137,26 +149,20 @@ impl TakeCohesion for Ask<'_> {
     }
 }
 
-/// `tangential_damping = false` where nothing would be left of the tangential model, or none is there.
-fn nothing_to_damp(law: &ContactLaw) -> Option<Finding> {
-    /// Whether a tangential model has a force, and a spring.
-    struct Parts;
-    impl TakeTangential for Parts {
-        type Output = (bool, bool);
-        fn take<M: Tangential>(self, _keys: &M::Keys) -> (bool, bool) {
-            (M::ACTIVE, M::HAS_SPRING)
-        }
+/// What speaks against the combination of a law's sub-models and switches.
+fn objection(law: &ContactLaw) -> Option<Finding> {
+    let objection = law.choice().objection()?;
+    let mut table = format!("contact.{}", law.name);
+    if !objection.table.is_empty() {
+        let model = match objection.table {
+            "normal" => law.normal.name(),
+            "tangential" => law.tangential.name(),
+            "rolling" => law.rolling.name(),
+            _ => law.cohesion.name(),
+        };
+        table = format!("{table}.{}.{model}", objection.table);
     }
-    if law.switches.tangential_damping_factor != 0.0 {
-        return None;
-    }
-    let (what, right) = match law.tangential.visit(Parts) {
-        (_, true) => return None,
-        (true, false) => ("nothing is left of a tangential model without spring", "leave the tangential model out"),
-        (false, false) => ("there is no tangential model", "leave it out"),
-    };
-    let mistake = Mistake::Senseless { what: what.to_owned(), right: right.to_owned() };
-    Some(Finding::at(format!("contact.{}", law.name), "tangential_damping", mistake))
+    Some(Finding::at(table, objection.key, Mistake::Refused { message: objection.reason.to_owned() }))
 }
 
 /// Whether the particles are where they may be.
