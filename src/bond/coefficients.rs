@@ -70,6 +70,14 @@ impl Law {
         }
     }
 
+    /// k_n A, k_t A, k_t J, k_n I of a bond between bodies whose smaller radius is this \[m\], for the stable
+    /// time step \[N/m, N m\].
+    pub fn stiffness(&self, least_radius: f64) -> Parts {
+        let section = super::Section::of(self.radius_multiplier, least_radius);
+        let normal = self.tension.max(self.compression);
+        [normal * section.area, self.shear * section.area, self.torsion * section.polar, self.bending * section.axial]
+    }
+
     /// What the loop takes for a time step of this length \[s\], which may be 0.
     pub fn coefficients<N: Number>(&self, step: f64) -> Coefficients<N> {
         let per_step = |threshold: f64| if threshold > 0.0 { threshold / step } else { 0.0 };

@@ -23,11 +23,15 @@ pub mod angle;
 pub mod attitude;
 pub mod breakage;
 pub mod coefficients;
+pub mod creation;
 pub mod damping;
 pub mod engine_exact;
 pub mod finite_rotation;
 pub mod incremental;
+pub mod keys;
 pub mod motion;
+#[cfg(test)]
+mod trials;
 
 pub use attitude::Quaternion;
 pub use breakage::{Breakage, Cause};

@@ -10,7 +10,7 @@ const LEAST_RATE: f64 = 1e-300;
 /// Each part is opposed to its rate by a share of its own magnitude.
 ///
 /// ```text
-/// X_damping = −α |X| v/max(|v|, v_min)        v_min = threshold · R_min/Δt for the two forces, else 0
+/// X_damping = −α |X| v/|v|        0 where v = 0
 /// ```
 ///
 /// | symbol | meaning                                       | unit       | comes from        |
@@ -24,27 +24,25 @@ const LEAST_RATE: f64 = 1e-300;
 #[derive(Clone, Copy, Debug)]
 pub struct Opposing;
 
-/// −α |X| v/max(|v|, v_min).
+/// −α |X| v/|v|.
 #[inline(always)]
-fn against<N: Number>(share: N, part: N, rate: Vector<N>, least: N) -> Vector<N> {
-    rate * -(share * part / rate.length().max(least))
+fn against<N: Number>(share: N, part: N, rate: Vector<N>) -> Vector<N> {
+    rate * -(share * part / rate.length().max(N::splat(LEAST_RATE)))
 }
 
 impl Damping for Opposing {
     const NEEDS_MASSES: bool = false;
 
     #[inline(always)]
-    fn damp<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
-        let least = N::splat(LEAST_RATE);
-        let least_speed = (law.threshold * pair.least_radius).max(least);
+    fn damp<N: Number>(law: &Coefficients<N>, _: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
         let [normal, shear, torsion, bending] = law.damping;
         let approach = motion.axis * motion.normal_velocity;
         let twist = motion.axis * motion.twist_rate;
         Lost {
-            normal: against(normal, elastic.normal.abs(), approach, least_speed),
-            shear: against(shear, elastic.shear.length(), motion.slip, least_speed),
-            torsion: against(torsion, elastic.torsion.abs(), twist, least),
-            bending: against(bending, elastic.bending.length(), motion.bending_rate, least),
+            normal: against(normal, elastic.normal.abs(), approach),
+            shear: against(shear, elastic.shear.length(), motion.slip),
+            torsion: against(torsion, elastic.torsion.abs(), twist),
+            bending: against(bending, elastic.bending.length(), motion.bending_rate),
         }
     }
 }
