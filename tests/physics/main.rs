@@ -1,0 +1,15 @@
+//! What the program computes, held against theory and published numbers: one claim a file.
+
+mod cundall_decay;
+mod cundall_frame;
+mod elastic_energy;
+mod exchange;
+mod hertz_impact;
+mod momentum;
+mod oblique_impact;
+mod restitution;
+mod rolling;
+mod sjkr;
+mod sliding;
+mod spin_impact;
+mod stage;

@@ -1,0 +1,215 @@
+//! Scenes built in code, for physics tests.
+
+use cograin::contact::cohesion::CohesionChoice;
+use cograin::contact::normal::{NormalChoice, hooke_stiffness};
+use cograin::contact::rolling::RollingChoice;
+use cograin::contact::tangential::TangentialChoice;
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
+use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
+use cograin::scene::{AxisMotion, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
+use cograin::step::Simulation;
+use std::sync::Arc;
+
+/// Hertz with a tangential spring.
+pub const HERTZ: LawChoice = LawChoice {
+    normal: NormalChoice::Hertz(NoKeys {}),
+    tangential: TangentialChoice::History(NoKeys {}),
+    rolling: RollingChoice::None(NoKeys {}),
+    cohesion: CohesionChoice::None(NoKeys {}),
+    switches: Switches {
+        least_force: f64::NEG_INFINITY,
+        tangential_damping_factor: 1.0,
+        marker: std::marker::PhantomData,
+    },
+};
+
+/// Hertz without friction.
+pub const SMOOTH: LawChoice = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+
+/// A given linear spring without friction.
+pub const SPRING: LawChoice =
+    LawChoice { normal: NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: false }), ..SMOOTH };
+
+/// A material with these moduli \[Pa, 1\].
+pub fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
+    Material {
+        name: "material".into(),
+        density: 1.0,
+        youngs_modulus: Some(youngs_modulus),
+        poissons_ratio: Some(poissons_ratio),
+    }
+}
+
+/// A plane against which materials are soft.
+pub fn rigid() -> Material {
+    material(1e30, 0.0)
+}
+
+/// Restitution and friction of all pairs.
+pub fn properties(restitution: f64, friction: f64) -> PairProperties {
+    PairProperties {
+        restitution: Restitution::new(restitution),
+        friction: NonNegative::new(friction),
+        ..PairProperties::default()
+    }
+}
+
+/// A sphere at rest at the origin, of the first material, with this radius \[m\] and density \[kg/m³\].
+pub fn sphere(radius: f64, density: f64) -> Particle {
+    Particle {
+        id: ParticleId(0),
+        set: SetIndex(0),
+        material: MaterialIndex(0),
+        radius,
+        density,
+        position: [0.0; 3],
+        velocity: [0.0; 3],
+        angular_velocity: [0.0; 3],
+    }
+}
+
+/// A fixed plane through this point \[m\] with this unit normal, of this material.
+pub fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundary {
+    Boundary {
+        name: "plane".into(),
+        shape: Shape::Plane { material: MaterialIndex(material), point, normal },
+        axes: [AxisMotion::Fixed; 3],
+        input: InputCourse::Ramp,
+        reference: point,
+    }
+}
+
+/// A scene with one law, one set of properties for all pairs, a given step \[s\], and ids in the order given.
+pub fn scene(
+    law: LawChoice,
+    step: f64,
+    materials: Vec<Material>,
+    properties: PairProperties,
+    particles: Vec<Particle>,
+) -> Scene {
+    let pairs = materials.len() * materials.len();
+    let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
+    Scene {
+        run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
+        contacts: vec![ContactLaw {
+            name: "contact".into(),
+            between: vec![true; pairs],
+            normal: law.normal,
+            tangential: law.tangential,
+            rolling: law.rolling,
+            cohesion: law.cohesion,
+            switches: law.switches,
+        }],
+        pairs: vec![properties; pairs],
+        materials,
+        sets: vec!["particles".into()],
+        particles: numbered.collect(),
+        ..Scene::default()
+    }
+}
+
+/// A running scene, looked at in the scene's order of particles.
+pub struct Stage {
+    /// The simulation.
+    pub simulation: Simulation,
+    /// Time step \[s\].
+    pub step: f64,
+}
+
+impl Stage {
+    /// Starts.
+    pub fn of(scene: Scene) -> Self {
+        let Step::Given(step) = scene.run.step else { panic!("physics tests give the step") };
+        Self { simulation: Simulation::new(Arc::new(scene)).unwrap(), step }
+    }
+
+    /// Makes time steps.
+    pub fn steps(&mut self, count: u64) {
+        self.simulation.advance(count as f64 * self.step).unwrap();
+    }
+
+    /// A row of a particle.
+    fn row(&self, rows: impl Fn(&Simulation) -> &Vec<[f64; 4]>, particle: usize) -> [f64; 3] {
+        let slot = self.simulation.state().particles.slot[particle] as usize;
+        let [x, y, z, _] = rows(&self.simulation)[slot];
+        [x, y, z]
+    }
+
+    /// Position \[m\].
+    pub fn position(&self, particle: usize) -> [f64; 3] {
+        self.row(|simulation| &simulation.state().particles.position, particle)
+    }
+
+    /// Velocity \[m/s\].
+    pub fn velocity(&self, particle: usize) -> [f64; 3] {
+        self.row(|simulation| &simulation.state().particles.velocity, particle)
+    }
+
+    /// Angular velocity \[rad/s\].
+    pub fn spin(&self, particle: usize) -> [f64; 3] {
+        self.row(|simulation| &simulation.state().particles.angular_velocity, particle)
+    }
+
+    /// Force \[N\].
+    pub fn force(&self, particle: usize) -> [f64; 3] {
+        self.row(|simulation| &simulation.state().particles.force, particle)
+    }
+
+    /// Torque \[N m\].
+    pub fn torque(&self, particle: usize) -> [f64; 3] {
+        self.row(|simulation| &simulation.state().particles.torque, particle)
+    }
+}
+
+/// What an impact of a sphere on a plane z = 0 left.
+pub struct Rebound {
+    /// Velocity \[m/s\].
+    pub velocity: [f64; 3],
+    /// Angular velocity \[rad/s\].
+    pub spin: [f64; 3],
+}
+
+/// Lets a sphere of the first material hit a plane of the second; `steps` time steps make one contact, whose
+/// duration \[s\] is given.
+pub fn hit(
+    law: LawChoice,
+    materials: Vec<Material>,
+    properties: PairProperties,
+    mut body: Particle,
+    duration: f64,
+    steps: u64,
+) -> Rebound {
+    let step = duration / steps as f64;
+    // Half a step short of touch, so that no phase is special.
+    body.position = [0.0, 0.0, body.radius - 0.5 * step * body.velocity[2]];
+    let mut scene = scene(law, step, materials, properties, vec![body]);
+    scene.boundaries = vec![plane([0.0; 3], [0.0, 0.0, 1.0], 1)];
+    let mut stage = Stage::of(scene);
+    stage.steps(2 * steps);
+    assert!(stage.position(0)[2] > body.radius, "the contact has not ended: {:?}", stage.position(0));
+    Rebound { velocity: stage.velocity(0), spin: stage.spin(0) }
+}
+
+/// Duration of an elastic Hertz impact: 2.94328 δ_max/v, δ_max = (15 m* v²/(16 E* √R*))^(2/5) \[s\].
+pub fn hertz_duration(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
+    2.943_28 * hertz_overlap(modulus, radius, mass, speed) / speed
+}
+
+/// Largest overlap of an elastic Hertz impact \[m\].
+pub fn hertz_overlap(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
+    (15.0 * mass * speed * speed / (16.0 * modulus * radius.sqrt())).powf(0.4)
+}
+
+/// Fails, naming what, unless `found` is within `tolerance` of `expected` (relative to it).
+#[track_caller]
+pub fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    let error = (found - expected).abs() / expected.abs();
+    assert!(error <= tolerance, "{what}: {found:e} found, {expected:e} expected, {error:.1e} apart");
+}
+
+/// Fails, naming what, unless `found` is within `margin` of `expected`.
+#[track_caller]
+pub fn assert_near(found: f64, expected: f64, margin: f64, what: &str) {
+    let error = (found - expected).abs();
+    assert!(error <= margin, "{what}: {found:e} found, {expected:e} expected, {error:.1e} apart");
+}
