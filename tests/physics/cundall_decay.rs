@@ -11,7 +11,7 @@ use cograin::scene::{Damping, Scene};
 use std::f64::consts::PI;
 
 /// Damping of every particle by these fractions.
-pub fn damping(scene: &Scene, linear: f64, angular: f64, gravity_damped: bool) -> Vec<Damping> {
+pub(crate) fn damping(scene: &Scene, linear: f64, angular: f64, gravity_damped: bool) -> Vec<Damping> {
     let each = |fraction: f64| vec![fraction; scene.particles.len()];
     let (linear, angular) = (each(linear), each(angular));
     vec![Damping { name: "cundall".into(), linear, angular, gravity_damped, applied_forces_damped: false }]

@@ -10,7 +10,7 @@ use cograin::quantity::NonNegative;
 use cograin::scene::Particle;
 
 /// A block of spheres of three sizes that flies together, twists and collides.
-pub fn cloud() -> Vec<Particle> {
+pub(crate) fn cloud() -> Vec<Particle> {
     let mut all = Vec::new();
     for index in 0..125_i32 {
         let place = [index % 5 - 2, (index / 5) % 5 - 2, index / 25 - 2].map(f64::from);
@@ -29,7 +29,7 @@ pub fn cloud() -> Vec<Particle> {
 }
 
 /// Everything that makes forces between spheres.
-pub fn whole_law() -> (LawChoice, PairProperties) {
+pub(crate) fn whole_law() -> (LawChoice, PairProperties) {
     let law = LawChoice {
         rolling: RollingChoice::Cdt(NoKeys {}),
         cohesion: CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce: true }),

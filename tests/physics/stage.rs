@@ -11,7 +11,7 @@ use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// Hertz with a tangential spring.
-pub const HERTZ: LawChoice = LawChoice {
+pub(crate) const HERTZ: LawChoice = LawChoice {
     normal: NormalChoice::Hertz(NoKeys {}),
     tangential: TangentialChoice::History(NoKeys {}),
     rolling: RollingChoice::None(NoKeys {}),
@@ -24,14 +24,14 @@ pub const HERTZ: LawChoice = LawChoice {
 };
 
 /// Hertz without friction.
-pub const SMOOTH: LawChoice = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+pub(crate) const SMOOTH: LawChoice = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
 
 /// A given linear spring without friction.
-pub const SPRING: LawChoice =
+pub(crate) const SPRING: LawChoice =
     LawChoice { normal: NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: false }), ..SMOOTH };
 
 /// A material with these moduli \[Pa, 1\].
-pub fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
+pub(crate) fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
     Material {
         name: "material".into(),
         density: 1.0,
@@ -41,12 +41,12 @@ pub fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
 }
 
 /// A plane against which materials are soft.
-pub fn rigid() -> Material {
+pub(crate) fn rigid() -> Material {
     material(1e30, 0.0)
 }
 
 /// Restitution and friction of all pairs.
-pub fn properties(restitution: f64, friction: f64) -> PairProperties {
+pub(crate) fn properties(restitution: f64, friction: f64) -> PairProperties {
     PairProperties {
         restitution: Restitution::new(restitution),
         friction: NonNegative::new(friction),
@@ -55,7 +55,7 @@ pub fn properties(restitution: f64, friction: f64) -> PairProperties {
 }
 
 /// A sphere at rest at the origin, of the first material, with this radius \[m\] and density \[kg/m³\].
-pub fn sphere(radius: f64, density: f64) -> Particle {
+pub(crate) fn sphere(radius: f64, density: f64) -> Particle {
     Particle {
         id: ParticleId(0),
         set: SetIndex(0),
@@ -69,7 +69,7 @@ pub fn sphere(radius: f64, density: f64) -> Particle {
 }
 
 /// A fixed plane through this point \[m\] with this unit normal, of this material.
-pub fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundary {
+pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundary {
     Boundary {
         name: "plane".into(),
         shape: Shape::Plane { material: MaterialIndex(material), point, normal },
@@ -80,7 +80,7 @@ pub fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundary {
 }
 
 /// A scene with one law, one set of properties for all pairs, a given step \[s\], and ids in the order given.
-pub fn scene(
+pub(crate) fn scene(
     law: LawChoice,
     step: f64,
     materials: Vec<Material>,
@@ -109,22 +109,22 @@ pub fn scene(
 }
 
 /// A running scene, looked at in the scene's order of particles.
-pub struct Stage {
+pub(crate) struct Stage {
     /// The simulation.
-    pub simulation: Simulation,
+    pub(crate) simulation: Simulation,
     /// Time step \[s\].
-    pub step: f64,
+    pub(crate) step: f64,
 }
 
 impl Stage {
     /// Starts.
-    pub fn of(scene: Scene) -> Self {
+    pub(crate) fn of(scene: Scene) -> Self {
         let Step::Given(step) = scene.run.step else { panic!("physics tests give the step") };
         Self { simulation: Simulation::new(Arc::new(scene)).unwrap(), step }
     }
 
     /// Makes time steps.
-    pub fn steps(&mut self, count: u64) {
+    pub(crate) fn steps(&mut self, count: u64) {
         self.simulation.advance(count as f64 * self.step).unwrap();
     }
 
@@ -136,42 +136,42 @@ impl Stage {
     }
 
     /// Position \[m\].
-    pub fn position(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn position(&self, particle: usize) -> [f64; 3] {
         self.row(|simulation| &simulation.state().particles.position, particle)
     }
 
     /// Velocity \[m/s\].
-    pub fn velocity(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn velocity(&self, particle: usize) -> [f64; 3] {
         self.row(|simulation| &simulation.state().particles.velocity, particle)
     }
 
     /// Angular velocity \[rad/s\].
-    pub fn spin(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn spin(&self, particle: usize) -> [f64; 3] {
         self.row(|simulation| &simulation.state().particles.angular_velocity, particle)
     }
 
     /// Force \[N\].
-    pub fn force(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn force(&self, particle: usize) -> [f64; 3] {
         self.row(|simulation| &simulation.state().particles.force, particle)
     }
 
     /// Torque \[N m\].
-    pub fn torque(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn torque(&self, particle: usize) -> [f64; 3] {
         self.row(|simulation| &simulation.state().particles.torque, particle)
     }
 }
 
 /// What an impact of a sphere on a plane z = 0 left.
-pub struct Rebound {
+pub(crate) struct Rebound {
     /// Velocity \[m/s\].
-    pub velocity: [f64; 3],
+    pub(crate) velocity: [f64; 3],
     /// Angular velocity \[rad/s\].
-    pub spin: [f64; 3],
+    pub(crate) spin: [f64; 3],
 }
 
 /// Lets a sphere of the first material hit a plane of the second; `steps` time steps make one contact, whose
 /// duration \[s\] is given.
-pub fn hit(
+pub(crate) fn hit(
     law: LawChoice,
     materials: Vec<Material>,
     properties: PairProperties,
@@ -191,25 +191,25 @@ pub fn hit(
 }
 
 /// Duration of an elastic Hertz impact: 2.94328 δ_max/v, δ_max = (15 m* v²/(16 E* √R*))^(2/5) \[s\].
-pub fn hertz_duration(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
+pub(crate) fn hertz_duration(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     2.943_28 * hertz_overlap(modulus, radius, mass, speed) / speed
 }
 
 /// Largest overlap of an elastic Hertz impact \[m\].
-pub fn hertz_overlap(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
+pub(crate) fn hertz_overlap(modulus: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * modulus * radius.sqrt())).powf(0.4)
 }
 
 /// Fails, naming what, unless `found` is within `tolerance` of `expected` (relative to it).
 #[track_caller]
-pub fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
+pub(crate) fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
     let error = (found - expected).abs() / expected.abs();
     assert!(error <= tolerance, "{what}: {found:e} found, {expected:e} expected, {error:.1e} apart");
 }
 
 /// Fails, naming what, unless `found` is within `margin` of `expected`.
 #[track_caller]
-pub fn assert_near(found: f64, expected: f64, margin: f64, what: &str) {
+pub(crate) fn assert_near(found: f64, expected: f64, margin: f64, what: &str) {
     let error = (found - expected).abs();
     assert!(error <= margin, "{what}: {found:e} found, {expected:e} expected, {error:.1e} apart");
 }
