@@ -91,7 +91,8 @@ impl Formulation for EngineExact {
         let rate = motion.bending_rate;
         let square = rate.dot(rate);
         let moving = N::both(square.greater(N::zero()), law.step.greater(N::zero()));
-        let projected = rate * (stored.dot(rate) / N::select(moving, square, one));
+        let along = rate * (one / N::select(moving, square, one).sqrt());
+        let projected = along * stored.dot(along);
         let bending_stiffness = law.bending * section.axial;
         let bending_before = spring_energy(projected.dot(projected), bending_stiffness);
         let bending_before = N::select(moving, bending_before, N::zero());

@@ -1,5 +1,10 @@
 //! Trials of whole bonds: claims that take motion, random placements or stored trajectories to test.
 
 mod conservation;
+mod failures;
 mod gradient;
 mod placement;
+mod prescribed;
+mod reference;
+mod replay;
+mod stored;
