@@ -102,7 +102,7 @@ impl Simulation {
 
     /// Works in this lane width from now on. Every width gives the same bits.
     pub fn set_width(&mut self, width: Width) {
-        self.width = if width.offered() { width } else { Width::One };
+        self.width = if width.offered() { width } else { Width::Least };
     }
 
     /// Damps every particle that the scene does not damp by this fraction (Cundall), gravity included.

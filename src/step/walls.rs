@@ -142,7 +142,7 @@ impl<L: Law> Pass for WallPass<L> {
         let loads = context.collect(count.div_ceil(CHUNK), |piece| {
             let mut load = Load::default();
             let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
-            lanes::run(context.width, Piece { work, from, to, load: &mut load });
+            lanes::run_least(Piece { work, from, to, load: &mut load });
             load
         });
         let mut behind = None;

@@ -67,31 +67,27 @@ pub fn columns<N: Number>(vector: Vector<N>) -> [N; 4] {
 /// Lane widths that can be chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
-    /// One number at a time, on every processor.
-    One,
-    /// SSE2.
-    Two,
-    /// AVX2.
+    /// What every processor of the target offers: two numbers (SSE2) on x86-64, elsewhere one.
+    Least,
+    /// Four numbers: AVX2.
     Four,
-    /// AVX-512.
+    /// Eight numbers: AVX-512.
     Eight,
 }
 
 impl Width {
     /// Every width there is, narrow to wide.
-    pub const ALL: [Self; 4] = [Self::One, Self::Two, Self::Four, Self::Eight];
+    pub const ALL: [Self; 3] = [Self::Least, Self::Four, Self::Eight];
 
     /// The widest this processor offers.
     pub fn widest() -> Self {
-        Self::ALL.into_iter().rev().find(|width| width.offered()).unwrap_or(Self::One)
+        Self::ALL.into_iter().rev().find(|width| width.offered()).unwrap_or(Self::Least)
     }
 
     /// Whether this processor offers it.
     pub fn offered(self) -> bool {
         match self {
-            Self::One => true,
-            #[cfg(target_arch = "x86_64")]
-            Self::Two => true,
+            Self::Least => true,
             #[cfg(target_arch = "x86_64")]
             Self::Four => is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
@@ -114,24 +110,25 @@ pub trait Kernel {
 }
 
 /// Runs a kernel in this width.
-///
-/// # Panics
-/// If the processor does not offer the width.
 pub fn run<K: Kernel>(width: Width, kernel: K) {
     debug_assert!(width.offered(), "{width:?} is not offered by this processor");
     match width {
-        Width::One => kernel.run::<f64>(),
-        #[cfg(target_arch = "x86_64")]
-        Width::Two => kernel.run::<Two>(),
-        // SAFETY: `Width::widest` and the tests choose only what the processor offers.
+        // SAFETY: `Width::widest` and `Simulation::set_width` choose only what the processor offers.
         #[cfg(target_arch = "x86_64")]
         Width::Four => unsafe { x86::run_four(kernel) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
         Width::Eight => unsafe { x86::run_eight(kernel) },
-        #[cfg(not(target_arch = "x86_64"))]
-        _ => kernel.run::<f64>(),
+        _ => run_least(kernel),
     }
+}
+
+/// Runs a kernel in the least width, for work that is too little to be worth compiling in all of them.
+pub fn run_least<K: Kernel>(kernel: K) {
+    #[cfg(target_arch = "x86_64")]
+    kernel.run::<Two>();
+    #[cfg(not(target_arch = "x86_64"))]
+    kernel.run::<f64>();
 }
 
 /// A place that several threads write to, each to its own part.
