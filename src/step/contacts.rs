@@ -6,7 +6,7 @@
 //! each other; within one parity no two slabs share a particle.
 
 use super::error::RunError;
-use super::lanes::{self, Kernel, Lane, Shared, columns, vector};
+use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
 use super::observe::{self, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use crate::contact::{Contact, Law, MaterialPair, Response};
@@ -121,19 +121,22 @@ impl<L: Law> Pass for ContactPass<L> {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let slabs = list.slabs.len().saturating_sub(1);
-        let work = Work::<L> {
-            table: &self.table,
+        let shared = Pairs {
             first: &list.first,
             second: &list.second,
-            flags: Shared::new(&mut list.flags),
-            spring: Shared::new(&mut list.spring),
-            pair_constant: &list.pair_constant,
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
             material: &particles.material,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
+        };
+        let work = Work::<L> {
+            shared: &shared,
+            table: &self.table,
+            flags: Shared::new(&mut list.flags),
+            spring: Shared::new(&mut list.spring),
+            pair_constant: &list.pair_constant,
             step: context.step,
             law: PhantomData,
         };
@@ -143,7 +146,7 @@ impl<L: Law> Pass for ContactPass<L> {
             context.each(count, |piece| {
                 let slab = 2 * piece + parity;
                 let (from, to) = (ends[slab] as usize, ends[slab + 1] as usize);
-                lanes::run(context.width, Slab { work, from, to });
+                Slab { work, from, to }.run(context.width);
             });
         }
         Ok(())
@@ -286,20 +289,12 @@ pub(super) fn meet<N: Number>(
     (contact, arm_i, arm_j)
 }
 
-/// What all slabs of a pass share.
-struct Work<'a, L> {
-    /// Coefficients.
-    table: &'a Table,
+/// Pairs and particles: what all phases share, whatever the law.
+struct Pairs<'a> {
     /// First particle of each pair.
     first: &'a [u32],
     /// Second particle of each pair.
     second: &'a [u32],
-    /// Bits of each pair.
-    flags: Shared<u8>,
-    /// Spring of each pair.
-    spring: Shared<Row>,
-    /// Pair constant of each pair.
-    pair_constant: &'a [f64],
     /// Positions and radii.
     position: &'a [Row],
     /// Velocities and masses.
@@ -312,6 +307,20 @@ struct Work<'a, L> {
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
+}
+
+/// What all slabs of a pass share.
+struct Work<'a, L> {
+    /// Pairs and particles.
+    shared: &'a Pairs<'a>,
+    /// Coefficients.
+    table: &'a Table,
+    /// Bits of each pair.
+    flags: Shared<u8>,
+    /// Spring of each pair.
+    spring: Shared<Row>,
+    /// Pair constant of each pair.
+    pair_constant: &'a [f64],
     /// Time since springs were last advanced.
     step: f64,
     /// The law.
@@ -352,40 +361,122 @@ struct Buffer {
     second_arm: [f64; BATCH + 8],
 }
 
-impl<L: Law> Kernel for Slab<'_, L> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { work, from, to } = self;
-        let mut buffer = Buffer {
+impl Buffer {
+    /// An empty buffer.
+    fn new() -> Self {
+        Self {
             touching: [0; BATCH + 8],
             force: [[0.0; 4]; BATCH + 8],
             couple: [[0.0; 4]; BATCH + 8],
             rolling: [[0.0; 4]; BATCH + 8],
             first_arm: [0.0; BATCH + 8],
             second_arm: [0.0; BATCH + 8],
-        };
-        let mut row = [N::zero(); MOST_COEFFICIENTS];
-        if let Some(entry) = work.table.uniform() {
-            let mut k = 0;
-            while k < L::COUNT {
-                row[k] = N::splat(entry[k]);
-                k += 1;
-            }
         }
+    }
+}
+
+impl<L: Law> Slab<'_, L> {
+    /// Works through the slab, batch by batch.
+    fn run(self, width: Width) {
+        let Self { work, from, to } = self;
+        let mut buffer = Buffer::new();
         let mut batch = from;
         while batch < to {
-            let end = if batch + BATCH < to { batch + BATCH } else { to };
-            let count = find_touching::<L, N>(&work, batch, end, &mut buffer);
-            react_batch::<L, N>(&work, &mut row, count, &mut buffer);
-            scatter::<L>(&work, count, &buffer);
+            let end = (batch + BATCH).min(to);
+            let (shared, flags) = (&work.shared, work.flags);
+            let mut count = 0;
+            let (buffer, count) = (&mut buffer, &mut count);
+            if L::HAS_SPRING {
+                lanes::run(
+                    width,
+                    Touch::<true> { shared, flags, spring: work.spring, from: batch, to: end, buffer, count },
+                );
+            } else {
+                lanes::run(
+                    width,
+                    Touch::<false> { shared, flags, spring: work.spring, from: batch, to: end, buffer, count },
+                );
+            }
+            let count = *count;
+            lanes::run(width, React { work, count, buffer });
+            match (L::HAS_TORQUE, L::HAS_ROLLING) {
+                (false, _) => lanes::run(width, Scatter::<false, false> { shared, count, buffer }),
+                (true, false) => lanes::run(width, Scatter::<true, false> { shared, count, buffer }),
+                (true, true) => lanes::run(width, Scatter::<true, true> { shared, count, buffer }),
+            }
             batch = end;
         }
     }
 }
 
-/// Phase A: writes the touching pairs into the buffer and ends the contacts that came apart. Returns how many.
+/// Phase A on one batch: writes the touching pairs into the buffer and ends the contacts that came apart.
+struct Touch<'a, 'b, const SPRING: bool> {
+    /// Pairs and particles.
+    shared: &'a Pairs<'a>,
+    /// Bits of each pair.
+    flags: Shared<u8>,
+    /// Spring of each pair.
+    spring: Shared<Row>,
+    /// First pair.
+    from: usize,
+    /// Behind the last pair.
+    to: usize,
+    /// Where the touching pairs go.
+    buffer: &'b mut Buffer,
+    /// How many touch.
+    count: &'b mut usize,
+}
+
+impl<const SPRING: bool> Kernel for Touch<'_, '_, SPRING> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { shared, flags, spring, from, to, buffer, count } = self;
+        *count = find_touching::<N, SPRING>(shared, (flags, spring), (from, to), buffer);
+    }
+}
+
+/// Phase B on one batch: the law.
+struct React<'a, 'b, L> {
+    /// What all slabs share.
+    work: Work<'a, L>,
+    /// How many pairs touch.
+    count: usize,
+    /// The touching pairs, and where their results go.
+    buffer: &'b mut Buffer,
+}
+
+impl<L: Law> Kernel for React<'_, '_, L> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        react_batch::<L, N>(&self.work, self.count, self.buffer);
+    }
+}
+
+/// Phase C on one batch: adds the results to both particles of each touching pair.
+struct Scatter<'a, 'b, const TORQUE: bool, const ROLLING: bool> {
+    /// Pairs and particles.
+    shared: &'a Pairs<'a>,
+    /// How many pairs touch.
+    count: usize,
+    /// Their results.
+    buffer: &'b Buffer,
+}
+
+impl<const TORQUE: bool, const ROLLING: bool> Kernel for Scatter<'_, '_, TORQUE, ROLLING> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        scatter::<TORQUE, ROLLING>(self.shared, self.count, self.buffer);
+    }
+}
+
+/// Phase A. Returns how many pairs touch.
 #[inline(always)]
-fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer: &mut Buffer) -> usize {
+fn find_touching<N: Lane, const SPRING: bool>(
+    work: &Pairs,
+    (all_flags, spring): (Shared<u8>, Shared<Row>),
+    (from, to): (usize, usize),
+    buffer: &mut Buffer,
+) -> usize {
     let positions = work.position.as_ptr();
     let mut count = 0;
     let mut pair = from;
@@ -406,7 +497,7 @@ fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer
         let reach = i[3] + j[3];
         let touch = N::bits((reach * reach).greater(apart.dot(apart)));
         // SAFETY: these pairs belong to this slab alone.
-        let flags = unsafe { work.flags.part(pair, pair + lanes) };
+        let flags = unsafe { all_flags.part(pair, pair + lanes) };
         let mut lane = 0;
         while lane < lanes {
             let now = ((touch >> lane) & 1) as u8;
@@ -414,9 +505,9 @@ fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer
             count += now as usize;
             if flags[lane] & TOUCHING > now {
                 flags[lane] = 0;
-                if L::HAS_SPRING {
+                if SPRING {
                     // SAFETY: this pair belongs to this slab alone.
-                    unsafe { *work.spring.at(pair + lane) = [0.0; 4] };
+                    unsafe { *spring.at(pair + lane) = [0.0; 4] };
                 }
             }
             lane += 1;
@@ -432,9 +523,18 @@ fn find_touching<L: Law, N: Lane>(work: &Work<L>, from: usize, to: usize, buffer
     count
 }
 
-/// Phase B: the law on the touching pairs of the buffer.
+/// Phase B.
 #[inline(always)]
-fn react_batch<L: Law, N: Lane>(work: &Work<L>, row: &mut [N; MOST_COEFFICIENTS], count: usize, buffer: &mut Buffer) {
+fn react_batch<L: Law, N: Lane>(work: &Work<L>, count: usize, buffer: &mut Buffer) {
+    let mut row = [N::zero(); MOST_COEFFICIENTS];
+    if let Some(entry) = work.table.uniform() {
+        let mut k = 0;
+        while k < L::COUNT {
+            row[k] = N::splat(entry[k]);
+            k += 1;
+        }
+    }
+    let Pairs { first: firsts, second: seconds, position, velocity, angular_velocity, material, .. } = work.shared;
     let step = N::splat(work.step);
     let mut done = 0;
     while done < count {
@@ -443,24 +543,24 @@ fn react_batch<L: Law, N: Lane>(work: &Work<L>, row: &mut [N; MOST_COEFFICIENTS]
         let mut lane = 0;
         while lane < N::WIDTH {
             let pair = buffer.touching[done + lane] as usize;
-            first[lane] = work.first[pair];
-            second[lane] = work.second[pair];
+            first[lane] = firsts[pair];
+            second[lane] = seconds[pair];
             lane += 1;
         }
         if work.table.uniform().is_none() {
             let mut materials = [0_u32; 8];
             let mut lane = 0;
             while lane < N::WIDTH {
-                materials[lane] = work.material[second[lane] as usize];
+                materials[lane] = material[second[lane] as usize];
                 lane += 1;
             }
-            work.table.gather::<L, N>(work.material, &first, &materials, row);
+            work.table.gather::<L, N>(material, &first, &materials, &mut row);
         }
         let pairs = buffer.touching[done..].as_ptr();
         // SAFETY: a list holds slots of particles, below their number.
         let (contact, first_arm, second_arm) = unsafe {
             let (i, j) = (first.as_ptr(), second.as_ptr());
-            let (x, v, w) = (work.position.as_ptr(), work.velocity.as_ptr(), work.angular_velocity.as_ptr());
+            let (x, v, w) = (position.as_ptr(), velocity.as_ptr(), angular_velocity.as_ptr());
             let constant =
                 if L::HAS_PAIR_CONSTANT { N::gather(work.pair_constant.as_ptr(), pairs, 1) } else { N::zero() };
             meet(
@@ -507,9 +607,9 @@ fn react_batch<L: Law, N: Lane>(work: &Work<L>, row: &mut [N; MOST_COEFFICIENTS]
     }
 }
 
-/// Phase C: adds the results to both particles of each touching pair.
+/// Phase C.
 #[inline(always)]
-fn scatter<L: Law>(work: &Work<L>, count: usize, buffer: &Buffer) {
+fn scatter<const TORQUE: bool, const ROLLING: bool>(work: &Pairs, count: usize, buffer: &Buffer) {
     let mut done = 0;
     while done < count {
         let pair = buffer.touching[done] as usize;
@@ -518,11 +618,11 @@ fn scatter<L: Law>(work: &Work<L>, count: usize, buffer: &Buffer) {
         unsafe {
             add(work.force.at(i), &buffer.force[done], 1.0);
             add(work.force.at(j), &buffer.force[done], -1.0);
-            if L::HAS_TORQUE {
+            if TORQUE {
                 add(work.torque.at(i), &buffer.couple[done], -buffer.first_arm[done]);
                 add(work.torque.at(j), &buffer.couple[done], -buffer.second_arm[done]);
             }
-            if L::HAS_ROLLING {
+            if ROLLING {
                 add(work.torque.at(i), &buffer.rolling[done], -1.0);
                 add(work.torque.at(j), &buffer.rolling[done], 1.0);
             }
