@@ -3,7 +3,9 @@
 mod conservation;
 mod failures;
 mod gradient;
+mod keys;
 mod placement;
+mod points;
 mod prescribed;
 mod reference;
 mod replay;
