@@ -42,12 +42,12 @@ class Grains:
     def save(self):
         """Remembers the present state."""
         if self.saved is not None:
-            self.unit.freeFMUState(self.saved[0])
-        self.saved = (self.unit.getFMUState(), self.time, self.height)
+            self.unit.freeFMUstate(self.saved[0])
+        self.saved = (self.unit.getFMUstate(), self.time, self.height)
 
     def restore(self):
         """Goes back to the remembered state."""
-        self.unit.setFMUState(self.saved[0])
+        self.unit.setFMUstate(self.saved[0])
         _, self.time, self.height = self.saved
 
     def interface_stiffness(self, interval, displacement=1e-6):

@@ -1,0 +1,48 @@
+"""Models still give the numbers that stand beside them: a change shows here, whether wanted or not."""
+
+import csv
+import subprocess
+import sys
+
+import numpy as np
+from conftest import MODELS, ROOT
+
+
+def table(path):
+    """Names and numbers of a CSV file."""
+    rows = list(csv.reader(path.open()))
+    return rows[0], np.array(rows[1:], dtype=float)
+
+
+def compare(found, expected, tolerance):
+    """Fails where a column is off by more than the tolerance, over its largest magnitude."""
+    (names, values), (expected_names, expected_values) = found, expected
+    for column, name in enumerate(expected_names):
+        mine = values[: len(expected_values), names.index(name)]
+        error = np.abs(mine - expected_values[:, column]).max() / max(np.abs(expected_values[:, column]).max(), 1e-300)
+        assert error <= tolerance, f"{name}: off by {error:.1e} of its largest magnitude"
+
+
+def test_every_model_has_expected_numbers_and_a_readme():
+    for model in MODELS:
+        for name in ("expected.csv", "readme.md"):
+            assert (ROOT / "models" / model / name).is_file(), f"models/{model}/{name} is missing"
+
+
+def test_the_piston_gives_its_expected_numbers(unit, tmp_path):
+    folder = ROOT / "models" / "piston"
+    result = tmp_path / "result.csv"
+    command = [sys.executable, "-m", "fmpy", "simulate", unit("piston"), "--input-file", folder / "input.csv"]
+    command += ["--stop-time", "0.1", "--output-interval", "1e-3", "--output-file", result]
+    subprocess.run(command, check=True, capture_output=True)
+    # A hundred milliseconds of collisions turn a last bit into less than a billionth.
+    compare(table(result), table(folder / "expected.csv"), 1e-9)
+
+
+def test_the_loaded_beam_begins_as_expected(request, tmp_path):
+    folder = ROOT / "models" / "loaded_beam"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    subprocess.run([*command, "--end", "0.01", "--no-failure"], check=True, capture_output=True)
+    # The beam's factorisation is the machine's own, to rounding.
+    compare(table(tmp_path / "couple.csv"), table(folder / "expected.csv"), 1e-6)
