@@ -4,8 +4,8 @@ import ctypes
 import sys
 from pathlib import Path
 
-import pytest
 from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
@@ -19,6 +19,7 @@ def with_fmpy(slave, path, course):
 
 def with_libcosimpy(path, course, inputs, outputs):
     """The same rows, from a clock in whole nanoseconds."""
+    log_output_level(CosimLogLevel.WARNING)
     execution = CosimExecution.from_step_size(step_size=round(course.interval * 1e9))
     index = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="unit"))
     manipulator = CosimManipulator.create_override()
@@ -35,7 +36,7 @@ def with_libcosimpy(path, course, inputs, outputs):
 
 def with_ecospy(path, course, inputs, outputs):
     """The same rows, from a clock that sums up intervals."""
-    ecospy = pytest.importorskip("ecospy") if sys.platform != "linux" else linked_ecospy()
+    ecospy = linked_ecospy()
     with ecospy.EcosSimulationStructure() as structure:
         structure.add_model("unit", str(path))
         simulation = ecospy.EcosSimulation(structure=structure, step_size=course.interval)
