@@ -16,13 +16,13 @@ from skfem.helpers import dd
 class Design:
     """What the beam and its plate are made of."""
 
-    span: float = 0.6  # between the supports [m]
+    span: float = 0.4  # between the supports [m]
     width: float = 0.07  # of the cross-section [m]
-    height: float = 0.013  # of the cross-section [m]
+    height: float = 0.009  # of the cross-section [m]
     youngs_modulus: float = 70e9  # [Pa]
     density: float = 2700.0  # [kg/m³]
-    plate_mass: float = 2.0  # [kg]
-    damping_time: float = 5e-3  # damping matrix over stiffness matrix [s]
+    plate_mass: float = 0.5  # [kg]
+    damping_time: float = 4e-3  # damping matrix over stiffness matrix [s]
     elements: int = 20
 
     @property

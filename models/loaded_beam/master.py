@@ -80,7 +80,7 @@ class Implicit:
 
     interval: float  # [s]
     stiffness: float  # of the grains over one interval; refined by the secants [N/m]
-    tolerance: float = 1e-10  # [m]
+    tolerance: float = 1e-9  # [m]
     limit: int = 12  # evaluations a step
     forces: list = field(default_factory=list)  # of the last two steps [N]
 
