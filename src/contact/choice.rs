@@ -139,7 +139,8 @@ impl<V: TakeLaw, A: Normal, B: Tangential, C: Rolling> TakeCohesion for WithRoll
     fn take<D: Cohesion>(self, keys: &D::Keys) -> V::Output {
         let Self { choice, visitor, normal, tangential, rolling } = self;
         let switches = choice.switches;
-        visitor.take(Composed::<A, B, C, D> { normal, tangential, rolling, cohesion: *keys, switches })
+        let law = Composed::<A::Form, B, C, D::Form>::of::<A, D>(normal, tangential, rolling, *keys, switches);
+        visitor.take(law)
     }
 }
 

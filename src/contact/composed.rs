@@ -1,8 +1,8 @@
 //! Four sub-models as one law.
 
 use super::{
-    Coefficients, Cohesion, Contact, FrictionNeeds, MaterialPair, Missing, Normal, Reaction, Response, Rolling,
-    Tangential, coefficients,
+    Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Reaction,
+    Response, Rolling, Tangential, coefficients,
 };
 use crate::number::{Number, Vector};
 
@@ -55,7 +55,7 @@ pub trait Law: Send + Sync + 'static {
     fn objection(&self) -> Option<Objection>;
     /// The coefficients of two materials, [`Law::COUNT`] of them.
     fn row(&self, pair: &MaterialPair) -> Result<Vec<f64>, Missing>;
-    /// The pair constant of [`Normal::pair_constant`].
+    /// The pair constant of [`NormalForm::pair_constant`].
     fn pair_constant(row: &[f64], radius: f64, mass: f64) -> f64;
     /// Force and torque of one contact.
     fn react<N: Number>(row: &[N], contact: &Contact<N>, spring: Vector<N>, step: N) -> Reaction<N>;
@@ -63,29 +63,55 @@ pub trait Law: Send + Sync + 'static {
     fn stiffness(row: &[f64], contact: &Contact) -> Response;
 }
 
-/// The law that the scene composed of four sub-models.
-#[derive(Clone, Copy, Debug)]
-pub struct Composed<A: Normal, B: Tangential, C: Rolling, D: Cohesion> {
-    /// Normal sub-model's keys.
-    pub normal: A::Keys,
+/// What makes the coefficients of a normal model for two materials.
+type MakeNormal<A> = Box<dyn Fn(&MaterialPair, FrictionNeeds) -> Result<A, Missing> + Send + Sync>;
+
+/// What makes the coefficients of a cohesion model for two materials.
+type MakeCohesion<D> = Box<dyn Fn(&MaterialPair) -> Result<D, Missing> + Send + Sync>;
+
+/// The law that the scene composed of four sub-models. It is generic over what the loop computes; which models the
+/// coefficients come from is asked once for each two materials.
+pub struct Composed<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> {
+    /// Normal sub-model.
+    normal: MakeNormal<A>,
     /// Tangential sub-model's keys.
-    pub tangential: B::Keys,
+    tangential: B::Keys,
     /// Rolling sub-model's keys.
-    pub rolling: C::Keys,
-    /// Cohesion sub-model's keys.
-    pub cohesion: D::Keys,
+    rolling: C::Keys,
+    /// Cohesion sub-model.
+    cohesion: MakeCohesion<D>,
+    /// Whether friction sees the attraction.
+    reduces_friction: bool,
     /// Switches of every law.
-    pub switches: Switches,
+    switches: Switches,
 }
 
-impl<A: Normal, B: Tangential, C: Rolling, D: Cohesion> Composed<A, B, C, D> {
+impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Composed<A, B, C, D> {
+    /// The law of these models, by their keys.
+    pub fn of<M: Normal<Form = A>, K: Cohesion<Form = D>>(
+        normal: M::Keys,
+        tangential: B::Keys,
+        rolling: C::Keys,
+        cohesion: K::Keys,
+        switches: Switches,
+    ) -> Self {
+        Self {
+            normal: Box::new(move |pair, needs| M::between(pair, &normal, needs)),
+            tangential,
+            rolling,
+            cohesion: Box::new(move |pair| K::between(pair, &cohesion)),
+            reduces_friction: K::reduces_friction(&cohesion),
+            switches,
+        }
+    }
+
     /// What friction takes from the normal model.
     fn friction_needs(&self) -> FrictionNeeds {
         FrictionNeeds { stiffness: B::HAS_SPRING, damping: B::HAS_DASHPOT && self.switches.damps_slip() }
     }
 }
 
-impl<A: Normal, B: Tangential, C: Rolling, D: Cohesion> Law for Composed<A, B, C, D> {
+impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed<A, B, C, D> {
     const COUNT: usize = A::COUNT + B::COUNT + C::COUNT + D::COUNT + Switches::COUNT;
     const HAS_PAIR_CONSTANT: bool = A::HAS_PAIR_CONSTANT;
     const HAS_TORQUE: bool = B::ACTIVE || C::ACTIVE;
@@ -93,7 +119,7 @@ impl<A: Normal, B: Tangential, C: Rolling, D: Cohesion> Law for Composed<A, B, C
     const HAS_SPRING: bool = B::HAS_SPRING;
 
     fn objection(&self) -> Option<Objection> {
-        if !B::ACTIVE && D::reduces_friction(&self.cohesion) {
+        if !B::ACTIVE && self.reduces_friction {
             return Some(Objection {
                 table: "cohesion",
                 key: "tangential_reduce",
@@ -114,10 +140,10 @@ impl<A: Normal, B: Tangential, C: Rolling, D: Cohesion> Law for Composed<A, B, C
 
     fn row(&self, pair: &MaterialPair) -> Result<Vec<f64>, Missing> {
         let mut row = Vec::with_capacity(Self::COUNT);
-        A::between(pair, &self.normal, self.friction_needs())?.write(&mut row);
+        (self.normal)(pair, self.friction_needs())?.write(&mut row);
         B::between(pair, &self.tangential)?.write(&mut row);
         C::between(pair, &self.rolling)?.write(&mut row);
-        D::between(pair, &self.cohesion)?.write(&mut row);
+        (self.cohesion)(pair)?.write(&mut row);
         self.switches.write(&mut row);
         Ok(row)
     }
@@ -179,7 +205,7 @@ impl<A: Normal, B: Tangential, C: Rolling, D: Cohesion> Law for Composed<A, B, C
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::cohesion::{none, sjkr};
+    use crate::contact::cohesion::{attraction, none, sjkr};
     use crate::contact::normal::hooke_stiffness;
     use crate::contact::rolling::{cdt, none as free};
     use crate::contact::specimen::{assert_close, contact, properties, with_pair};
@@ -188,17 +214,12 @@ mod tests {
     use crate::quantity::NonNegative;
 
     /// Hooke with everything: k_n δ = 100/16384 N, γ_n v_n = −12 N (m* g_n = 24 kg/s, v_n = −½ m/s), c A = 21 N.
-    type Whole<B> = Composed<hooke_stiffness::HookeStiffness, B, cdt::Cdt, sjkr::Sjkr>;
+    type Whole<B> = Composed<hooke_stiffness::HookeStiffness, B, cdt::Cdt, attraction::Attraction>;
 
     /// That law with these switches.
     fn whole<B: Tangential<Keys = NoKeys>>(switches: Switches, tangential_reduce: bool) -> Whole<B> {
-        Composed {
-            normal: hooke_stiffness::Keys::default(),
-            tangential: NoKeys {},
-            rolling: NoKeys {},
-            cohesion: sjkr::Keys { tangential_reduce },
-            switches,
-        }
+        let (normal, cohesion) = (hooke_stiffness::Keys::default(), sjkr::Keys { tangential_reduce });
+        Composed::of::<hooke_stiffness::HookeStiffness, sjkr::Sjkr>(normal, NoKeys {}, NoKeys {}, cohesion, switches)
     }
 
     /// What it does to the specimen's contact at this normal velocity.
@@ -260,13 +281,13 @@ mod tests {
             normal_damping: NonNegative::new(1.0),
             ..PairProperties::default()
         };
-        let law = Composed::<hooke_stiffness::HookeStiffness, smooth::None, free::None, none::None> {
-            normal: hooke_stiffness::Keys::default(),
-            tangential: NoKeys {},
-            rolling: NoKeys {},
-            cohesion: NoKeys {},
-            switches: Switches::of(false, true),
-        };
+        let law = Composed::<_, smooth::None, free::None, _>::of::<hooke_stiffness::HookeStiffness, none::None>(
+            hooke_stiffness::Keys::default(),
+            NoKeys {},
+            NoKeys {},
+            NoKeys {},
+            Switches::of(false, true),
+        );
         assert!(with_pair(&bare, |pair| law.row(pair)).is_ok());
     }
 

@@ -49,7 +49,7 @@ pub struct Contact<N = f64> {
     /// Angular velocity of i less that of j \[rad/s\].
     pub relative_spin: Vector<N>,
     /// What the normal model made of effective radius and mass when the pair was found
-    /// ([`Normal::pair_constant`]).
+    /// ([`NormalForm::pair_constant`]).
     pub pair_constant: N,
 }
 
@@ -80,14 +80,20 @@ pub struct FrictionNeeds {
     pub damping: bool,
 }
 
-/// Stiffness and damping of a contact; the force k_n δ − γ_n v_n follows from them.
-pub trait Normal: Coefficients {
+/// A normal model: from what the scene says of two materials to what the loop computes.
+pub trait Normal: Copy + Send + Sync + 'static {
     /// What the scene writes under the model's name.
     type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
-    /// Whether [`Normal::pair_constant`] says anything.
-    const HAS_PAIR_CONSTANT: bool = false;
+    /// What the loop computes. Models that differ in their coefficients alone share it.
+    type Form: NormalForm;
     /// The coefficients for two materials; what friction has no use for is not asked of the scene.
-    fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self, Missing>;
+    fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self::Form, Missing>;
+}
+
+/// Stiffness and damping of a contact; the force k_n δ − γ_n v_n follows from them.
+pub trait NormalForm: Coefficients {
+    /// Whether [`NormalForm::pair_constant`] says anything.
+    const HAS_PAIR_CONSTANT: bool = false;
     /// What depends on effective radius \[m\] and mass \[kg\] alone and is too dear for the loop
     /// (a fractional power): found once, when the pair comes near.
     fn pair_constant(&self, _radius: f64, _mass: f64) -> f64 {
@@ -135,16 +141,22 @@ pub trait Rolling: Coefficients {
     fn torque<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>, response: &Response<N>) -> Vector<N>;
 }
 
-/// Attraction of touching bodies.
-pub trait Cohesion: Coefficients {
+/// A cohesion model: from what the scene says of two materials to what the loop computes.
+pub trait Cohesion: Copy + Send + Sync + 'static {
     /// What the scene writes under the model's name.
     type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
-    /// Whether there is a force at all.
-    const ACTIVE: bool;
+    /// What the loop computes. Models that differ in their coefficients alone share it.
+    type Form: CohesionForm;
     /// The coefficients for two materials.
-    fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
+    fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self::Form, Missing>;
     /// Whether these keys let friction see the attraction (`tangential_reduce`).
     fn reduces_friction(keys: &Self::Keys) -> bool;
+}
+
+/// Attraction of touching bodies.
+pub trait CohesionForm: Coefficients {
+    /// Whether there is a force at all.
+    const ACTIVE: bool;
     /// Force along the normal, negative for a pull \[N\].
     fn force<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> N;
     /// The part of that force which the friction limit sees \[N\].

@@ -1,5 +1,6 @@
 //! Cohesion sub-models, one a file.
 
+pub mod attraction;
 pub mod none;
 pub mod sjkr;
 pub mod sjkr2;

@@ -1,6 +1,6 @@
 //! No cohesion.
 
-use crate::contact::{Cohesion, Contact, MaterialPair, Missing, NoKeys, coefficients};
+use crate::contact::{Cohesion, CohesionForm, Contact, MaterialPair, Missing, NoKeys, coefficients};
 use crate::number::Number;
 
 coefficients! {
@@ -10,7 +10,7 @@ coefficients! {
 
 impl Cohesion for None {
     type Keys = NoKeys;
-    const ACTIVE: bool = false;
+    type Form = Self;
 
     fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new())
@@ -19,6 +19,10 @@ impl Cohesion for None {
     fn reduces_friction(_keys: &NoKeys) -> bool {
         false
     }
+}
+
+impl CohesionForm for None {
+    const ACTIVE: bool = false;
 
     #[inline(always)]
     fn force<N: Number>(_law: None<N>, _contact: &Contact<N>) -> N {

@@ -1,87 +1,68 @@
 //! Elastic spheres with viscous loss.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Response, coefficients};
-use crate::number::Number;
+use super::hertzian::Hertzian;
+use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal};
 
-coefficients! {
-    /// Hertz's force with the damping of a constant coefficient of restitution.
-    ///
-    /// ```text
-    /// S_n = 2 E* √(R* δ)                 S_t = 8 G* √(R* δ)
-    /// k_n = 4/3 E* √(R* δ)               k_t = S_t
-    /// γ_n = −2 √(5/6) β √(S_n m*)        γ_t = −2 √(5/6) β √(S_t m*)
-    /// β = ln e/√(ln² e + π²)
-    /// ```
-    ///
-    /// | symbol | meaning                    | unit | comes from      |
-    /// |--------|----------------------------|------|-----------------|
-    /// | δ      | overlap                    | m    | the contact     |
-    /// | R*, m* | effective radius and mass  | m, kg| the contact     |
-    /// | E*     | effective Young's modulus  | Pa   | two materials   |
-    /// | G*     | effective shear modulus    | Pa   | two materials   |
-    /// | e      | coefficient of restitution | 1    | `restitution`   |
-    ///
-    /// The measured restitution is e at every speed. The force may pull near the end of a contact.
-    ///
-    /// Source: A. Di Renzo & F. P. Di Maio, *Chem. Eng. Sci.* 59 (2004) 525–541; damping after Y. Tsuji,
-    /// T. Tanaka & T. Ishida, *Powder Technol.* 71 (1992) 239–250.
-    pub struct Hertz {
-        /// E* \[Pa\].
-        youngs_modulus,
-        /// G* \[Pa\].
-        shear_modulus,
-        /// −2 √(5/6) β, of 0 or above.
-        damping,
-    }
-}
+/// Hertz's force with the damping of a constant coefficient of restitution.
+///
+/// ```text
+/// S_n = 2 E* √(R* δ)                 S_t = 8 G* √(R* δ)
+/// k_n = 4/3 E* √(R* δ)               k_t = S_t
+/// γ_n = −2 √(5/6) β √(S_n m*)        γ_t = −2 √(5/6) β √(S_t m*)
+/// β = ln e/√(ln² e + π²)
+/// ```
+///
+/// | symbol | meaning                    | unit | comes from      |
+/// |--------|----------------------------|------|-----------------|
+/// | δ      | overlap                    | m    | the contact     |
+/// | R*, m* | effective radius and mass  | m, kg| the contact     |
+/// | E*     | effective Young's modulus  | Pa   | two materials   |
+/// | G*     | effective shear modulus    | Pa   | two materials   |
+/// | e      | coefficient of restitution | 1    | `restitution`   |
+///
+/// The measured restitution is e at every speed. The force may pull near the end of a contact.
+///
+/// Source: A. Di Renzo & F. P. Di Maio, *Chem. Eng. Sci.* 59 (2004) 525–541; damping after Y. Tsuji,
+/// T. Tanaka & T. Ishida, *Powder Technol.* 71 (1992) 239–250.
+#[derive(Clone, Copy, Debug)]
+pub struct Hertz;
 
 impl Normal for Hertz {
     type Keys = NoKeys;
+    type Form = Hertzian;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         let log = libm::log(pair.restitution()?);
         let beta = log / (log * log + std::f64::consts::PI * std::f64::consts::PI).sqrt();
-        Ok(Self::new(
-            pair.effective_youngs_modulus()?,
-            pair.effective_shear_modulus()?,
-            -2.0 * (5.0_f64 / 6.0).sqrt() * beta,
+        let (modulus, shear_modulus) = (pair.effective_youngs_modulus()?, pair.effective_shear_modulus()?);
+        let damping = -2.0 * (5.0_f64 / 6.0).sqrt() * beta;
+        Ok(Hertzian::new(
+            4.0 / 3.0 * modulus,
+            8.0 * shear_modulus,
+            damping * (2.0 * modulus).sqrt(),
+            damping * (8.0 * shear_modulus).sqrt(),
+            0.0,
+            0.0,
         ))
-    }
-
-    #[inline(always)]
-    fn response<N: Number>(law: Hertz<N>, contact: &Contact<N>) -> Response<N> {
-        let contact_radius = (contact.radius * contact.overlap).sqrt();
-        let normal_slope = N::splat(2.0) * law.youngs_modulus * contact_radius;
-        let tangential_slope = N::splat(8.0) * law.shear_modulus * contact_radius;
-        Response {
-            normal_stiffness: N::splat(2.0 / 3.0) * normal_slope,
-            normal_damping: law.damping * (normal_slope * contact.mass).sqrt(),
-            tangential_stiffness: tangential_slope,
-            tangential_damping: law.damping * (tangential_slope * contact.mass).sqrt(),
-        }
-    }
-
-    fn tangent_stiffness(&self, contact: &Contact) -> f64 {
-        2.0 * self.youngs_modulus * (contact.radius * contact.overlap).sqrt()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::PairProperties;
     use crate::contact::specimen::{ALL, assert_close, contact, properties, with_pair};
+    use crate::contact::{Contact, NormalForm, PairProperties};
     use crate::quantity::Restitution;
 
     /// E* = 1 Pa, G* = ¼ Pa, √(R* δ) = 2⁻⁸ m, m* = 4 kg.
-    fn law(restitution: f64) -> Hertz {
+    fn law(restitution: f64) -> Hertzian {
         let properties = PairProperties { restitution: Restitution::new(restitution), ..properties() };
         with_pair(&properties, |pair| Hertz::between(pair, &NoKeys {}, ALL)).unwrap()
     }
 
     #[test]
     fn is_as_stiff_as_hertz_and_mindlin_say() {
-        let response = Hertz::response(law(0.5), &contact());
+        let response = Hertzian::response(law(0.5), &contact());
         assert_close(response.normal_stiffness, 4.0 / 3.0 / 256.0, 1e-15);
         // 1/G* = 2 · 2 (2 − 0)(1 + 0)/2 = 4
         assert_close(response.tangential_stiffness, 8.0 * 0.25 / 256.0, 1e-15);
@@ -89,7 +70,7 @@ mod tests {
 
     #[test]
     fn damps_with_the_slopes_of_both_forces() {
-        let response = Hertz::response(law(0.5), &contact());
+        let response = Hertzian::response(law(0.5), &contact());
         let log = libm::log(0.5);
         let share = -2.0 * (5.0_f64 / 6.0).sqrt() * log / (log * log + std::f64::consts::PI.powi(2)).sqrt();
         assert_close(response.normal_damping, share * (2.0 / 256.0 * 4.0_f64).sqrt(), 1e-15);
@@ -98,13 +79,14 @@ mod tests {
 
     #[test]
     fn does_not_damp_an_elastic_contact() {
-        let response = Hertz::response(law(1.0), &contact());
+        let response = Hertzian::response(law(1.0), &contact());
         assert_eq!([response.normal_damping.abs(), response.tangential_damping.abs()], [0.0, 0.0]);
     }
 
     #[test]
     fn tangent_stiffness_is_the_slope_of_the_force() {
-        let force = |overlap| Hertz::response(law(0.5), &Contact { overlap, ..contact() }).normal_stiffness * overlap;
+        let force =
+            |overlap| Hertzian::response(law(0.5), &Contact { overlap, ..contact() }).normal_stiffness * overlap;
         let (here, by) = (contact().overlap, 1e-4 * contact().overlap);
         // central difference: relative error (1e-4)²/24
         let slope = (force(here + by) - force(here - by)) / (2.0 * by);

@@ -1,94 +1,71 @@
 //! Hertz's force with a given stiffness.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Response, coefficients};
-use crate::number::Number;
+use super::hertzian::Hertzian;
+use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal};
 
-coefficients! {
-    /// A spring and dashpot that grow with the radius of the contact, scaled as the scene gives them.
-    ///
-    /// ```text
-    /// k_n = √(R* δ) κ_n          k_t = √(R* δ) κ_t
-    /// γ_n = √(R* δ) m* g_n       γ_t = √(R* δ) m* g_t
-    /// ```
-    ///
-    /// | symbol   | meaning                         | unit     | comes from                                 |
-    /// |----------|---------------------------------|----------|--------------------------------------------|
-    /// | δ        | overlap                         | m        | the contact                                |
-    /// | R*, m*   | effective radius and mass       | m, kg    | the contact                                |
-    /// | κ_n, κ_t | stiffnesses                     | Pa       | `normal_stiffness`, `tangential_stiffness` |
-    /// | g_n, g_t | damping for each mass and length| 1/(m s)  | `normal_damping`, `tangential_damping`     |
-    ///
-    /// κ_n = 4/3 E* is Hertz's force. Damping by √(R* δ) leaves a restitution that rises with speed. The force
-    /// may pull near the end of a contact.
-    ///
-    /// Source: L. E. Silbert et al., *Phys. Rev. E* 64 (2001) 051302.
-    pub struct HertzStiffness {
-        /// κ_n \[Pa\].
-        normal_stiffness,
-        /// κ_t \[Pa\].
-        tangential_stiffness,
-        /// g_n \[1/(m s)\].
-        normal_damping,
-        /// g_t \[1/(m s)\].
-        tangential_damping,
-    }
-}
+/// A spring and dashpot that grow with the radius of the contact, scaled as the scene gives them.
+///
+/// ```text
+/// k_n = √(R* δ) κ_n          k_t = √(R* δ) κ_t
+/// γ_n = √(R* δ) m* g_n       γ_t = √(R* δ) m* g_t
+/// ```
+///
+/// | symbol   | meaning                         | unit     | comes from                                 |
+/// |----------|---------------------------------|----------|--------------------------------------------|
+/// | δ        | overlap                         | m        | the contact                                |
+/// | R*, m*   | effective radius and mass       | m, kg    | the contact                                |
+/// | κ_n, κ_t | stiffnesses                     | Pa       | `normal_stiffness`, `tangential_stiffness` |
+/// | g_n, g_t | damping for each mass and length| 1/(m s)  | `normal_damping`, `tangential_damping`     |
+///
+/// κ_n = 4/3 E* is Hertz's force. Damping by √(R* δ) leaves a restitution that rises with speed. The force
+/// may pull near the end of a contact.
+///
+/// Source: L. E. Silbert et al., *Phys. Rev. E* 64 (2001) 051302.
+#[derive(Clone, Copy, Debug)]
+pub struct HertzStiffness;
 
 impl Normal for HertzStiffness {
     type Keys = NoKeys;
+    type Form = Hertzian;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys, friction: FrictionNeeds) -> Result<Self, Missing> {
-        Ok(Self::new(
+    fn between(pair: &MaterialPair, _keys: &NoKeys, friction: FrictionNeeds) -> Result<Hertzian, Missing> {
+        Ok(Hertzian::new(
             pair.normal_stiffness()?,
             if friction.stiffness { pair.tangential_stiffness()? } else { 0.0 },
+            0.0,
+            0.0,
             pair.normal_damping()?,
             if friction.damping { pair.tangential_damping()? } else { 0.0 },
         ))
-    }
-
-    #[inline(always)]
-    fn response<N: Number>(law: HertzStiffness<N>, contact: &Contact<N>) -> Response<N> {
-        let contact_radius = (contact.radius * contact.overlap).sqrt();
-        let loaded_mass = contact_radius * contact.mass;
-        Response {
-            normal_stiffness: contact_radius * law.normal_stiffness,
-            normal_damping: loaded_mass * law.normal_damping,
-            tangential_stiffness: contact_radius * law.tangential_stiffness,
-            tangential_damping: loaded_mass * law.tangential_damping,
-        }
-    }
-
-    fn tangent_stiffness(&self, contact: &Contact) -> f64 {
-        1.5 * self.normal_stiffness * (contact.radius * contact.overlap).sqrt()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::PairProperties;
     use crate::contact::specimen::{ALL, NOTHING, assert_close, contact, properties, with_pair};
+    use crate::contact::{Contact, NormalForm, PairProperties};
 
     /// κ_n = 100 Pa, κ_t = 50 Pa, g_n = 6/(m s), g_t = 3/(m s).
-    fn law() -> HertzStiffness {
+    fn law() -> Hertzian {
         with_pair(&properties(), |pair| HertzStiffness::between(pair, &NoKeys {}, ALL)).unwrap()
     }
 
     #[test]
     fn stiffness_grows_with_the_radius_of_the_contact() {
-        let response = HertzStiffness::response(law(), &contact());
+        let response = Hertzian::response(law(), &contact());
         assert_eq!([response.normal_stiffness, response.tangential_stiffness], [100.0 / 256.0, 50.0 / 256.0]);
     }
 
     #[test]
     fn damping_grows_with_the_radius_of_the_contact_and_the_mass() {
-        let response = HertzStiffness::response(law(), &contact());
+        let response = Hertzian::response(law(), &contact());
         assert_eq!([response.normal_damping, response.tangential_damping], [4.0 * 6.0 / 256.0, 4.0 * 3.0 / 256.0]);
     }
 
     #[test]
     fn is_slack_at_first_touch() {
-        let response = HertzStiffness::response(law(), &Contact { overlap: 0.0, ..contact() });
+        let response = Hertzian::response(law(), &Contact { overlap: 0.0, ..contact() });
         assert_eq!([response.normal_stiffness, response.normal_damping, response.tangential_damping], [0.0; 3]);
     }
 
@@ -103,7 +80,7 @@ mod tests {
     fn tangent_stiffness_is_the_slope_of_the_force() {
         let force = |overlap| {
             let contact = Contact { overlap, ..contact() };
-            HertzStiffness::response(law(), &contact).normal_stiffness * overlap
+            Hertzian::response(law(), &contact).normal_stiffness * overlap
         };
         let (here, by) = (contact().overlap, 1e-4 * contact().overlap);
         // central difference: relative error (1e-4)²/24

@@ -1,6 +1,6 @@
 //! A linear spring as stiff as a Hertz contact at one chosen speed.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, Response, coefficients};
+use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
 use crate::number::Number;
 use crate::quantity::Positive;
 use serde::Deserialize;
@@ -52,7 +52,7 @@ pub(super) fn stiffness(youngs_modulus: f64, squared_velocity: f64, radius: f64,
 
 impl Normal for Hooke {
     type Keys = Keys;
-    const HAS_PAIR_CONSTANT: bool = true;
+    type Form = Self;
 
     fn between(pair: &MaterialPair, keys: &Keys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let velocity = keys.characteristic_velocity.get();
@@ -60,6 +60,10 @@ impl Normal for Hooke {
         let damping = 2.0 * (log * log / (log * log + PI * PI)).sqrt();
         Ok(Self::new(pair.effective_youngs_modulus()?, velocity * velocity, damping))
     }
+}
+
+impl NormalForm for Hooke {
+    const HAS_PAIR_CONSTANT: bool = true;
 
     fn pair_constant(&self, radius: f64, mass: f64) -> f64 {
         stiffness(self.youngs_modulus, self.squared_velocity, radius, mass)

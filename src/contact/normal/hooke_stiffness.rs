@@ -1,6 +1,6 @@
 //! A linear spring of given stiffness.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, Response, coefficients};
+use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
 use crate::number::Number;
 use serde::Deserialize;
 
@@ -50,6 +50,7 @@ pub struct Keys {
 
 impl Normal for HookeStiffness {
     type Keys = Keys;
+    type Form = Self;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let normal_stiffness = pair.normal_stiffness()?;
@@ -64,7 +65,9 @@ impl Normal for HookeStiffness {
         }
         Ok(Self::new(normal_stiffness, tangential_stiffness, rates[0], rates[1], dampings[0], dampings[1]))
     }
+}
 
+impl NormalForm for HookeStiffness {
     #[inline(always)]
     fn response<N: Number>(law: HookeStiffness<N>, contact: &Contact<N>) -> Response<N> {
         Response {

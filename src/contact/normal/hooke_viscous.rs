@@ -1,7 +1,7 @@
 //! A linear spring whose damping follows a fluid between the bodies.
 
 use super::hooke;
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, Response, coefficients};
+use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
 use crate::number::Number;
 use std::f64::consts::PI;
 
@@ -43,7 +43,7 @@ coefficients! {
 
 impl Normal for HookeViscous {
     type Keys = hooke::Keys;
-    const HAS_PAIR_CONSTANT: bool = true;
+    type Form = Self;
 
     fn between(pair: &MaterialPair, keys: &hooke::Keys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let velocity = keys.characteristic_velocity.get();
@@ -54,6 +54,10 @@ impl Normal for HookeViscous {
             6.0 * PI * pair.fluid_viscosity()? * pair.critical_stokes_number()?,
         ))
     }
+}
+
+impl NormalForm for HookeViscous {
+    const HAS_PAIR_CONSTANT: bool = true;
 
     fn pair_constant(&self, radius: f64, mass: f64) -> f64 {
         hooke::stiffness(self.youngs_modulus, self.squared_velocity, radius, mass)

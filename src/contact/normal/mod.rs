@@ -2,6 +2,7 @@
 
 pub mod hertz;
 pub mod hertz_stiffness;
+pub mod hertzian;
 pub mod hooke;
 pub mod hooke_stiffness;
 pub mod hooke_viscous;

@@ -1,0 +1,49 @@
+//! What all Hertzian models compute.
+
+use crate::contact::{Contact, NormalForm, Response, coefficients};
+use crate::number::Number;
+
+coefficients! {
+    /// Stiffness and damping that grow with the radius of the contact.
+    ///
+    /// ```text
+    /// a = √(R* δ)
+    /// k_n = K_n a                        k_t = K_t a
+    /// γ_n = C_n √(a m*) + D_n a m*       γ_t = C_t √(a m*) + D_t a m*
+    /// ```
+    ///
+    /// The elastic force K_n √R* δ^(3/2) is Hertz's.
+    pub struct Hertzian {
+        /// K_n \[Pa\].
+        normal_stiffness,
+        /// K_t \[Pa\].
+        tangential_stiffness,
+        /// C_n \[√Pa\].
+        normal_root_damping,
+        /// C_t \[√Pa\].
+        tangential_root_damping,
+        /// D_n \[1/(m s)\].
+        normal_mass_damping,
+        /// D_t \[1/(m s)\].
+        tangential_mass_damping,
+    }
+}
+
+impl NormalForm for Hertzian {
+    #[inline(always)]
+    fn response<N: Number>(law: Hertzian<N>, contact: &Contact<N>) -> Response<N> {
+        let contact_radius = (contact.radius * contact.overlap).sqrt();
+        let loaded_mass = contact_radius * contact.mass;
+        let root = loaded_mass.sqrt();
+        Response {
+            normal_stiffness: law.normal_stiffness * contact_radius,
+            normal_damping: law.normal_root_damping * root + law.normal_mass_damping * loaded_mass,
+            tangential_stiffness: law.tangential_stiffness * contact_radius,
+            tangential_damping: law.tangential_root_damping * root + law.tangential_mass_damping * loaded_mass,
+        }
+    }
+
+    fn tangent_stiffness(&self, contact: &Contact) -> f64 {
+        1.5 * self.normal_stiffness * (contact.radius * contact.overlap).sqrt()
+    }
+}
