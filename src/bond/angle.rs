@@ -5,6 +5,9 @@ use crate::number::Number;
 /// Where the polynomial of [`arctangent_ratio`] ends: tan² of 14 degrees.
 const NEAR: f64 = 1.0 / 16.0;
 
+/// Its root.
+const NEAR_TANGENT: f64 = 0.25;
+
 /// Coefficients of (arctan √y/√y − 1)/y on 0 … 1/16, from y⁰ up: Chebyshev interpolation of the ninth order.
 const SERIES: [f64; 9] = [
     -0.333_333_333_333_333_3,
@@ -58,22 +61,31 @@ pub fn tangent_ratio<N: Number>(square: N) -> N {
 /// Twice the angle of the vector (x, y) from the x axis, in −2π … 2π.
 #[inline(always)]
 pub fn twice_angle<N: Number>(x: N, y: N) -> N {
-    let length = (x * x + y * y).sqrt();
-    let half_tangent = y / (length + x.abs());
-    let acute = N::splat(4.0) * half_tangent * arctangent_ratio(half_tangent * half_tangent);
+    let zero = N::zero();
+    // Ahead and flat: 2 arctan(y/x), in the polynomial's near range. Elsewhere by the half angle, which needs a root.
+    let flat = N::both(x.greater(zero), (x * N::splat(NEAR_TANGENT)).greater(y.abs()));
+    let steep = N::select(flat, zero, N::splat(1.0)).greater(zero);
+    let mut tangent = y / N::select(flat, x, N::splat(1.0));
+    let mut factor = N::splat(2.0);
+    if N::any(steep) {
+        let length = (x * x + y * y).sqrt();
+        tangent = N::select(flat, tangent, y / (length + x.abs()));
+        factor = N::select(flat, factor, N::splat(4.0));
+    }
+    let acute = factor * tangent * arctangent_ratio(tangent * tangent);
     let turn = N::splat(std::f64::consts::TAU);
-    let behind = N::select(N::zero().greater(y), -turn, turn) - acute;
-    N::select(N::zero().greater(x), behind, acute)
+    let behind = N::select(zero.greater(y), -turn, turn) - acute;
+    N::select(zero.greater(x), behind, acute)
 }
 
 /// The angle that differs from `angle` by whole double turns (4π) and is nearest to `last`.
 #[inline(always)]
 pub fn continued<N: Number>(angle: N, last: N) -> N {
-    let double_turn = N::splat(2.0 * std::f64::consts::TAU);
+    let double_turn = 2.0 * std::f64::consts::TAU;
     // Adding and taking away 1.5 · 2⁵² rounds to the nearest whole number.
     let rounder = N::splat(6_755_399_441_055_744.0);
-    let turns = ((last - angle) / double_turn + rounder) - rounder;
-    angle + turns * double_turn
+    let turns = ((last - angle) * N::splat(1.0 / double_turn) + rounder) - rounder;
+    angle + turns * N::splat(double_turn)
 }
 
 #[cfg(test)]

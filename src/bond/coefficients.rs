@@ -146,6 +146,14 @@ pub struct Coefficients<N: Number = f64> {
 }
 
 impl<N: Number> Coefficients<N> {
+    /// What relaxation leaves of each part.
+    #[inline(always)]
+    pub fn left(&self) -> Parts<N> {
+        let one = N::splat(1.0);
+        let [normal, shear, torsion, bending] = self.relaxed;
+        [one - normal, one - shear, one - torsion, one - bending]
+    }
+
     /// Normal stiffness per unit area at this compression u (0 inside the dead band) \[Pa/m\].
     #[inline(always)]
     pub fn normal_stiffness(&self, compression: N) -> N {

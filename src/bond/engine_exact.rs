@@ -42,8 +42,8 @@ pub(super) fn spring_energy<N: Number>(square: N, stiffness: N) -> N {
 #[inline(always)]
 pub(super) fn relaxation_loss<N: Number>(left: Parts<N>, before: Parts<N>) -> N {
     let mut lost = N::zero();
-    for (left, before) in left.into_iter().zip(before) {
-        lost = lost + before * (N::splat(1.0) - left * left);
+    for part in 0..4 {
+        lost = lost + before[part] * (N::splat(1.0) - left[part] * left[part]);
     }
     lost
 }
@@ -74,7 +74,7 @@ impl Formulation for EngineExact {
         let axial = law.normal_stiffness(compression) * section.area;
         let normal = axial * compression;
 
-        let left = law.relaxed.map(|relaxed| one - relaxed);
+        let left = law.left();
 
         let stored = Vector::new(fx, fy, fz);
         let shear = stored - axis * stored.dot(axis);

@@ -44,8 +44,9 @@ pub struct FiniteRotation<const RELAXING: bool>;
 /// Largest square of tan(|φ|/2) that is followed: |φ| up to π − 2e-4.
 const STEEPEST: f64 = 1e8;
 
-/// Smallest divisor for the square of tan(|φ|/2); what it divides is 0 to rounding long before.
-const LEAST_SQUARE: f64 = 1e-290;
+/// Smallest divisor for the square of tan(|φ|/2), of which the product of two is still a number; what it divides is 0 to
+/// rounding long before.
+const LEAST_SQUARE: f64 = 1e-140;
 
 /// One body's end of the bond.
 #[derive(Clone, Copy)]
@@ -62,18 +63,36 @@ struct End<N: Number> {
     square: N,
     /// arctan(|m|)/|m|.
     ratio: N,
+    /// Twice its derivative with respect to |m|².
+    slope: N,
 }
 
 impl<N: Number> End<N> {
-    /// Of a body that carries this axis.
+    /// Of two bodies that carry these axes. They share their divisions, which are dear.
     #[inline(always)]
-    fn of(carried: Vector<N>, axis: Vector<N>) -> Self {
+    fn both(carried_i: Vector<N>, carried_j: Vector<N>, axis: Vector<N>) -> [Self; 2] {
         let one = N::splat(1.0);
-        let cosine = carried.dot(axis);
-        let share = one / (one + cosine);
+        let (cosine_i, cosine_j) = (carried_i.dot(axis), carried_j.dot(axis));
+        let (above_i, above_j) = (one + cosine_i, one + cosine_j);
+        let product = one / (above_i * above_j);
+        let mut i = Self::of(carried_i, cosine_i, product * above_j, axis);
+        let mut j = Self::of(carried_j, cosine_j, product * above_i, axis);
+        // d(arctan(√y)/√y)/dy = (1/(1 + y) − arctan(√y)/√y)/(2 y), and 1/(1 + y) = (1 + a·e)/2. What it
+        // loses to cancellation near y = 0 is multiplied by y again.
+        let least = N::splat(LEAST_SQUARE);
+        let (square_i, square_j) = (i.square.max(least), j.square.max(least));
+        let product = one / (square_i * square_j);
+        i.slope = (N::splat(0.5) * above_i - i.ratio) * (product * square_j);
+        j.slope = (N::splat(0.5) * above_j - j.ratio) * (product * square_i);
+        [i, j]
+    }
+
+    /// With all but the slope.
+    #[inline(always)]
+    fn of(carried: Vector<N>, cosine: N, share: N, axis: Vector<N>) -> Self {
         let tangent = carried.cross(axis) * share;
         let square = tangent.dot(tangent);
-        Self { carried, cosine, share, tangent, square, ratio: arctangent_ratio(square) }
+        Self { carried, cosine, share, tangent, square, ratio: arctangent_ratio(square), slope: N::zero() }
     }
 
     /// φ: rotation vector from the carried axis to the bond's \[rad\].
@@ -85,12 +104,8 @@ impl<N: Number> End<N> {
     /// From ∂U/∂φ: the torque on the body, and ∂U/∂e \[N m\].
     #[inline(always)]
     fn moment(&self, gradient: Vector<N>, axis: Vector<N>) -> (Vector<N>, Vector<N>) {
-        // d(arctan(√y)/√y)/dy = (1/(1 + y) − arctan(√y)/√y)/(2 y), and 1/(1 + y) = (1 + a·e)/2. What it
-        // loses to cancellation near y = 0 is multiplied by y again.
-        let half_versine = N::splat(0.5) * (N::splat(1.0) + self.cosine);
-        let slope = (half_versine - self.ratio) / self.square.max(N::splat(LEAST_SQUARE));
         let by_tangent = gradient * (N::splat(2.0) * self.ratio)
-            + self.tangent * (N::splat(2.0) * slope * gradient.dot(self.tangent));
+            + self.tangent * (N::splat(2.0) * self.slope * gradient.dot(self.tangent));
         let along = by_tangent.dot(self.tangent);
         let to_axis = (by_tangent.cross(self.carried) - self.carried * along) * self.share;
         let torque =
@@ -152,8 +167,7 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
 
         let own = Vector::new(ox, oy, oz);
         let frame_j = pair.attitude_j * Quaternion::from_row(other);
-        let i = End::of(pair.attitude_i.turn(own), axis);
-        let j = End::of(frame_j.turn(own), axis);
+        let [i, j] = End::both(pair.attitude_i.turn(own), frame_j.turn(own), axis);
         let relative = frame_j * pair.attitude_i.conjugate();
         let (along, across) = twist(relative, &i, &j, axis);
         let whole_twist = continued(twice_angle(along, across), last_twist);
@@ -176,7 +190,7 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
         let across_axis = to_axis - axis * to_axis.dot(axis);
         let force = axis * normal - across_axis * (one / motion.distance);
 
-        let left = law.relaxed.map(|relaxed| one - relaxed);
+        let left = law.left();
         let parts = [
             half * normal * compression,
             half * shearing.dot(sheared),
@@ -184,8 +198,8 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
             half * bending.dot(bent),
         ];
         let mut energy = N::zero();
-        for (part, left) in parts.into_iter().zip(left) {
-            energy = energy + part * left * left;
+        for part in 0..4 {
+            energy = energy + parts[part] * left[part] * left[part];
         }
         let mut state = [rows[0], rows[1], [whole_twist, free_twist, length, spare]];
         if RELAXING {

@@ -114,7 +114,7 @@ impl Formulation for Incremental {
         let half = N::splat(0.5);
         let (axis, section) = (motion.axis, &motion.section);
         let [[fx, fy, fz, reference], [tx, ty, tz, torsion], _] = *rows;
-        let left = law.relaxed.map(|relaxed| N::splat(1.0) - relaxed);
+        let left = law.left();
         let turn = Turn::of(law, pair, axis);
 
         let compression = reference - motion.distance;

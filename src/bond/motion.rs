@@ -59,9 +59,9 @@ impl<N: Number> Pair<N> {
     /// Two spheres.
     #[inline(always)]
     pub fn of_spheres(i: &Body<N>, j: &Body<N>) -> Self {
-        let share_i = i.radius / (i.radius + j.radius);
-        let share_j = j.radius / (i.radius + j.radius);
-        Self::of(i, j, [share_i, share_j, share_i], i.radius.min(j.radius))
+        let per_radius = N::splat(1.0) / (i.radius + j.radius);
+        let share_i = i.radius * per_radius;
+        Self::of(i, j, [share_i, j.radius * per_radius, share_i], i.radius.min(j.radius))
     }
 
     /// A sphere and the point of a wall where its bond stands; that point moves and turns with the wall.
