@@ -6,6 +6,8 @@
 pub mod bond;
 mod choices;
 pub mod contact;
+pub mod export;
+pub mod interface;
 pub mod number;
 pub mod quantity;
 pub mod scene;

@@ -1,1 +1,247 @@
-//! The FMI 2.0 functions.
+//! The FMI 2.0 functions for co-simulation. Each is a few lines around [`guard::call`].
+//!
+//! # Safety
+//!
+//! For all of them FMI 2.0 demands what C cannot say: arrays hold as many elements as the call says, strings end
+//! in a zero, and pointers to results may be written. Components and state handles are looked up, not followed:
+//! wrong ones are refused.
+
+#![allow(clippy::missing_safety_doc, reason = "the demands are those of FMI 2.0, stated above once for all functions")]
+
+mod calls;
+mod guard;
+mod instance;
+mod location;
+mod logger;
+mod refusal;
+mod saved;
+mod types;
+mod values;
+
+use cograin::export::LIBRARY_MARK;
+use guard::{Guarded, call, slice, slice_mut, target, text};
+use instance::{Instance, Request};
+use logger::Logger;
+use refusal::Refusal;
+use std::ffi::{CStr, c_char, c_int};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::{self, null_mut};
+use std::sync::Mutex;
+use types::{Boolean, Callbacks, Component, StateHandle, Status, Text};
+
+/// Tells `cograin export` that this is the right library.
+#[used]
+static MARK: [u8; LIBRARY_MARK.len()] = {
+    let mut bytes = [0; LIBRARY_MARK.len()];
+    bytes.copy_from_slice(LIBRARY_MARK.as_bytes());
+    bytes
+};
+
+/// `fmi2GetTypesPlatform`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> Text {
+    c"default".as_ptr()
+}
+
+/// `fmi2GetVersion`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> Text {
+    c"2.0".as_ptr()
+}
+
+/// `fmi2Instantiate`: null if there is no instance; the reason goes to the logger.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    name: Text,
+    kind: c_int,
+    guid: Text,
+    location: Text,
+    functions: *const Callbacks,
+    _visible: Boolean,
+    logging: Boolean,
+) -> Component {
+    guard::silence_panics();
+    // SAFETY: demands of FMI 2.0.
+    let (callbacks, label) = unsafe { (functions.as_ref(), if name.is_null() { c"" } else { CStr::from_ptr(name) }) };
+    let Some(callbacks) = callbacks else { return null_mut() };
+    let logger = Logger::new(*callbacks, label, logging != 0);
+    // SAFETY: demands of FMI 2.0.
+    let request = unsafe { Request { name: text(name), kind, identity: text(guid), location: text(location) } };
+    match catch_unwind(AssertUnwindSafe(|| Instance::new(&request))) {
+        Ok(Ok(instance)) => {
+            logger.event(|| format!("fmi2Instantiate: {}", instance.about()));
+            guard::enter(Guarded { instance: Mutex::new(instance), logger })
+        }
+        Ok(Err(error)) => {
+            logger.failed("fmi2Instantiate", &error.to_string());
+            null_mut()
+        }
+        Err(panic) => {
+            logger.failed("fmi2Instantiate", &format!("internal error: {}", guard::message_of(panic.as_ref())));
+            null_mut()
+        }
+    }
+}
+
+/// `fmi2FreeInstance`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2FreeInstance(component: Component) {
+    guard::leave(component);
+}
+
+/// `fmi2SetDebugLogging`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    component: Component,
+    on: Boolean,
+    count: usize,
+    categories: *const Text,
+) -> Status {
+    call(component, &calls::SET_DEBUG_LOGGING, |_, logger| {
+        // SAFETY: demands of FMI 2.0.
+        let names = unsafe { slice("categories", categories, count)?.iter().map(|&name| text(name)) };
+        let names = names.collect::<Option<Vec<_>>>().ok_or(Refusal::Null { argument: "a category" })?;
+        logger.want(on != 0, &names)
+    })
+}
+
+/// `fmi2SetupExperiment`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2SetupExperiment(
+    component: Component,
+    tolerance_defined: Boolean,
+    tolerance: f64,
+    start: f64,
+    stop_defined: Boolean,
+    stop: f64,
+) -> Status {
+    call(component, &calls::SETUP_EXPERIMENT, |instance, _| {
+        let given = |defined: Boolean, value| (defined != 0).then_some(value);
+        instance.set_up(start, given(stop_defined, stop), given(tolerance_defined, tolerance))
+    })
+}
+
+/// `fmi2EnterInitializationMode`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2EnterInitializationMode(component: Component) -> Status {
+    call(component, &calls::ENTER_INITIALIZATION_MODE, |instance, _| {
+        instance.enter_initialization();
+        Ok(())
+    })
+}
+
+/// `fmi2ExitInitializationMode`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2ExitInitializationMode(component: Component) -> Status {
+    call(component, &calls::EXIT_INITIALIZATION_MODE, |instance, logger| {
+        instance.exit_initialization()?;
+        logger.event(|| format!("fmi2ExitInitializationMode: starts at {} s", instance.time()));
+        Ok(())
+    })
+}
+
+/// `fmi2Terminate`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2Terminate(component: Component) -> Status {
+    call(component, &calls::TERMINATE, |instance, _| {
+        instance.terminate();
+        Ok(())
+    })
+}
+
+/// `fmi2Reset`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2Reset(component: Component) -> Status {
+    call(component, &calls::RESET, |instance, _| instance.reset())
+}
+
+/// `fmi2GetFMUstate`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut StateHandle) -> Status {
+    call(component, &calls::GET_STATE, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let handle = unsafe { target("FMUstate", state)? };
+        *handle = ptr::without_provenance_mut(instance.save(handle.addr())?);
+        Ok(())
+    })
+}
+
+/// `fmi2SetFMUstate`
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2SetFMUstate(component: Component, state: StateHandle) -> Status {
+    call(component, &calls::SET_STATE, |instance, _| instance.restore(state.addr()))
+}
+
+/// `fmi2FreeFMUstate`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut StateHandle) -> Status {
+    call(component, &calls::FREE_STATE, |instance, _| {
+        if state.is_null() {
+            return Ok(());
+        }
+        // SAFETY: demands of FMI 2.0.
+        let handle = unsafe { target("FMUstate", state)? };
+        instance.forget(handle.addr())?;
+        *handle = null_mut();
+        Ok(())
+    })
+}
+
+/// `fmi2SerializedFMUstateSize`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    component: Component,
+    state: StateHandle,
+    size: *mut usize,
+) -> Status {
+    call(component, &calls::SERIALIZED_SIZE, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        *unsafe { target("size", size)? } = instance.serialized_size(state.addr())?;
+        Ok(())
+    })
+}
+
+/// `fmi2SerializeFMUstate`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    component: Component,
+    state: StateHandle,
+    bytes: *mut c_char,
+    size: usize,
+) -> Status {
+    call(component, &calls::SERIALIZE, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let buffer = unsafe { slice_mut("serializedState", bytes.cast::<u8>(), size)? };
+        instance.serialize(state.addr(), buffer)
+    })
+}
+
+/// `fmi2DeSerializeFMUstate`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    component: Component,
+    bytes: *const c_char,
+    size: usize,
+    state: *mut StateHandle,
+) -> Status {
+    call(component, &calls::DESERIALIZE, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (bytes, handle) = unsafe { (slice("serializedState", bytes.cast::<u8>(), size)?, target("FMUstate", state)?) };
+        *handle = ptr::without_provenance_mut(instance.deserialize(bytes, handle.addr())?);
+        Ok(())
+    })
+}
+
+/// `fmi2DoStep`. That states before the point are not restored is of no use here: nothing is kept for them.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2DoStep(component: Component, point: f64, length: f64, _no_restore_before: Boolean) -> Status {
+    call(component, &calls::DO_STEP, |instance, logger| {
+        instance.step(point, length)?;
+        logger.event(|| format!("fmi2DoStep: {length} s to {} s", instance.time()));
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+#[path = "../tests/calls.rs"]
+mod tests;

@@ -1,0 +1,406 @@
+//! One instance of the unit: the functions of FMI 2.0 in safe Rust.
+
+use crate::calls::Phase;
+use crate::location::{self, LocationError};
+use crate::refusal::Refusal;
+use crate::saved::{Course, Saved};
+use crate::types::{Reference, Status};
+use cograin::export::{ResourceError, identity, read_resources};
+use cograin::interface::{Interface, Value, Variable};
+use cograin::scene::{Scene, SceneErrors};
+use cograin::state::State;
+use cograin::state::snapshot::SnapshotError;
+use cograin::step::{RunError, Simulation};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Time steps in one communication step beyond which the host is taken to be in error: days of computing.
+const MOST_STEPS: f64 = 1e12;
+
+/// Why there is no instance.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum StartError {
+    /// An argument is missing.
+    #[error("{argument} is missing; {right} is right")]
+    Missing {
+        /// The argument.
+        argument: &'static str,
+        /// What would be right.
+        right: &'static str,
+    },
+    /// Model exchange.
+    #[error("fmuType {found} is not provided; fmi2CoSimulation (1) is right")]
+    Type {
+        /// The type asked for.
+        found: i32,
+    },
+    /// The location is no path.
+    #[error(transparent)]
+    Location(#[from] LocationError),
+    /// The resources cannot be read.
+    #[error(transparent)]
+    Resources(#[from] ResourceError),
+    /// Description and resources do not belong together.
+    #[error("fmuGUID {given} is not that of the resources with this library, {expected}; the description, resources \
+             and library of one export are right")]
+    Identity {
+        /// The GUID given.
+        given: String,
+        /// That of the resources.
+        expected: String,
+    },
+    /// The scene is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// The state to begin in is refused.
+    #[error("resources/state.bin: {0}")]
+    State(#[from] SnapshotError),
+    /// The scene does not start.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// What the host says when it makes an instance.
+pub(crate) struct Request {
+    /// Name of the instance.
+    pub(crate) name: Option<String>,
+    /// Kind of unit.
+    pub(crate) kind: i32,
+    /// GUID of the description that the host has read.
+    pub(crate) identity: Option<String>,
+    /// Where the resources are.
+    pub(crate) location: Option<String>,
+}
+
+/// What an instance is made of, which never changes.
+struct Unit {
+    /// The scene.
+    scene: Arc<Scene>,
+    /// The state to begin in, if it is not the scene's own.
+    start: Option<State>,
+    /// The variables.
+    interface: Interface,
+    /// The GUID.
+    identity: String,
+}
+
+impl Unit {
+    /// Reads the resources.
+    fn read(request: &Request) -> Result<Self, StartError> {
+        let missing = |argument, right| StartError::Missing { argument, right };
+        if request.name.as_ref().is_none_or(String::is_empty) {
+            return Err(missing("instanceName", "a name"));
+        }
+        if request.kind != crate::types::CO_SIMULATION {
+            return Err(StartError::Type { found: request.kind });
+        }
+        let given = request.identity.as_ref().ok_or_else(|| missing("fmuGUID", "the guid of modelDescription.xml"))?;
+        let location = request.location.as_ref();
+        let location = location.ok_or_else(|| missing("fmuResourceLocation", "a file: URI of the resources folder"))?;
+        let contents = read_resources(&location::path_of(location)?)?;
+        let expected = identity(&contents.source, contents.state.as_deref());
+        if *given != expected {
+            return Err(StartError::Identity { given: given.clone(), expected });
+        }
+        let scene = Scene::from_source(&contents.source)?;
+        let start = contents.state.map(|bytes| State::from_bytes(&bytes, scene.fingerprint)).transpose()?;
+        Ok(Self { interface: Interface::of(&scene), scene: Arc::new(scene), start, identity: expected })
+    }
+
+    /// A simulation at its beginning.
+    fn begin(&self) -> Result<Simulation, RunError> {
+        match &self.start {
+            Some(state) => Ok(Simulation::resume(Arc::clone(&self.scene), state.clone())),
+            None => Simulation::new(Arc::clone(&self.scene)),
+        }
+    }
+}
+
+/// A saved state, and its bytes once they were asked for.
+struct Kept {
+    /// The state.
+    saved: Saved,
+    /// Its bytes, between asking for their number and for themselves.
+    bytes: Option<Vec<u8>>,
+}
+
+/// An instance.
+pub(crate) struct Instance {
+    /// What it is made of.
+    unit: Unit,
+    /// The scene in motion.
+    simulation: Simulation,
+    /// What changes beside it.
+    course: Course,
+    /// Saved states, by the addresses that the host knows them by.
+    kept: BTreeMap<usize, Box<Kept>>,
+}
+
+impl Instance {
+    /// An instance as the host asks for it.
+    pub(crate) fn new(request: &Request) -> Result<Self, StartError> {
+        let unit = Unit::read(request)?;
+        let simulation = unit.begin()?;
+        let course = Self::at_the_beginning(&simulation);
+        Ok(Self { unit, simulation, course, kept: BTreeMap::new() })
+    }
+
+    /// Before anything was set.
+    fn at_the_beginning(simulation: &Simulation) -> Course {
+        let origin = -simulation.time();
+        Course { phase: Phase::Instantiated, placed: true, last_step: Status::Ok, origin, stop: None }
+    }
+
+    /// One line about it.
+    pub(crate) fn about(&self) -> String {
+        format!("{} spheres, {} boundaries", self.unit.scene.particles.len(), self.unit.scene.boundaries.len())
+    }
+
+    /// Where it stands.
+    pub(crate) fn phase(&self) -> Phase {
+        self.course.phase
+    }
+
+    /// Nothing but resetting and freeing helps now.
+    pub(crate) fn break_down(&mut self) {
+        self.course.phase = Phase::Broken;
+    }
+
+    /// The host's time \[s\].
+    pub(crate) fn time(&self) -> f64 {
+        self.simulation.time() + self.course.origin
+    }
+
+    /// How the last communication step ended.
+    pub(crate) fn last_step(&self) -> Status {
+        self.course.last_step
+    }
+
+    /// `fmi2SetupExperiment`
+    pub(crate) fn set_up(&mut self, start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Result<(), Refusal> {
+        if !start.is_finite() {
+            return Err(Refusal::Time { argument: "startTime", value: start, right: "a finite number" });
+        }
+        if let Some(value) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
+            let right = "a finite number, startTime or later,";
+            return Err(Refusal::Time { argument: "stopTime", value, right });
+        }
+        if let Some(value) = tolerance.filter(|tolerance| !tolerance.is_finite() || *tolerance < 0.0) {
+            return Err(Refusal::Tolerance { value });
+        }
+        self.course.origin = start - self.simulation.time();
+        self.course.stop = stop;
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`
+    pub(crate) fn enter_initialization(&mut self) {
+        self.course.phase = Phase::Initialization;
+    }
+
+    /// `fmi2ExitInitializationMode`
+    pub(crate) fn exit_initialization(&mut self) -> Result<(), Refusal> {
+        self.place()?;
+        self.course.phase = Phase::Ready;
+        Ok(())
+    }
+
+    /// `fmi2Terminate`
+    pub(crate) fn terminate(&mut self) {
+        self.course.phase = Phase::Terminated;
+    }
+
+    /// `fmi2Reset`. Saved states stay.
+    pub(crate) fn reset(&mut self) -> Result<(), Refusal> {
+        self.simulation = self.unit.begin().map_err(Refusal::Start)?;
+        self.course = Self::at_the_beginning(&self.simulation);
+        Ok(())
+    }
+
+    /// Takes the boundaries to the start values of the inputs, without motion.
+    fn place(&mut self) -> Result<(), Refusal> {
+        if !self.course.placed {
+            self.unit.interface.place(&mut self.simulation).map_err(Refusal::Start)?;
+            self.course.placed = true;
+        }
+        Ok(())
+    }
+
+    /// The variable with a reference, if it is of the type that the function is for.
+    fn variable(&self, reference: Reference, expected: &'static str) -> Result<(usize, &Variable), Refusal> {
+        let index = reference as usize;
+        let variable = self.unit.interface.variable(index)?;
+        let found = if variable.quantity.unit().is_some() { "Real" } else { "Integer" };
+        if found == expected {
+            Ok((index, variable))
+        } else {
+            Err(Refusal::Type { reference, name: variable.name.clone(), found, expected })
+        }
+    }
+
+    /// Values of variables of one type.
+    pub(crate) fn values(&mut self, references: &[Reference], kind: &'static str) -> Result<Vec<Value>, Refusal> {
+        for &reference in references {
+            self.variable(reference, kind)?;
+        }
+        self.place()?;
+        references.iter().map(|&reference| self.value(reference, kind)).collect()
+    }
+
+    /// Value of one variable, if it is a number.
+    fn value(&self, reference: Reference, kind: &'static str) -> Result<Value, Refusal> {
+        let (index, variable) = self.variable(reference, kind)?;
+        let value = self.unit.interface.value(&self.simulation, index);
+        if value.number().is_finite() {
+            Ok(value)
+        } else {
+            Err(Refusal::NoNumber { reference, name: variable.name.clone(), value: value.number() })
+        }
+    }
+
+    /// `fmi2SetReal`: all or nothing.
+    pub(crate) fn set_reals(&mut self, references: &[Reference], values: &[f64]) -> Result<(), Refusal> {
+        for (&reference, &value) in references.iter().zip(values) {
+            let (index, _) = self.variable(reference, "Real")?;
+            self.unit.interface.check(index, value)?;
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            self.unit.interface.set(&mut self.simulation, reference as usize, Value::Real(value))?;
+        }
+        if matches!(self.course.phase, Phase::Instantiated | Phase::Initialization) && !references.is_empty() {
+            self.course.placed = false;
+        }
+        Ok(())
+    }
+
+    /// The other setters: there are no inputs of these types, so every reference is a wrong one.
+    pub(crate) fn refuse_to_set(&self, references: &[Reference], kind: &'static str) -> Result<(), Refusal> {
+        for &reference in references {
+            let (index, _) = self.variable(reference, kind)?;
+            self.unit.interface.check(index, 0.0)?;
+        }
+        Ok(())
+    }
+
+    /// `fmi2SetRealInputDerivatives`: all or nothing.
+    pub(crate) fn set_rates(&mut self, references: &[Reference], orders: &[i32], rates: &[f64]) -> Result<(), Refusal> {
+        for ((&reference, &order), &rate) in references.iter().zip(orders).zip(rates) {
+            let (index, variable) = self.variable(reference, "Real")?;
+            if order != 1 {
+                return Err(Refusal::Order { order, reference, name: variable.name.clone() });
+            }
+            self.unit.interface.check(index, rate)?;
+        }
+        for (&reference, &rate) in references.iter().zip(rates) {
+            self.unit.interface.set_rate(&mut self.simulation, reference as usize, rate)?;
+        }
+        Ok(())
+    }
+
+    /// `fmi2DoStep`
+    pub(crate) fn step(&mut self, point: f64, length: f64) -> Result<(), Refusal> {
+        let present = self.time();
+        if !point.is_finite() {
+            let right = "a finite number";
+            return Err(Refusal::Time { argument: "currentCommunicationPoint", value: point, right });
+        }
+        if !length.is_finite() || length <= 0.0 || present + length <= present {
+            let right = "a finite number above 0, large enough to change the time,";
+            return Err(Refusal::Time { argument: "communicationStepSize", value: length, right });
+        }
+        // hosts count in nanoseconds or sum up; a step that was left out or done twice differs by far more
+        let tolerance = 1e-3 * length + 1e-9 * present.abs();
+        if (point - present).abs() > tolerance {
+            return Err(Refusal::Point { given: point, present });
+        }
+        if let Some(stop) = self.course.stop.filter(|stop| present + length > stop + tolerance) {
+            return Err(Refusal::Stop { end: present + length, stop });
+        }
+        let step = self.simulation.state().clock.step;
+        if length / step > MOST_STEPS {
+            return Err(Refusal::TooMany { length, count: length / step, step, most: MOST_STEPS });
+        }
+        match self.simulation.advance(length) {
+            Ok(()) => {
+                (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);
+                Ok(())
+            }
+            Err(cause) => {
+                (self.course.phase, self.course.last_step) = (Phase::Discarded, Status::Discard);
+                Err(Refusal::Discarded { cause, time: self.time() })
+            }
+        }
+    }
+
+    /// `fmi2GetFMUstate`: over the state at `address`, or anew if that is 0. Yields the address.
+    pub(crate) fn save(&mut self, address: usize) -> Result<usize, Refusal> {
+        if address != 0 && !self.kept.contains_key(&address) {
+            return Err(Refusal::Handle);
+        }
+        let saved = Saved { state: self.simulation.state().clone(), course: self.course };
+        Ok(self.keep(saved, address))
+    }
+
+    /// Keeps a state at `address`, or anew if that is none of ours. Yields the address.
+    fn keep(&mut self, saved: Saved, address: usize) -> usize {
+        if let Some(kept) = self.kept.get_mut(&address) {
+            **kept = Kept { saved, bytes: None };
+            return address;
+        }
+        let kept = Box::new(Kept { saved, bytes: None });
+        // an address of our own: no other instance, of this unit or another, has the same
+        let address = std::ptr::from_ref(kept.as_ref()).addr();
+        self.kept.insert(address, kept);
+        address
+    }
+
+    /// `fmi2SetFMUstate`
+    pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
+        let kept = self.kept.get(&address).ok_or(Refusal::Handle)?;
+        self.simulation.restore(&kept.saved.state);
+        self.course = kept.saved.course;
+        Ok(())
+    }
+
+    /// `fmi2FreeFMUstate`; freeing nothing is fine.
+    pub(crate) fn forget(&mut self, address: usize) -> Result<(), Refusal> {
+        if address == 0 {
+            return Ok(());
+        }
+        self.kept.remove(&address).map(drop).ok_or(Refusal::Handle)
+    }
+
+    /// Bytes of a saved state.
+    fn bytes(&mut self, address: usize) -> Result<&mut Option<Vec<u8>>, Refusal> {
+        let kept = self.kept.get_mut(&address).ok_or(Refusal::Handle)?;
+        if kept.bytes.is_none() {
+            kept.bytes = Some(kept.saved.to_bytes(&self.unit.identity, self.unit.scene.fingerprint));
+        }
+        Ok(&mut kept.bytes)
+    }
+
+    /// `fmi2SerializedFMUstateSize`
+    pub(crate) fn serialized_size(&mut self, address: usize) -> Result<usize, Refusal> {
+        Ok(self.bytes(address)?.as_ref().map_or(0, Vec::len))
+    }
+
+    /// `fmi2SerializeFMUstate`: a large buffer is filled to the number of bytes there are.
+    pub(crate) fn serialize(&mut self, address: usize, buffer: &mut [u8]) -> Result<(), Refusal> {
+        let given = buffer.len();
+        let kept = self.bytes(address)?;
+        let needed = kept.as_ref().map_or(0, Vec::len);
+        let Some(target) = buffer.get_mut(..needed) else { return Err(Refusal::Size { given, needed }) };
+        // the bytes are as large as the state; they are made again if they are asked for again
+        target.copy_from_slice(&kept.take().unwrap_or_default());
+        Ok(())
+    }
+
+    /// `fmi2DeSerializeFMUstate`: over the state at `address`, or anew. Yields the address.
+    pub(crate) fn deserialize(&mut self, bytes: &[u8], address: usize) -> Result<usize, Refusal> {
+        if address != 0 && !self.kept.contains_key(&address) {
+            return Err(Refusal::Handle);
+        }
+        let saved = Saved::from_bytes(bytes, &self.unit.identity, self.unit.scene.fingerprint)?;
+        Ok(self.keep(saved, address))
+    }
+}

@@ -1,0 +1,99 @@
+//! Messages to the host.
+
+use crate::refusal::Refusal;
+use crate::types::{Callbacks, Status};
+use cograin::export::LOG_CATEGORIES;
+use std::ffi::{CStr, CString};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A category of messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Category {
+    /// Refused calls.
+    Error = 1,
+    /// Communication steps that ended early.
+    Discard = 2,
+    /// What happens.
+    Events = 4,
+}
+
+/// Place of `logAll` in [`LOG_CATEGORIES`]; the categories after it are bits 0, 1, 2 … of the mask.
+const ALL: usize = 0;
+
+/// Where messages of an instance go.
+pub(crate) struct Logger {
+    /// A copy: the host may free its own after `fmi2Instantiate`.
+    callbacks: Callbacks,
+    /// Name of the instance.
+    name: CString,
+    /// Categories that are wanted, as bits.
+    wanted: AtomicU32,
+}
+
+// SAFETY: the environment pointer is only handed back to the host's own logger; FMI has the host see to it that
+// its logger may be called from whatever thread calls the instance.
+unsafe impl Send for Logger {}
+// SAFETY: as above; nothing is written through the pointers.
+unsafe impl Sync for Logger {}
+
+impl Logger {
+    /// A logger that reports errors, and everything if `verbose` is set.
+    pub(crate) fn new(callbacks: Callbacks, name: &CStr, verbose: bool) -> Self {
+        let wanted = AtomicU32::new(if verbose { u32::MAX } else { 0 });
+        Self { callbacks, name: name.to_owned(), wanted }
+    }
+
+    /// Switches categories on or off; no names mean all.
+    pub(crate) fn want(&self, on: bool, names: &[String]) -> Result<(), Refusal> {
+        let mut mask = if names.is_empty() { u32::MAX } else { 0 };
+        for name in names {
+            match LOG_CATEGORIES.iter().position(|(known, _)| known == name) {
+                Some(ALL) => mask = u32::MAX,
+                Some(place) => mask |= 1 << (place - 1),
+                None => return Err(Refusal::Category { name: name.clone() }),
+            }
+        }
+        if on {
+            self.wanted.fetch_or(mask, Ordering::Relaxed);
+        } else {
+            self.wanted.fetch_and(!mask, Ordering::Relaxed);
+        }
+        Ok(())
+    }
+
+    /// Reports that a function refused; whether or not it is wanted.
+    pub(crate) fn refused(&self, function: &str, refusal: &Refusal) {
+        let status = refusal.status();
+        let category = if status == Status::Discard { Category::Discard } else { Category::Error };
+        self.send(status, category, &format!("{function}: {refusal}"));
+    }
+
+    /// Reports that there is no instance.
+    pub(crate) fn failed(&self, function: &str, reason: &str) {
+        self.send(Status::Error, Category::Error, &format!("{function}: {reason}"));
+    }
+
+    /// Reports what happened, if it is wanted.
+    pub(crate) fn event(&self, message: impl FnOnce() -> String) {
+        if self.wanted.load(Ordering::Relaxed) & Category::Events as u32 != 0 {
+            self.send(Status::Ok, Category::Events, &message());
+        }
+    }
+
+    /// Hands a finished message to the host.
+    fn send(&self, status: Status, category: Category, message: &str) {
+        let Some(logger) = self.callbacks.logger else { return };
+        // some hosts run printf over the message: a percent sign would read arguments that are not there
+        let message = message.replace('%', " percent").replace('\0', " ");
+        let Ok(message) = CString::new(message) else { return };
+        let category = match category {
+            Category::Error => c"logStatusError",
+            Category::Discard => c"logStatusDiscard",
+            Category::Events => c"logEvents",
+        };
+        // SAFETY: the host vouches for its logger; all strings end in a zero and live until it returns.
+        unsafe {
+            logger(self.callbacks.environment, self.name.as_ptr(), status, category.as_ptr(), message.as_ptr());
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Why a call was refused.
+
+use crate::calls::Phase;
+use crate::types::Status;
+use cograin::interface::InterfaceError;
+use cograin::step::RunError;
+
+/// Why a call was refused. Nothing has changed then, but by [`Refusal::Discarded`] and [`Refusal::Panic`].
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Refusal {
+    /// Not now.
+    #[error("called {phase}; {} is right", list(allowed))]
+    Phase {
+        /// Where the instance stands.
+        phase: Phase,
+        /// Where it may stand.
+        allowed: &'static [Phase],
+    },
+    /// A call within a call, or from two threads at once.
+    #[error("called while another call of this instance runs; one call at a time is right")]
+    Busy,
+    /// A null pointer.
+    #[error("{argument} is null; an address is right")]
+    Null {
+        /// The argument.
+        argument: &'static str,
+    },
+    /// An array that no memory holds.
+    #[error("{argument} has {length} elements; fewer are right")]
+    Length {
+        /// The argument.
+        argument: &'static str,
+        /// Its length.
+        length: usize,
+    },
+    /// The variable cannot be set so.
+    #[error(transparent)]
+    Interface(#[from] InterfaceError),
+    /// A variable of another type.
+    #[error("{reference} ({name}) is {found}; a variable of type {expected} is right")]
+    Type {
+        /// Its value reference.
+        reference: u32,
+        /// Its name.
+        name: String,
+        /// Its type.
+        found: &'static str,
+        /// The type of the function.
+        expected: &'static str,
+    },
+    /// A result that is no number.
+    #[error("{reference} ({name}) is {value}; its last finite value was before this time")]
+    NoNumber {
+        /// Its value reference.
+        reference: u32,
+        /// Its name.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A derivative of an order that is not taken.
+    #[error("order {order} for {reference} ({name}); order 1 is right")]
+    Order {
+        /// The order.
+        order: i32,
+        /// The variable's value reference.
+        reference: u32,
+        /// Its name.
+        name: String,
+    },
+    /// A capability that is declared absent.
+    #[error("this unit provides none: {flag} in modelDescription.xml")]
+    Absent {
+        /// The flag and its value.
+        flag: &'static str,
+    },
+    /// A time that is none.
+    #[error("{argument} is {value} s; {right} is right")]
+    Time {
+        /// The argument.
+        argument: &'static str,
+        /// Its value \[s\].
+        value: f64,
+        /// What would be right.
+        right: &'static str,
+    },
+    /// A tolerance that is none.
+    #[error("tolerance is {value}; a finite number of 0 or above is right")]
+    Tolerance {
+        /// Its value.
+        value: f64,
+    },
+    /// A communication step from another time.
+    #[error("the communication point {given} s is not the present time, {present} s")]
+    Point {
+        /// What was given \[s\].
+        given: f64,
+        /// The present time \[s\].
+        present: f64,
+    },
+    /// A communication step beyond the experiment.
+    #[error("the step to {end} s goes beyond the stop time of fmi2SetupExperiment, {stop} s")]
+    Stop {
+        /// End of the step \[s\].
+        end: f64,
+        /// Stop time \[s\].
+        stop: f64,
+    },
+    /// A communication step that nobody would see the end of.
+    #[error("a step of {length} s is {count:.1e} time steps of {step:.2e} s; at most {most:.0e} are right")]
+    TooMany {
+        /// Length of the communication step \[s\].
+        length: f64,
+        /// Its number of time steps.
+        count: f64,
+        /// The time step \[s\].
+        step: f64,
+        /// The largest number.
+        most: f64,
+    },
+    /// A handle that is not of this instance.
+    #[error("not a state that fmi2GetFMUstate or fmi2DeSerializeFMUstate of this instance gave out")]
+    Handle,
+    /// A buffer of a wrong size.
+    #[error("{given} bytes are given; {needed} are right")]
+    Size {
+        /// Its size.
+        given: usize,
+        /// The right size.
+        needed: usize,
+    },
+    /// Bytes that are no state of this unit.
+    #[error(transparent)]
+    Blob(#[from] crate::saved::BlobError),
+    /// A category of messages that is not declared.
+    #[error("there is no category {name:?}; {} are right", categories())]
+    Category {
+        /// The name given.
+        name: String,
+    },
+    /// A kind of status that is not there.
+    #[error("status kind {kind} is not of this type")]
+    Kind {
+        /// The kind.
+        kind: i32,
+    },
+    /// `fmi2CancelStep`
+    #[error("no communication step is under way: fmi2DoStep returns when it is done")]
+    NothingToCancel,
+    /// The scene cannot start so.
+    #[error(transparent)]
+    Start(RunError),
+    /// A communication step ended early.
+    #[error("{cause}; stands at {time} s")]
+    Discarded {
+        /// Why.
+        cause: RunError,
+        /// The time reached \[s\].
+        time: f64,
+    },
+    /// A panic.
+    #[error("internal error: {message}; fmi2Reset or fmi2FreeInstance is right")]
+    Panic {
+        /// Its message.
+        message: String,
+    },
+}
+
+impl Refusal {
+    /// What the caller gets.
+    pub(crate) fn status(&self) -> Status {
+        match self {
+            Self::Discarded { .. } => Status::Discard,
+            _ => Status::Error,
+        }
+    }
+}
+
+/// Phases, one after the other.
+fn list(phases: &[Phase]) -> String {
+    phases.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
+}
+
+/// Names of the categories of messages.
+fn categories() -> String {
+    cograin::export::LOG_CATEGORIES.map(|(name, _)| name).join(", ")
+}

@@ -1,0 +1,267 @@
+//! The functions that read and set variables, derivatives and status.
+
+use crate::calls::{self, Call};
+use crate::guard::{call, slice, slice_mut, target};
+use crate::refusal::Refusal;
+use crate::types::{
+    Boolean, Component, LAST_SUCCESSFUL_TIME, PENDING_STATUS, Reference, STEP_STATUS, Status, TERMINATED, Text,
+};
+use cograin::interface::Value;
+use std::ffi::c_int;
+
+/// Reads variables of one type, all or nothing.
+///
+/// # Safety
+/// As FMI 2.0 demands of the arrays.
+unsafe fn get<T>(
+    component: Component,
+    function: &Call,
+    kind: &'static str,
+    (references, count, values): (*const Reference, usize, *mut T),
+    convert: impl Fn(Value) -> T,
+) -> Status {
+    call(component, function, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, targets) = unsafe { (slice("vr", references, count)?, slice_mut("value", values, count)?) };
+        let values = instance.values(references, kind)?;
+        for (target, value) in targets.iter_mut().zip(values) {
+            *target = convert(value);
+        }
+        Ok(())
+    })
+}
+
+/// `fmi2GetReal`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *mut f64,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { get(component, &calls::GET_REAL, "Real", (references, count, values), Value::number) }
+}
+
+/// `fmi2GetInteger`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *mut c_int,
+) -> Status {
+    let integer = |value| match value {
+        Value::Integer(value) => value,
+        Value::Real(_) => 0,
+    };
+    // SAFETY: demands of FMI 2.0.
+    unsafe { get(component, &calls::GET_INTEGER, "Integer", (references, count, values), integer) }
+}
+
+/// `fmi2GetBoolean`: there are no such variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *mut Boolean,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { get(component, &calls::GET_BOOLEAN, "Boolean", (references, count, values), |_| 0) }
+}
+
+/// `fmi2GetString`: there are no such variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *mut Text,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { get(component, &calls::GET_STRING, "String", (references, count, values), |_| c"".as_ptr()) }
+}
+
+/// `fmi2SetReal`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *const f64,
+) -> Status {
+    call(component, &calls::SET_REAL, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, values) = unsafe { (slice("vr", references, count)?, slice("value", values, count)?) };
+        instance.set_reals(references, values)
+    })
+}
+
+/// Refuses to set variables of a type that has no inputs.
+///
+/// # Safety
+/// As FMI 2.0 demands of the arrays.
+unsafe fn refuse_to_set<T>(
+    component: Component,
+    function: &Call,
+    kind: &'static str,
+    (references, count, values): (*const Reference, usize, *const T),
+) -> Status {
+    call(component, function, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let references = unsafe {
+            slice("value", values, count)?;
+            slice("vr", references, count)?
+        };
+        instance.refuse_to_set(references, kind)
+    })
+}
+
+/// `fmi2SetInteger`: there are no such inputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *const c_int,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { refuse_to_set(component, &calls::SET_INTEGER, "Integer", (references, count, values)) }
+}
+
+/// `fmi2SetBoolean`: there are no such inputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *const Boolean,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { refuse_to_set(component, &calls::SET_BOOLEAN, "Boolean", (references, count, values)) }
+}
+
+/// `fmi2SetString`: there are no such inputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    values: *const Text,
+) -> Status {
+    // SAFETY: demands of FMI 2.0.
+    unsafe { refuse_to_set(component, &calls::SET_STRING, "String", (references, count, values)) }
+}
+
+/// `fmi2SetRealInputDerivatives`: order 1.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    component: Component,
+    references: *const Reference,
+    count: usize,
+    orders: *const c_int,
+    values: *const f64,
+) -> Status {
+    call(component, &calls::SET_INPUT_DERIVATIVES, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, orders, values) =
+            unsafe { (slice("vr", references, count)?, slice("order", orders, count)?, slice("value", values, count)?) };
+        instance.set_rates(references, orders, values)
+    })
+}
+
+/// `fmi2GetRealOutputDerivatives`: declared absent.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetRealOutputDerivatives(
+    component: Component,
+    _references: *const Reference,
+    _count: usize,
+    _orders: *const c_int,
+    _values: *mut f64,
+) -> Status {
+    call(component, &calls::GET_OUTPUT_DERIVATIVES, |_, _| {
+        Err(Refusal::Absent { flag: "maxOutputDerivativeOrder is 0" })
+    })
+}
+
+/// `fmi2GetDirectionalDerivative`: declared absent.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetDirectionalDerivative(
+    component: Component,
+    _unknowns: *const Reference,
+    _unknown_count: usize,
+    _knowns: *const Reference,
+    _known_count: usize,
+    _directions: *const f64,
+    _derivatives: *mut f64,
+) -> Status {
+    call(component, &calls::GET_DIRECTIONAL_DERIVATIVE, |_, _| {
+        Err(Refusal::Absent { flag: "providesDirectionalDerivative is false" })
+    })
+}
+
+/// `fmi2CancelStep`: there is never a step to cancel.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2CancelStep(component: Component) -> Status {
+    call(component, &calls::CANCEL_STEP, |_, _| Err(Refusal::NothingToCancel))
+}
+
+/// `fmi2GetStatus`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(component: Component, kind: c_int, value: *mut Status) -> Status {
+    call(component, &calls::GET_STATUS, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let target = unsafe { target("value", value)? };
+        of_kind(kind, STEP_STATUS)?;
+        *target = instance.last_step();
+        Ok(())
+    })
+}
+
+/// `fmi2GetRealStatus`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(component: Component, kind: c_int, value: *mut f64) -> Status {
+    call(component, &calls::GET_REAL_STATUS, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let target = unsafe { target("value", value)? };
+        of_kind(kind, LAST_SUCCESSFUL_TIME)?;
+        *target = instance.time();
+        Ok(())
+    })
+}
+
+/// `fmi2GetIntegerStatus`: the standard has no status of this type.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetIntegerStatus(component: Component, kind: c_int, _value: *mut c_int) -> Status {
+    call(component, &calls::GET_INTEGER_STATUS, |_, _| Err(Refusal::Kind { kind }))
+}
+
+/// `fmi2GetBooleanStatus`: the unit never asks to end the experiment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(component: Component, kind: c_int, value: *mut Boolean) -> Status {
+    call(component, &calls::GET_BOOLEAN_STATUS, |_, _| {
+        // SAFETY: demands of FMI 2.0.
+        let target = unsafe { target("value", value)? };
+        of_kind(kind, TERMINATED)?;
+        *target = 0;
+        Ok(())
+    })
+}
+
+/// `fmi2GetStringStatus`: nothing is ever pending.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(component: Component, kind: c_int, value: *mut Text) -> Status {
+    call(component, &calls::GET_STRING_STATUS, |_, _| {
+        // SAFETY: demands of FMI 2.0.
+        let target = unsafe { target("value", value)? };
+        of_kind(kind, PENDING_STATUS)?;
+        *target = c"".as_ptr();
+        Ok(())
+    })
+}
+
+/// Whether the kind of status is the one that a function is for.
+fn of_kind(kind: c_int, right: c_int) -> Result<(), Refusal> {
+    if kind == right { Ok(()) } else { Err(Refusal::Kind { kind }) }
+}

@@ -1,0 +1,71 @@
+//! The zip file.
+
+use super::Resource;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// What an entry holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Bytes that are read.
+    Data(Vec<u8>),
+    /// A library, which is marked as executable.
+    Program(Vec<u8>),
+}
+
+impl Content {
+    /// The bytes.
+    pub fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Data(bytes) | Self::Program(bytes) => bytes,
+        }
+    }
+}
+
+impl From<Vec<u8>> for Content {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self::Data(bytes)
+    }
+}
+
+impl From<String> for Content {
+    fn from(text: String) -> Self {
+        Self::Data(text.into_bytes())
+    }
+}
+
+/// Writes the entries, in their order, beside `output` and then puts the whole file in its place.
+pub(super) fn write(entries: &[Resource], output: &Path) -> io::Result<()> {
+    /// Tells apart what one process writes at the same time.
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let mut name = OsString::from(".");
+    name.push(output.file_name().ok_or_else(|| io::Error::other("not the path of a file"))?);
+    name.push(format!(".{}.{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+    let part = output.with_file_name(name);
+
+    let done = write_to(entries, &part).and_then(|()| fs::rename(&part, output));
+    if done.is_err() {
+        // what went wrong first is the reason to report
+        let _ = fs::remove_file(&part);
+    }
+    done
+}
+
+/// Writes the entries to a new file.
+fn write_to(entries: &[Resource], path: &Path) -> io::Result<()> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::DEFAULT);
+    let mut archive = ZipWriter::new(BufWriter::new(File::create_new(path)?));
+    for entry in entries {
+        let mode = if matches!(entry.content, Content::Program(_)) { 0o755 } else { 0o644 };
+        archive.start_file(entry.path.as_str(), options.unix_permissions(mode))?;
+        archive.write_all(entry.content.bytes())?;
+    }
+    archive.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+}

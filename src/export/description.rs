@@ -1,0 +1,192 @@
+//! `modelDescription.xml`, from the interface alone.
+
+use crate::interface::{Causality, Interface, Quantity, Variability, Variable};
+use crate::scene::Scene;
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use std::collections::BTreeMap;
+use std::io;
+
+/// What is described.
+pub(super) struct Model<'a> {
+    /// Name of the unit and its library.
+    pub(super) identifier: &'a str,
+    /// The unit's GUID.
+    pub(super) identity: &'a str,
+    /// The scene.
+    pub(super) scene: &'a Scene,
+    /// Its variables.
+    pub(super) interface: &'a Interface,
+}
+
+/// What the library can do, as `fmu/` does it; what is not named here is `false` or 0.
+const CAPABILITIES: [(&str, &str); 7] = [
+    ("canHandleVariableCommunicationStepSize", "true"),
+    ("canInterpolateInputs", "true"),
+    ("maxOutputDerivativeOrder", "0"),
+    ("canNotUseMemoryManagementFunctions", "true"),
+    ("canGetAndSetFMUstate", "true"),
+    ("canSerializeFMUstate", "true"),
+    ("providesDirectionalDerivative", "false"),
+];
+
+/// Categories of messages, with what they are.
+pub const LOG_CATEGORIES: [(&str, &str); 4] = [
+    ("logAll", "everything below"),
+    ("logStatusError", "refused calls; always reported"),
+    ("logStatusDiscard", "communication steps that ended early; always reported"),
+    ("logEvents", "instances made and started, steps done"),
+];
+
+/// The writer of the description.
+type Xml = Writer<Vec<u8>>;
+
+/// The whole file. Elements stand in the order that the standard's schema demands.
+pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let about = about(model.scene);
+    xml.create_element("fmiModelDescription")
+        .with_attributes([
+            ("fmiVersion", "2.0"),
+            ("modelName", model.identifier),
+            ("guid", model.identity),
+            ("description", about.as_str()),
+            ("generationTool", concat!("cograin ", env!("CARGO_PKG_VERSION"))),
+            ("variableNamingConvention", "structured"),
+        ])
+        .write_inner_content(|xml| {
+            xml.create_element("CoSimulation")
+                .with_attribute(("modelIdentifier", model.identifier))
+                .with_attributes(CAPABILITIES)
+                .write_empty()?;
+            units(xml, model.interface)?;
+            xml.create_element("LogCategories").write_inner_content(|xml| {
+                for (name, description) in LOG_CATEGORIES {
+                    xml.create_element("Category")
+                        .with_attributes([("name", name), ("description", description)])
+                        .write_empty()?;
+                }
+                Ok(())
+            })?;
+            default_experiment(xml, model.scene)?;
+            xml.create_element("ModelVariables").write_inner_content(|xml| {
+                model.interface.variables().iter().enumerate().try_for_each(|(index, it)| variable(xml, index, it))
+            })?;
+            structure(xml, model.interface)
+        })?;
+    Ok(xml.into_inner())
+}
+
+/// One line about the scene.
+pub(super) fn about(scene: &Scene) -> String {
+    format!("{} spheres and {} boundaries, discrete element method", scene.particles.len(), scene.boundaries.len())
+}
+
+/// `UnitDefinitions`: the units of the table, each once.
+fn units(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
+    let quantities = interface.variables().iter().map(|variable| variable.quantity);
+    let units: BTreeMap<&str, Quantity> = quantities.filter_map(|quantity| Some((quantity.unit()?, quantity))).collect();
+    xml.create_element("UnitDefinitions").write_inner_content(|xml| {
+        for (name, quantity) in &units {
+            let base = quantity.base_units();
+            let exponents = [("kg", base.kilogram), ("m", base.metre), ("s", base.second)]
+                .map(|(symbol, exponent)| (symbol, exponent.to_string()));
+            let present = exponents.iter().filter(|(_, exponent)| exponent != "0");
+            xml.create_element("Unit").with_attribute(("name", *name)).write_inner_content(|xml| {
+                xml.create_element("BaseUnit")
+                    .with_attributes(present.map(|(symbol, exponent)| (*symbol, exponent.as_str())))
+                    .write_empty()?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// `DefaultExperiment`: from 0 to the scene's end.
+fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let stop = scene.run.end.map(|end| format!("{end:?}"));
+    let times = [Some(("startTime", "0.0")), stop.as_ref().map(|stop| ("stopTime", stop.as_str()))];
+    xml.create_element("DefaultExperiment").with_attributes(times.into_iter().flatten()).write_empty()?;
+    Ok(())
+}
+
+/// One `ScalarVariable`; the value reference is the index in the table.
+fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> {
+    let reference = index.to_string();
+    let causality = match variable.causality {
+        Causality::Input => "input",
+        Causality::Output => "output",
+    };
+    let variability = match variable.variability {
+        Variability::Constant => "constant",
+        Variability::Discrete => "discrete",
+        Variability::Continuous => "continuous",
+    };
+    let initial = match (variable.causality, variable.start) {
+        (Causality::Input, _) => None,
+        (Causality::Output, Some(_)) => Some(("initial", "exact")),
+        (Causality::Output, None) => Some(("initial", "calculated")),
+    };
+    let (kind, integer) = if variable.quantity.unit().is_some() { ("Real", false) } else { ("Integer", true) };
+    let number = |value: f64| if integer { format!("{value:.0}") } else { format!("{value:?}") };
+    let start = variable.start.map(number);
+    let minimum = variable.minimum.map(number);
+    let of_type = [
+        Some(("quantity", variable.quantity.name())),
+        variable.quantity.unit().map(|unit| ("unit", unit)),
+        minimum.as_ref().map(|minimum| ("min", minimum.as_str())),
+        start.as_ref().map(|start| ("start", start.as_str())),
+    ];
+    xml.create_element("ScalarVariable")
+        .with_attributes([
+            ("name", variable.name.as_str()),
+            ("valueReference", reference.as_str()),
+            ("description", variable.description.as_str()),
+            ("causality", causality),
+            ("variability", variability),
+        ])
+        .with_attributes(initial)
+        .write_inner_content(|xml| {
+            xml.create_element(kind).with_attributes(of_type.into_iter().flatten()).write_empty()?;
+            Ok(())
+        })?;
+    Ok(())
+}
+
+/// `ModelStructure`. Setting an input changes no output before the next step; at the start it moves the boundary.
+fn structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
+    let inputs: Vec<String> = interface.inputs().map(|(index, _)| (index + 1).to_string()).collect();
+    let inputs = inputs.join(" ");
+    let outputs: Vec<(String, &str)> = interface.outputs().map(|(index, _)| ((index + 1).to_string(), "")).collect();
+    let initial: Vec<(String, &str)> = interface
+        .outputs()
+        .filter(|(_, variable)| variable.start.is_none())
+        .map(|(index, variable)| {
+            ((index + 1).to_string(), if variable.follows_inputs_at_start { inputs.as_str() } else { "" })
+        })
+        .collect();
+    xml.create_element("ModelStructure").write_inner_content(|xml| {
+        unknowns(xml, "Outputs", &outputs)?;
+        unknowns(xml, "InitialUnknowns", &initial)
+    })?;
+    Ok(())
+}
+
+/// A list of unknowns, each with what it depends on. An empty list is left out, as the schema demands.
+fn unknowns(xml: &mut Xml, name: &str, unknowns: &[(String, &str)]) -> io::Result<()> {
+    if unknowns.is_empty() {
+        return Ok(());
+    }
+    xml.create_element(name).write_inner_content(|xml| {
+        for (index, dependencies) in unknowns {
+            xml.create_element("Unknown")
+                .with_attributes([("index", index.as_str()), ("dependencies", *dependencies)])
+                .write_empty()?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
