@@ -16,7 +16,7 @@ mod logger;
 mod refusal;
 mod saved;
 mod types;
-mod values;
+pub mod values;
 
 use cograin::export::LIBRARY_MARK;
 use guard::{Guarded, call, slice, slice_mut, target, text};

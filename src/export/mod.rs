@@ -64,7 +64,7 @@ pub fn export(
         Resource::new("modelDescription.xml", description::write(&model).map_err(written)?),
         Resource::new(
             format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix),
-            archive::Content::Program(binary),
+            Content::Program(binary),
         ),
         Resource::new("documentation/index.html", page::write(&model)),
     ];
@@ -72,13 +72,17 @@ pub fn export(
     archive::write(&entries, output).map_err(written)
 }
 
-/// The state as a start: the work of the unit counts from there, and mean loads are the present ones.
+/// The state as a start: work and the energy book count from there, and mean loads are the present ones.
 fn as_start(state: &State) -> State {
     let mut state = state.clone();
     for boundary in &mut state.boundaries {
         boundary.work = 0.0;
         boundary.mean_force = boundary.force;
         boundary.mean_moment = boundary.moment;
+    }
+    if let Some(ledger) = &mut state.ledger {
+        ledger.initial_kinetic += ledger.total();
+        ledger.work = Default::default();
     }
     state
 }

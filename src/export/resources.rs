@@ -5,7 +5,6 @@
 
 use super::archive::Content;
 use crate::scene::Source;
-use crate::state::snapshot::SnapshotError;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -46,7 +45,7 @@ impl Resource {
 }
 
 /// What a unit was made of.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
     /// The scene's text and files.
     pub source: Source,

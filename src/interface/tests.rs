@@ -1,0 +1,117 @@
+//! The table that a scene gives.
+
+use super::*;
+use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::scene::{InputCourse, Output, Particle};
+use crate::state::BoundaryState;
+
+/// A scene of one sphere, a driven plane, a plane that moves by itself, and the sphere as a group that stands.
+fn scene() -> Scene {
+    let plane = Shape::Plane { material: MaterialIndex(0), point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let boundary = |name: &str, shape: &Shape, axes| Boundary {
+        name: name.to_owned(),
+        shape: shape.clone(),
+        axes,
+        input: InputCourse::Ramp,
+        reference: [0.0; 3],
+    };
+    let sphere = Particle {
+        id: ParticleId(7),
+        set: SetIndex(0),
+        material: MaterialIndex(0),
+        radius: 0.5,
+        density: 6.0,
+        position: [0.0, 0.0, 1.0],
+        velocity: [0.0; 3],
+        angular_velocity: [0.0; 3],
+    };
+    use AxisMotion::{Driven, Fixed, Prescribed};
+    Scene {
+        particles: vec![sphere],
+        boundaries: vec![
+            boundary("floor", &plane, [Fixed, Fixed, Driven]),
+            boundary("lid", &plane, [Prescribed(0.1), Fixed, Fixed]),
+            boundary("grip", &Shape::Particles { members: vec![0] }, [Fixed; 3]),
+        ],
+        ..Scene::default()
+    }
+}
+
+#[test]
+fn inputs_are_the_driven_axes_and_nothing_else() {
+    let interface = Interface::of(&scene());
+    let inputs: Vec<&str> = interface.inputs().map(|(_, variable)| variable.name.as_str()).collect();
+    assert_eq!(inputs, ["floor.displacement.z"]);
+}
+
+#[test]
+fn a_boundary_that_moves_by_itself_shows_where_it_is() {
+    let interface = Interface::of(&scene());
+    let index = interface.find("lid.displacement.x").expect("the lid moves along x");
+    assert_eq!(interface.variables()[index].causality, Causality::Output);
+    assert_eq!(interface.find("lid.displacement.y"), None);
+    assert_eq!(interface.find("grip.displacement.x"), None);
+}
+
+#[test]
+fn every_boundary_has_loads_mean_loads_and_work() {
+    let interface = Interface::of(&scene());
+    for boundary in ["floor", "lid", "grip"] {
+        for load in ["force", "moment", "mean_force", "mean_moment"] {
+            for axis in ["x", "y", "z"] {
+                let name = format!("{boundary}.{load}.{axis}");
+                assert!(interface.find(&name).is_some(), "{name} is missing");
+            }
+        }
+        assert!(interface.find(&format!("{boundary}.work")).is_some());
+    }
+}
+
+#[test]
+fn a_group_shows_its_mass_and_a_plane_has_none() {
+    let interface = Interface::of(&scene());
+    let mass = &interface.variables()[interface.find("grip.mass").expect("a group has a mass")];
+    assert_eq!(mass.start, Some(4.0 / 3.0 * std::f64::consts::PI * 0.125 * 6.0));
+    assert_eq!(mass.variability, Variability::Constant);
+    assert_eq!(interface.find("floor.mass"), None);
+}
+
+#[test]
+fn the_energy_residual_is_there_when_the_book_is_kept() {
+    assert_eq!(Interface::of(&scene()).find("energy.residual"), None);
+    let kept = Scene { output: Output { energy: true, ..Output::default() }, ..scene() };
+    assert!(Interface::of(&kept).find("energy.residual").is_some());
+}
+
+#[test]
+fn names_are_unique_and_every_variable_is_described() {
+    let interface = Interface::of(&scene());
+    let names: std::collections::BTreeSet<&str> = interface.variables().iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names.len(), interface.variables().len());
+    for variable in interface.variables() {
+        assert!(!variable.description.is_empty(), "{}", variable.name);
+    }
+}
+
+#[test]
+fn a_start_from_a_state_takes_its_displacements() {
+    let scene = scene();
+    let mut state = Simulation::new(std::sync::Arc::new(scene.clone())).unwrap().state().clone();
+    state.boundaries[0] = BoundaryState { target: [0.0, 0.0, 2.5e-3], ..state.boundaries[0] };
+    let interface = Interface::of(&scene).starting_in(&state);
+    let index = interface.find("floor.displacement.z").expect("the floor is driven");
+    assert_eq!(interface.variables()[index].start, Some(2.5e-3));
+}
+
+#[test]
+fn setting_an_output_or_no_number_is_refused_by_name() {
+    let interface = Interface::of(&scene());
+    let force = interface.find("floor.force.z").expect("the floor has a force");
+    let message = interface.check(force, 1.0).unwrap_err().to_string();
+    assert_eq!(message, format!("{force} is an output (floor.force.z); only inputs may be set"));
+    let message = interface.check(0, f64::NAN).unwrap_err().to_string();
+    assert_eq!(message, "NaN for 0 (floor.displacement.z); a finite number is right");
+    let count = interface.variables().len();
+    let message = interface.check(count, 1.0).unwrap_err().to_string();
+    assert_eq!(message, format!("{count} is no variable; 0 to {} are", count - 1));
+}
