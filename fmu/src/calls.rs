@@ -9,7 +9,7 @@ pub(crate) enum Phase {
     Initialization,
     /// Ready for a communication step.
     Ready,
-    /// The last communication step ended early; the state is that of the last good time step.
+    /// The last communication step failed; the state is that of its beginning.
     Discarded,
     /// Terminated.
     Terminated,

@@ -97,7 +97,11 @@ pub(crate) fn silence_panics() {
 ///
 /// # Safety
 /// `length` elements must stand at `pointer` if it is not null, and nobody may write them during `'a`.
-pub(crate) unsafe fn slice<'a, T>(argument: &'static str, pointer: *const T, length: usize) -> Result<&'a [T], Refusal> {
+pub(crate) unsafe fn slice<'a, T>(
+    argument: &'static str,
+    pointer: *const T,
+    length: usize,
+) -> Result<&'a [T], Refusal> {
     fits::<T>(argument, pointer.is_null(), length)?;
     // SAFETY: as the caller promises; the size was checked above.
     Ok(if length == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, length) } })

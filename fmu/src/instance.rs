@@ -41,8 +41,10 @@ pub(crate) enum StartError {
     #[error(transparent)]
     Resources(#[from] ResourceError),
     /// Description and resources do not belong together.
-    #[error("fmuGUID {given} is not that of the resources with this library, {expected}; the description, resources \
-             and library of one export are right")]
+    #[error(
+        "fmuGUID {given} is not that of the resources with this library, {expected}; the description, resources \
+             and library of one export are right"
+    )]
     Identity {
         /// The GUID given.
         given: String,
@@ -320,12 +322,15 @@ impl Instance {
         if length / step > MOST_STEPS {
             return Err(Refusal::TooMany { length, count: length / step, step, most: MOST_STEPS });
         }
+        // a time step that fails may leave numbers behind that are none; nobody is to read them
+        let before = self.simulation.state().clone();
         match self.simulation.advance(length) {
             Ok(()) => {
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);
                 Ok(())
             }
             Err(cause) => {
+                self.simulation.restore(&before);
                 (self.course.phase, self.course.last_step) = (Phase::Discarded, Status::Discard);
                 Err(Refusal::Discarded { cause, time: self.time() })
             }

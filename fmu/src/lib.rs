@@ -226,7 +226,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> Status {
     call(component, &calls::DESERIALIZE, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (bytes, handle) = unsafe { (slice("serializedState", bytes.cast::<u8>(), size)?, target("FMUstate", state)?) };
+        let (bytes, handle) =
+            unsafe { (slice("serializedState", bytes.cast::<u8>(), size)?, target("FMUstate", state)?) };
         *handle = ptr::without_provenance_mut(instance.deserialize(bytes, handle.addr())?);
         Ok(())
     })

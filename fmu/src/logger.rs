@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 pub(crate) enum Category {
     /// Refused calls.
     Error = 1,
-    /// Communication steps that ended early.
+    /// Communication steps that failed.
     Discard = 2,
     /// What happens.
     Events = 4,

@@ -5,7 +5,7 @@ use crate::types::Status;
 use cograin::interface::InterfaceError;
 use cograin::step::RunError;
 
-/// Why a call was refused. Nothing has changed then, but by [`Refusal::Discarded`] and [`Refusal::Panic`].
+/// Why a call was refused. Nothing has changed then, but by [`Refusal::Panic`].
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Refusal {
     /// Not now.
@@ -150,12 +150,12 @@ pub(crate) enum Refusal {
     /// The scene cannot start so.
     #[error(transparent)]
     Start(RunError),
-    /// A communication step ended early.
-    #[error("{cause}; stands at {time} s")]
+    /// A communication step failed.
+    #[error("{cause}; the state is that of {time} s")]
     Discarded {
         /// Why.
         cause: RunError,
-        /// The time reached \[s\].
+        /// The beginning of the step \[s\].
         time: f64,
     },
     /// A panic.

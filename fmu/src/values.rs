@@ -165,8 +165,9 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> Status {
     call(component, &calls::SET_INPUT_DERIVATIVES, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (references, orders, values) =
-            unsafe { (slice("vr", references, count)?, slice("order", orders, count)?, slice("value", values, count)?) };
+        let (references, orders, values) = unsafe {
+            (slice("vr", references, count)?, slice("order", orders, count)?, slice("value", values, count)?)
+        };
         instance.set_rates(references, orders, values)
     })
 }

@@ -34,7 +34,7 @@ const CAPABILITIES: [(&str, &str); 7] = [
 pub const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "everything below"),
     ("logStatusError", "refused calls; always reported"),
-    ("logStatusDiscard", "communication steps that ended early; always reported"),
+    ("logStatusDiscard", "communication steps that failed; always reported"),
     ("logEvents", "instances made and started, steps done"),
 ];
 
@@ -86,7 +86,8 @@ pub(super) fn about(scene: &Scene) -> String {
 /// `UnitDefinitions`: the units of the table, each once.
 fn units(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
     let quantities = interface.variables().iter().map(|variable| variable.quantity);
-    let units: BTreeMap<&str, Quantity> = quantities.filter_map(|quantity| Some((quantity.unit()?, quantity))).collect();
+    let units: BTreeMap<&str, Quantity> =
+        quantities.filter_map(|quantity| Some((quantity.unit()?, quantity))).collect();
     xml.create_element("UnitDefinitions").write_inner_content(|xml| {
         for (name, quantity) in &units {
             let base = quantity.base_units();

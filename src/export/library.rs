@@ -15,8 +15,11 @@ pub const LIBRARY_MARK: &str = concat!("cograin FMI 2.0 library, version ", env!
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryError {
     /// It was found nowhere.
-    #[error("the unit's library was not found; looked at {}; build it with `cargo build --release -p cograin-fmu`, \
-             or name it (--library, or the environment variable {ENVIRONMENT_VARIABLE})", list(looked_at))]
+    #[error(
+        "the unit's library was not found; looked at {}; build it with `cargo build --release -p cograin-fmu`, \
+             or name it (--library, or the environment variable {ENVIRONMENT_VARIABLE})",
+        list(looked_at)
+    )]
     NotFound {
         /// Where it was looked for.
         looked_at: Vec<PathBuf>,

@@ -115,8 +115,9 @@ pub fn read_resources(folder: &Path) -> Result<Contents, ResourceError> {
 
     let text = String::from_utf8(read(SCENE)?).map_err(|_| ResourceError::Text { path: folder.join(SCENE) })?;
     let names: Vec<String> = match optional(INDEX)? {
-        Some(bytes) => serde_json::from_slice(&bytes)
-            .map_err(|cause| ResourceError::Index { path: folder.join(INDEX), cause })?,
+        Some(bytes) => {
+            serde_json::from_slice(&bytes).map_err(|cause| ResourceError::Index { path: folder.join(INDEX), cause })?
+        }
         None => Vec::new(),
     };
     let mut files = BTreeMap::new();

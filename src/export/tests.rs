@@ -269,8 +269,7 @@ fn the_identity_follows_scene_files_and_state() {
     let (text, mut file) = (source(), source());
     let other = Source { text: SCENE.replace("0.25", "0.26"), ..source() };
     file.files.insert("more.csv".to_owned(), Vec::new());
-    let identities =
-        [identity(&text, None), identity(&other, None), identity(&file, None), identity(&text, Some(&[]))];
+    let identities = [identity(&text, None), identity(&other, None), identity(&file, None), identity(&text, Some(&[]))];
     for (index, one) in identities.iter().enumerate() {
         assert!(!identities[index + 1..].contains(one), "two identities are equal");
     }

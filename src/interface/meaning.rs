@@ -62,7 +62,8 @@ impl Meaning {
             }
             Self::LargestOverlap => simulation.largest_overlap(),
             Self::TimeStep => state.clock.step,
-            Self::StableStep => state.clock.stable,
+            // where nothing is stiff there is no bound, and infinity is no value of a variable
+            Self::StableStep => state.clock.stable.min(f64::MAX),
         })
     }
 

@@ -1,0 +1,8 @@
+//! The C functions themselves: call orders, refusals, saved states, several instances.
+
+mod host;
+mod order;
+mod refusals;
+mod starting;
+mod states;
+mod stepping;

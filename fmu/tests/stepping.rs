@@ -1,0 +1,137 @@
+//! What steps do: motion, work, several instances.
+
+use super::host::{Host, Unpacked, source};
+use crate::types::Status;
+use crate::*;
+use cograin::scene::Source;
+use std::thread;
+
+#[test]
+fn setting_an_input_changes_no_output_before_the_next_step() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    host.shake(0, 3);
+    let before = host.outputs();
+    assert_eq!(host.set("floor.displacement.z", 3.0e-4), Status::Ok);
+    assert_eq!(host.outputs(), before);
+    assert_eq!(host.get("floor.displacement.z"), 3.0e-4);
+}
+
+#[test]
+fn a_start_value_moves_the_boundary_without_motion() {
+    let unit = Unpacked::new();
+    let host = Host::instantiated(&unit);
+    assert_eq!(host.set("floor.displacement.z", 1.0e-4), Status::Ok);
+    assert_eq!(fmi2EnterInitializationMode(host.component), Status::Ok);
+    let pushed = host.get("floor.force.z");
+    assert_eq!(host.set("floor.displacement.z", -1.0e-2), Status::Ok);
+    assert_eq!(host.get("floor.force.z"), 0.0);
+    assert_eq!(host.set("floor.displacement.z", 1.0e-4), Status::Ok);
+    assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok);
+
+    let rest = Host::started(&unit).get("floor.force.z");
+    assert!(pushed < 2.0 * rest && rest < 0.0, "{pushed} N pushed up, {rest} N left alone");
+    assert_eq!(host.get("floor.force.z"), pushed);
+    assert_eq!(host.get("floor.mean_force.z"), pushed);
+    assert_eq!((host.get("floor.work"), host.get("energy.kinetic")), (0.0, 0.0));
+    let before = host.get("floor.displacement.z");
+    assert_eq!(host.step(0.0, 1.0e-4), Status::Ok);
+    assert_eq!(host.get("floor.displacement.z"), before);
+    assert_eq!(host.get("floor.work"), 0.0, "a boundary that stays does no work");
+}
+
+#[test]
+fn work_is_mean_force_times_displacement() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    let mut before = [("floor", ["x", "z"].as_slice(), 0.0, vec![0.0, 0.0]), ("grip", &["z"], 0.0, vec![0.0])];
+    for index in 0..30 {
+        host.shake(index, 1);
+        for (boundary, axes, work, places) in &mut before {
+            let mut expected = 0.0;
+            let mut scale = f64::MIN_POSITIVE;
+            for (axis, place) in axes.iter().zip(places.iter_mut()) {
+                let now = host.get(&format!("{boundary}.displacement.{axis}"));
+                let part = -host.get(&format!("{boundary}.mean_force.{axis}")) * (now - *place);
+                expected += part;
+                scale += part.abs();
+                *place = now;
+            }
+            let now = host.get(&format!("{boundary}.work"));
+            let change = now - *work;
+            // work is a sum from the start: its rounding counts too
+            let rounding = 1e-12 * (scale + now.abs());
+            assert!((change - expected).abs() <= rounding, "{boundary}, step {index}: {change} J, {expected} J");
+            *work = now;
+        }
+    }
+    assert!(host.get("floor.work").abs() > 1e-7, "the floor did {} J", host.get("floor.work"));
+}
+
+#[test]
+fn an_input_with_a_rate_ends_further_on() {
+    let unit = Unpacked::new();
+    let (host, other) = (Host::started(&unit), Host::started(&unit));
+    assert_eq!(host.set("floor.displacement.z", 0.0), Status::Ok);
+    assert_eq!(host.set_rate("floor.displacement.z", 0.5), Status::Ok);
+    assert_eq!(other.set("floor.displacement.z", 0.5 * 2.0e-4), Status::Ok);
+    for host in [&host, &other] {
+        assert_eq!(host.step(0.0, 2.0e-4), Status::Ok);
+    }
+    assert_eq!(host.get("floor.force.z"), other.get("floor.force.z"));
+    assert_eq!(host.get("floor.work"), other.get("floor.work"));
+}
+
+#[test]
+fn communication_steps_may_vary_and_whole_time_steps_give_the_same_bits() {
+    let unit = Unpacked::new();
+    let (host, other) = (Host::started(&unit), Host::started(&unit));
+    for index in 0..6 {
+        assert_eq!(host.step(f64::from(index) * 1.0e-4, 1.0e-4), Status::Ok);
+    }
+    let mut time = 0.0;
+    for length in [2.0e-4, 3.0e-4, 1.0e-5, 9.0e-5] {
+        assert_eq!(other.step(time, length), Status::Ok, "{}", other.said());
+        time += length;
+    }
+    for name in ["floor.force.x", "floor.force.z", "grip.force.z", "energy.kinetic", "overlap.max"] {
+        assert_eq!(host.get(name).to_bits(), other.get(name).to_bits(), "{name}");
+    }
+}
+
+#[test]
+fn two_instances_in_turn_do_what_each_does_alone() {
+    let unit = Unpacked::new();
+    let text = source().text.replace("friction = 0.4", "friction = 0.1");
+    let slippery = Unpacked::of(&Source { text, ..source() }, "slippery");
+    let alone = [Host::started(&unit).shake(0, 12), Host::started(&slippery).shake(0, 12)];
+    assert!(alone[0] != alone[1]);
+
+    let (host, other) = (Host::started(&unit), Host::started(&slippery));
+    let mut seen = [Vec::new(), Vec::new()];
+    for index in 0..12 {
+        seen[0].extend(host.shake(index, 1));
+        seen[1].extend(other.shake(index, 1));
+    }
+    assert!(seen == alone, "the instances disturb each other");
+}
+
+#[test]
+fn instances_in_threads_do_what_each_does_alone() {
+    let unit = Unpacked::new();
+    let alone = Host::started(&unit).shake(0, 12);
+    let runs: Vec<Vec<u64>> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..3).map(|_| scope.spawn(|| Host::started(&unit).shake(0, 12))).collect();
+        threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert!(runs.iter().all(|run| *run == alone));
+}
+
+#[test]
+fn the_energy_book_closes() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    host.shake(0, 40);
+    let (residual, work) = (host.get("energy.residual"), host.get("floor.work").abs());
+    assert!(residual.abs() < 1e-12 * work, "{residual} J left over of {work} J");
+}
