@@ -29,6 +29,7 @@ pub mod engine_exact;
 pub mod finite_rotation;
 pub mod incremental;
 pub mod keys;
+pub mod list;
 pub mod motion;
 #[cfg(test)]
 mod trials;
