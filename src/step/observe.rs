@@ -68,11 +68,11 @@ pub(super) fn half_step_back(particles: &Particles, slot: usize, step: f64) -> (
     (velocity, spin)
 }
 
-/// What a contact does, with the spring that the last evaluation left. One that slid then has no tangential dashpot.
+/// What a contact does, with the spring that the last evaluation left. A spring that slid then has no dashpot beside it.
 pub(super) fn react<L: Law>(row: &[f64], contact: &Contact, spring: Row, flags: u8) -> (Reaction, bool) {
     let sliding = flags & SLIDING != 0;
     let mut contact = *contact;
-    if sliding {
+    if sliding && L::HAS_SPRING {
         contact.slip = Vector::zero();
     }
     (L::react(row, &contact, spring.into(), 0.0), sliding)

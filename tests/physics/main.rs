@@ -1,9 +1,11 @@
 //! What the program computes, held against theory and published numbers: one claim a file.
 
+mod contact_records;
 mod cundall_decay;
 mod cundall_frame;
 mod elastic_energy;
 mod exchange;
+mod grazing_energy;
 mod hertz_impact;
 mod momentum;
 mod oblique_impact;
