@@ -127,3 +127,80 @@ fn damping_and_forces_are_per_particle() {
     assert!(damping.gravity_damped && !damping.applied_forces_damped);
     assert_eq!(scene.forces[0].members, [0, 1]);
 }
+
+/// The two grains that each of the files of grains holds.
+fn expect_the_grains(name: &str) -> Scene {
+    let scene = good(name);
+    let [steel, glass] = &scene.particles[..] else { panic!("{name}: {} particles", scene.particles.len()) };
+    assert_eq!((steel.id.0, steel.material.0, steel.radius), (3, 1, 0.02), "{name}");
+    assert_eq!((glass.id.0, glass.material.0, glass.radius), (7, 0, 0.01), "{name}");
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs();
+    assert!(near(steel.density, 7900.0) && near(glass.density, 2600.0), "{name}");
+    assert_eq!((steel.position, glass.position), ([0.1, 0.0, 0.0], [0.0; 3]), "{name}");
+    assert_eq!((steel.velocity, steel.angular_velocity), ([0.0; 3], [0.0; 3]), "{name}");
+    assert_eq!((glass.velocity, glass.angular_velocity), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), "{name}");
+    scene
+}
+
+#[test]
+fn every_file_format_gives_the_same_grains() {
+    for name in ["from_csv.toml", "from_gz.toml", "from_vtu.toml", "from_data.toml", "from_dump.toml"] {
+        expect_the_grains(name);
+    }
+}
+
+#[test]
+fn damping_is_scaled_by_a_column_of_the_file() {
+    for name in ["from_csv.toml", "from_dump.toml"] {
+        let scene = good(name);
+        assert_eq!(scene.damping[0].linear, [1.0, 0.25], "{name}");
+        assert_eq!(scene.damping[0].angular, [0.5, 0.125], "{name}");
+    }
+}
+
+#[test]
+fn generated_sets_hold_as_many_as_they_say() {
+    let scene = good("generated.toml");
+    let mut counts = vec![0; scene.sets.len()];
+    for particle in &scene.particles {
+        counts[particle.set.index()] += 1;
+    }
+    // 2 × 2 × 1; 8 cells of 2; 8 cells of 4; 6 cells of 4; the packing.
+    assert_eq!(counts, [4, 16, 32, 24, 300]);
+    assert!(scene.particles.iter().all(|particle| (particle.set.0 == 3) == (particle.velocity[2] == -1.0)));
+}
+
+#[test]
+fn a_changed_file_changes_the_fingerprint() {
+    let (scene, mut source) = Scene::read(&folder("good").join("from_csv.toml")).unwrap();
+    source.files.values_mut().for_each(|bytes| bytes.push(b'\n'));
+    assert_ne!(Scene::from_source(&source).unwrap().fingerprint, scene.fingerprint);
+}
+
+#[test]
+fn a_file_that_was_not_handed_over_is_named() {
+    let (_, mut source) = Scene::read(&folder("good").join("from_csv.toml")).unwrap();
+    source.files.clear();
+    let message = Scene::from_source(&source).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "from_csv.toml, line 8, [particles.grains] file: ../files/grains.csv cannot be read: \
+         it was not handed over with the scene"
+    );
+}
+
+#[test]
+fn a_scene_built_in_code_is_checked_too() {
+    let mut scene = good("everything.toml");
+    assert_eq!(scene.check(), Ok(()));
+    scene.particles[0].position = scene.particles[1].position;
+    scene.domain = Some([[0.5; 3], [1.0; 3]]);
+    let message = scene.check().unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "[domain] box: particle 12 at [0.0, 0.0, 0.02] m is outside, and 4 more particles; \
+         a box that holds every centre is right\n\
+         [particles.few]: particles 12 and 13 overlap by 2.000 of the smaller radius; \
+         at most 0.1 is right ([run] max_overlap)"
+    );
+}

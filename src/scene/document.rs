@@ -117,8 +117,9 @@ impl<'a> Document<'a> {
             let path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
             let mistake = words::mistake(&error, path.last().map_or("", String::as_str));
             let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
-            // A key that was taken out as wrong is not missing.
-            if path.is_empty() && words::missing_field(&error).is_some_and(|field| wrong.iter().any(|key| key == field))
+            // What was taken out as wrong is not missing, nor is the sub-model that it was.
+            let missing = words::missing_field(&error);
+            if !wrong.is_empty() && path.is_empty() && missing.is_none_or(|field| wrong.iter().any(|key| key == field))
             {
                 return None;
             }

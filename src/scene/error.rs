@@ -197,6 +197,15 @@ pub enum Mistake {
         /// The columns it has.
         found: Vec<String>,
     },
+    /// A file whose units are not known.
+    #[error("its units are not stated; units = \"si\", \"cgs\", \"micro\" or \"nano\" in the scene is right")]
+    NoUnits,
+    /// A file in units that have no size, or that the program does not convert.
+    #[error("{found} units found; si, cgs, micro or nano units are right")]
+    Units {
+        /// What the file says.
+        found: String,
+    },
     /// A number used twice.
     #[error("{id} is the number of another particle, of [particles.{other}]; each particle has its own")]
     DuplicateId {

@@ -252,6 +252,157 @@ pub(super) struct ParticlesTable {
     pub(super) list: Option<Vec<ListEntry>>,
     /// A file of particles.
     pub(super) file: Option<String>,
+    /// What the file is, where its name does not say.
+    pub(super) format: Option<Format>,
+    /// The file's units.
+    pub(super) units: Option<Units>,
+    /// The snapshot of a dump file; absent: the last.
+    pub(super) timestep: Option<u64>,
+    /// A regular order.
+    pub(super) lattice: Option<LatticeTable>,
+    /// A random packing.
+    pub(super) packing: Option<PackingTable>,
+}
+
+/// `lattice = { kind, radius, ... }`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LatticeTable {
+    /// Which order.
+    pub(super) kind: LatticeKind,
+    /// Radius of each \[m\].
+    pub(super) radius: Positive,
+    /// Distance of nearest centres \[m\]; absent: they touch.
+    pub(super) spacing: Option<Positive>,
+    /// The box to fill \[m\].
+    #[serde(rename = "box")]
+    pub(super) corners: Option<Corners>,
+    /// Centre of the first, with counts \[m\].
+    pub(super) origin: Option<Triple>,
+    /// Cells along each axis.
+    pub(super) counts: Option<Counts>,
+}
+
+/// Regular orders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum LatticeKind {
+    /// One sphere in a cubic cell.
+    SimpleCubic,
+    /// Two.
+    BodyCentredCubic,
+    /// Four: close packed.
+    FaceCentredCubic,
+    /// Four in a right-angled cell: the other close packing.
+    HexagonalClosePacked,
+}
+
+/// Cells along each axis, each at least 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Counts(pub(super) [u32; 3]);
+
+impl<'de> Deserialize<'de> for Counts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
+        match counts[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("{} numbers found; [nx, ny, nz] is right", counts.len()))),
+        }
+    }
+}
+
+/// `packing = { box, count, radius }`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PackingTable {
+    /// The box that holds every sphere whole \[m\].
+    #[serde(rename = "box")]
+    pub(super) corners: Corners,
+    /// How many.
+    pub(super) count: NonZeroU32,
+    /// Radius, or least and largest \[m\].
+    pub(super) radius: Radii,
+}
+
+/// Least and largest radius \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Radii(pub(super) [f64; 2]);
+
+impl<'de> Deserialize<'de> for Radii {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a number or a list.
+        struct OneOrTwo;
+        /// What is right.
+        const RIGHT: &str = "a number above 0, or [least, largest]";
+        impl<'de> Visitor<'de> for OneOrTwo {
+            type Value = Radii;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(RIGHT)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
+                let refused = || E::custom(format!("{value:?} found; {RIGHT} is right"));
+                Positive::new(value).map(|radius| Radii([radius.get(); 2])).ok_or_else(refused)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
+                let radii = Numbers.visit_seq(list)?;
+                match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
+                    [least, most] if least > 0.0 && least <= most => Ok(Radii([least, most])),
+                    ref found => Err(A::Error::custom(format!("{found:?} found; {RIGHT} is right"))),
+                }
+            }
+        }
+        deserializer.deserialize_any(OneOrTwo)
+    }
+}
+
+/// Formats of particle files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Format {
+    /// Comma-separated columns.
+    Csv,
+    /// VTK's XML unstructured grid.
+    Vtu,
+    /// Data file of LIGGGHTS or LAMMPS.
+    Data,
+    /// Dump file of LIGGGHTS or LAMMPS.
+    Dump,
+}
+
+/// Units of particle files, by the names that LIGGGHTS and LAMMPS have for them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Units {
+    /// Metre, kilogram, second.
+    Si,
+    /// Centimetre, gram, second.
+    Cgs,
+    /// Micrometre, picogram, microsecond.
+    Micro,
+    /// Nanometre, attogram, nanosecond.
+    Nano,
+}
+
+impl Units {
+    /// The units of this name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        [("si", Self::Si), ("cgs", Self::Cgs), ("micro", Self::Micro), ("nano", Self::Nano)]
+            .into_iter()
+            .find_map(|(known, units)| (known == name).then_some(units))
+    }
+
+    /// Length \[m\], mass \[kg\] and time \[s\] of one.
+    pub(super) fn sizes(self) -> [f64; 3] {
+        match self {
+            Self::Si => [1.0, 1.0, 1.0],
+            Self::Cgs => [1e-2, 1e-3, 1.0],
+            Self::Micro => [1e-6, 1e-15, 1e-6],
+            Self::Nano => [1e-9, 1e-21, 1e-9],
+        }
+    }
 }
 
 /// A particle in a list.

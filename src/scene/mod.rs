@@ -7,6 +7,7 @@ mod check;
 mod document;
 mod error;
 mod file;
+mod generate;
 mod import;
 mod nearest;
 mod source;

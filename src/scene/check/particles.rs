@@ -4,12 +4,12 @@ use super::contacts::unknown_material;
 use super::written::{Named, Written};
 use crate::contact::Material;
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::Particle;
 use crate::scene::document::Faults;
 use crate::scene::error::Mistake;
 use crate::scene::file::{ListEntry, ParticlesTable, Triple};
-use crate::scene::import::{self, Rows};
+use crate::scene::import::{self, Request, Rows};
 use crate::scene::source::Source;
+use crate::scene::{Particle, Run, generate};
 use std::collections::BTreeMap;
 
 /// All particles, and where each comes from.
@@ -43,6 +43,8 @@ struct Nursery<'a> {
     written: &'a ParticlesTable,
     /// All materials.
     materials: &'a [Material],
+    /// The scene's seed.
+    seed: u64,
 }
 
 /// Reads all sets.
@@ -52,12 +54,13 @@ pub(super) fn particles(written: &Written, source: &Source, materials: &[Materia
         .iter()
         .filter_map(|(_, damping)| damping.scale.as_ref().and_then(|scale| scale.column.clone()))
         .collect();
+    let seed = written.run.seed.unwrap_or(Run::default().seed);
     let mut born = Born::default();
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
         let set = SetIndex(index as u32);
-        let nursery = Nursery { table: format!("particles.{name}"), set, written: table, materials };
+        let nursery = Nursery { table: format!("particles.{name}"), set, written: table, materials, seed };
         let (list, place, columns) = nursery.read(source, &extra, faults);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());
@@ -99,30 +102,77 @@ impl Nursery<'_> {
     /// Reads the set.
     fn read(&self, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
         let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
-        let origins = ["list", "file"];
-        let given = [self.written.list.is_some(), self.written.file.is_some()];
-        let given: Vec<&str> =
-            origins.into_iter().zip(given).filter(|(_, given)| *given).map(|(name, _)| name).collect();
+        if !self.has_one_origin(faults) {
+            return nobody;
+        }
+        let ParticlesTable { list, file, lattice, packing, .. } = self.written;
+        if let Some(list) = list {
+            return (self.listed(list, faults), Place::List, BTreeMap::new());
+        }
+        if let Some(file) = file {
+            return self.filed(file, source, extra, faults);
+        }
+        let spheres = match (lattice, packing) {
+            (Some(lattice), _) => generate::lattice(lattice),
+            (_, Some(packing)) => generate::packing(packing, self.seed, &self.table),
+            (None, None) => Ok(Vec::new()),
+        };
+        match spheres {
+            Ok(spheres) => (self.generated(&spheres, faults), Place::Nowhere, BTreeMap::new()),
+            Err((key, mistake)) => {
+                faults.add(&self.table, key, mistake);
+                nobody
+            }
+        }
+    }
+
+    /// Whether the set says once where its particles come from, and nothing that belongs to another origin.
+    fn has_one_origin(&self, faults: &mut Faults) -> bool {
+        let written = self.written;
+        let origins = [
+            ("list", written.list.is_some()),
+            ("file", written.file.is_some()),
+            ("lattice", written.lattice.is_some()),
+            ("packing", written.packing.is_some()),
+        ];
+        let given: Vec<&str> = origins.into_iter().filter(|(_, given)| *given).map(|(name, _)| name).collect();
         match given[..] {
             [_] => {}
             [] => {
-                let right = format!("one of {} says where its particles come from", origins.join(", "));
+                let right = "one of list, file, lattice, packing says where its particles come from".to_owned();
                 faults.add(&self.table, "", Mistake::Missing { right });
-                return nobody;
+                return false;
             }
             [_, second, ..] => {
                 let (found, right) = (given.join(" and "), "one origin of the particles".to_owned());
                 faults.add(&self.table, second, Mistake::Wrong { found, right });
-                return nobody;
+                return false;
             }
         }
-        if let Some(list) = &self.written.list {
-            return (self.listed(list, faults), Place::List, BTreeMap::new());
+        let of_files = [
+            ("format", written.format.is_some()),
+            ("units", written.units.is_some()),
+            ("timestep", written.timestep.is_some()),
+            ("materials", !written.materials.is_empty()),
+        ];
+        for (key, _) in of_files.into_iter().filter(|(_, given)| *given && written.file.is_none()) {
+            let (what, right) = ("this is about a file, and there is none".to_owned(), "leave it out".to_owned());
+            faults.add(&self.table, key, Mistake::Senseless { what, right });
         }
-        match &self.written.file {
-            Some(file) => self.filed(file, source, extra, faults),
-            None => nobody,
+        true
+    }
+
+    /// Particles that are only spheres.
+    fn generated(&self, spheres: &[([f64; 3], f64)], faults: &mut Faults) -> Vec<Newborn> {
+        if self.written.material.is_none() {
+            self.no_material(faults);
         }
+        let Some(material) = self.fallback(faults) else { return Vec::new() };
+        let newborn = |(position, radius): &([f64; 3], f64)| Newborn {
+            id: None,
+            particle: self.particle(material, *position, *radius),
+        };
+        spheres.iter().map(newborn).collect()
     }
 
     /// Particles written one by one.
@@ -155,10 +205,16 @@ impl Nursery<'_> {
     fn filed(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
         let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
         let Some(bytes) = source.files.get(file) else { return nobody };
-        match import::read(bytes, extra) {
+        let ParticlesTable { format, units, timestep, .. } = *self.written;
+        match import::read(bytes, &Request { file, extra, format, units, timestep }) {
             Ok(rows) => self.rows(file, rows, extra, faults),
             Err(list) => {
                 for fault in list {
+                    // What the scene says about the file is mistaken in the scene.
+                    if ["units", "timestep"].contains(&fault.column.as_str()) {
+                        faults.add(&self.table, &fault.column, fault.mistake);
+                        continue;
+                    }
                     faults.in_file(file, fault.line, &self.table, &fault.column, fault.mistake);
                 }
                 nobody
@@ -211,6 +267,11 @@ impl Nursery<'_> {
             if self.written.material.is_none() && rows.count > 0 {
                 self.no_material(faults);
             }
+            if !self.written.materials.is_empty() {
+                let (what, right) = ("the file names no materials or types", "leave it out");
+                let mistake = Mistake::Senseless { what: what.to_owned(), right: right.to_owned() };
+                faults.add(&self.table, "materials", mistake);
+            }
             return vec![self.fallback(faults)];
         }
         let mut found = Vec::new();
@@ -231,7 +292,7 @@ impl Nursery<'_> {
                     },
                     Err(_) => unknown_material(self.materials, label),
                 };
-                faults.in_file(file, rows.line(row), &self.table, "material", mistake);
+                faults.in_file(file, rows.line(row), &self.table, &rows.label_column, mistake);
             }
             found.push(material);
         }

@@ -1,6 +1,6 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
-use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Rows};
+use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed};
 use crate::scene::error::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
@@ -15,21 +15,15 @@ enum Use {
 }
 
 /// Reads the text of a CSV file.
-pub(super) fn read(bytes: &[u8], extra: &[String]) -> Result<Rows, Vec<FileFault>> {
+pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(|error| vec![unreadable(&error)])?;
     let headers: Vec<String> = headers.iter().map(str::to_owned).collect();
-    let missing: Vec<FileFault> = NEEDED
-        .iter()
-        .filter(|column| !headers.iter().any(|header| header == *column))
-        .map(|column| FileFault::missing(Some(1), column, &headers))
-        .collect();
-    if !missing.is_empty() {
-        return Err(missing);
-    }
+    needed(&headers, Some(1))?;
     let mut names = Vec::new();
-    let uses = uses(&headers, extra, &mut names)?;
-    let mut rows = Rows::default();
+    let uses = uses(&headers, request.extra, &mut names)?;
+    let label_column = headers.iter().find(|header| matches!(header.as_str(), "material" | "type"));
+    let mut rows = Rows { label_column: label_column.cloned().unwrap_or_default(), ..Rows::default() };
     let mut columns = vec![Vec::new(); names.len()];
     let mut faults = Vec::new();
     let mut record = ByteRecord::new();

@@ -1,0 +1,10 @@
+//! Particles that no file lists: lattices and random packings.
+
+mod lattice;
+mod packing;
+
+pub(super) use lattice::lattice;
+pub(super) use packing::packing;
+
+/// Centre and radius \[m\].
+pub(super) type Sphere = ([f64; 3], f64);
