@@ -9,6 +9,7 @@ pub mod contact;
 pub mod export;
 pub mod interface;
 pub mod number;
+pub mod output;
 pub mod quantity;
 pub mod scene;
 pub mod state;

@@ -1,2 +1,301 @@
-//! Command line.
-fn main() {}
+//! The command line: parse, call, print.
+
+use clap::{Args, Parser, Subcommand};
+use cograin::export::{PackageError, export, find_library};
+use cograin::output::{self, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
+use cograin::scene::{Scene, Source};
+use cograin::verify;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Display;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
+///
+/// Exit status: 0 done, 1 the work failed, 2 the input was refused.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The commands.
+#[derive(Subcommand)]
+enum Command {
+    /// Read a scene; say what it uses, how long its time step may be, what it costs and what is risky in it
+    Check(CheckArguments),
+    /// Run a scene to its end and write its results
+    Run(RunArguments),
+    /// Run a scene with damping until it is at rest and write its state
+    Settle(SettleArguments),
+    /// Package a scene as a co-simulation unit
+    Export(ExportArguments),
+    /// Replay reference cases of other engines and compare
+    Verify(VerifyArguments),
+}
+
+/// A scene and how it is computed.
+#[derive(Args)]
+struct SceneArguments {
+    /// The scene file
+    scene: PathBuf,
+    /// Threads, instead of what the scene says
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+/// `cograin check`
+#[derive(Args)]
+struct CheckArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+}
+
+/// `cograin run`
+#[derive(Args)]
+struct RunArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Folder of the results
+    #[arg(short, long, value_name = "DIR", default_value = "output")]
+    output: PathBuf,
+    /// Go on from a checkpoint: this one, or the last one in the folder of the results
+    #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
+    resume: Option<Option<PathBuf>>,
+}
+
+/// `cograin settle`
+#[derive(Args)]
+struct SettleArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// File of the settled state
+    #[arg(short, long, value_name = "CHECKPOINT")]
+    output: PathBuf,
+    /// Time steps after which it gives up
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    steps: u64,
+}
+
+/// `cograin export`
+#[derive(Args)]
+struct ExportArguments {
+    /// The scene file
+    scene: PathBuf,
+    /// Begin with this state instead of the scene's
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
+    /// The unit's file
+    #[arg(short, long, value_name = "FMU")]
+    output: PathBuf,
+    /// The unit's library, if it does not stand beside this program
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+}
+
+/// `cograin verify`
+#[derive(Args)]
+struct VerifyArguments {
+    /// Cases, or folders of cases
+    #[arg(required = true, value_name = "DIR")]
+    folders: Vec<PathBuf>,
+    /// Largest relative error, unless the case is more sensitive
+    #[arg(long, value_name = "ERROR", default_value_t = verify::Options::default().tolerance)]
+    tolerance: f64,
+    /// Folder that gets the trajectories
+    #[arg(long, value_name = "OUT")]
+    write: Option<PathBuf>,
+}
+
+/// How a command ended that did not do its work.
+enum Ending {
+    /// The work failed.
+    Failed(String),
+    /// The input was refused.
+    Refused(String),
+}
+
+impl Ending {
+    /// The work failed for this reason.
+    fn failed(reason: impl Display) -> Self {
+        Self::Failed(reason.to_string())
+    }
+    /// The input was refused for this reason.
+    fn refused(reason: impl Display) -> Self {
+        Self::Refused(reason.to_string())
+    }
+}
+
+impl From<Failure> for Ending {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Refused(refusal) => Self::refused(refusal),
+            failure => Self::failed(failure),
+        }
+    }
+}
+
+/// Set by the first Ctrl-C.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+fn main() -> ExitCode {
+    let ended = match Arguments::parse().command {
+        Command::Check(arguments) => check(&arguments),
+        Command::Run(arguments) => run(&arguments),
+        Command::Settle(arguments) => settle(&arguments),
+        Command::Export(arguments) => package(&arguments),
+        Command::Verify(arguments) => replay(&arguments),
+    };
+    let (status, reason) = match ended {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Ending::Failed(reason)) => (1, reason),
+        Err(Ending::Refused(reason)) => (2, reason),
+    };
+    // Who closed the standard error does not want to know.
+    let _ = writeln!(std::io::stderr(), "{reason}");
+    ExitCode::from(status)
+}
+
+/// Prints a line, also to a reader that is gone.
+fn say(line: impl Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// Reads a scene.
+fn read(path: &Path) -> Result<(Scene, Source), Ending> {
+    Scene::read(path).map_err(Ending::refused)
+}
+
+/// Reads a scene to be computed here.
+fn read_to_run(arguments: &SceneArguments) -> Result<(Arc<Scene>, Source), Ending> {
+    let (mut scene, source) = read(&arguments.scene)?;
+    scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
+    Ok((Arc::new(scene), source))
+}
+
+/// `cograin check`
+fn check(arguments: &CheckArguments) -> Result<(), Ending> {
+    let (scene, source) = read_to_run(&arguments.scene)?;
+    let report = output::check(&scene, &source.name).map_err(Ending::refused)?;
+    say(report);
+    Ok(())
+}
+
+/// `cograin run`
+fn run(arguments: &RunArguments) -> Result<(), Ending> {
+    let (scene, source) = read_to_run(&arguments.scene)?;
+    let start = match &arguments.resume {
+        None => Start::Scene,
+        Some(None) => Start::LastCheckpoint,
+        Some(Some(path)) => Start::Checkpoint(path.clone()),
+    };
+    stop_at_interruption()?;
+    let order =
+        RunOrder { scene: &scene, scene_name: &source.name, folder: &arguments.output, start: &start, stop: &STOP };
+    let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
+    let result = output::run(order, &mut |progress: Progress| {
+        if bar.is_hidden() {
+            return;
+        }
+        let share = (progress.time - progress.start) / (progress.end - progress.start);
+        bar.set_position((share * BAR_LENGTH as f64) as u64);
+        bar.set_message(format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
+    });
+    bar.finish_and_clear();
+    say(result?);
+    Ok(())
+}
+
+/// `cograin settle`
+fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
+    let (scene, source) = read_to_run(&arguments.scene)?;
+    stop_at_interruption()?;
+    let order = SettleOrder {
+        scene: &scene,
+        scene_name: &source.name,
+        checkpoint: &arguments.output,
+        most_steps: arguments.steps,
+        stop: &STOP,
+    };
+    let bar = bar("{spinner} {msg}  {elapsed}");
+    let result = output::settle(order, &mut |progress: SettleProgress| {
+        if bar.is_hidden() {
+            return;
+        }
+        let SettleProgress { steps, ratio, tolerance } = progress;
+        bar.set_message(format!("{steps} steps, unbalanced force {ratio:.2e}, {tolerance:.0e} asked for"));
+    });
+    bar.finish_and_clear();
+    let settled = result?;
+    say(format_args!(
+        "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean contact force, {} contacts, \
+         kinetic energy {:.3e} J",
+        settled.steps, settled.time, settled.wall_time, settled.ratio, settled.contacts, settled.kinetic_energy
+    ));
+    Ok(())
+}
+
+/// `cograin export`
+fn package(arguments: &ExportArguments) -> Result<(), Ending> {
+    let (scene, source) = read(&arguments.scene)?;
+    let state = match &arguments.from {
+        Some(path) => Some(output::read_checkpoint(path, scene.fingerprint).map_err(Ending::refused)?),
+        None => None,
+    };
+    let library = find_library(arguments.library.as_deref()).map_err(Ending::failed)?;
+    let exported = export(&source, &scene, state.as_ref(), &library, &arguments.output);
+    exported.map_err(|error| match error {
+        PackageError::Library(error) => Ending::refused(error),
+        error => Ending::failed(error),
+    })
+}
+
+/// `cograin verify`
+fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
+    let options = verify::Options { tolerance: arguments.tolerance, write: arguments.write.clone() };
+    let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
+    say(verify::Report::heading());
+    let mut failed = 0;
+    for case in &cases {
+        let report = verify::replay(case, &options).map_err(Ending::refused)?;
+        failed += usize::from(!report.passed());
+        say(report);
+    }
+    if failed > 0 { Err(Ending::failed(format_args!("{failed} of {} cases failed", cases.len()))) } else { Ok(()) }
+}
+
+/// Parts of a progress bar.
+const BAR_LENGTH: u64 = 10_000;
+
+/// Time between two drawings of a progress bar while nothing is told.
+const BAR_PAUSE: Duration = Duration::from_millis(500);
+
+/// A progress bar; invisible where the standard error is no terminal.
+fn bar(template: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(BAR_LENGTH).with_style(style);
+    bar.enable_steady_tick(BAR_PAUSE);
+    bar
+}
+
+/// Lets the first Ctrl-C end the work in good order, and the second at once: all files are whole at any time.
+fn stop_at_interruption() -> Result<(), Ending> {
+    ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(1);
+        }
+    })
+    .map_err(Ending::failed)
+}

@@ -11,6 +11,7 @@ pub mod lanes;
 mod neighbours;
 mod observe;
 mod pass;
+mod settled;
 mod stable;
 mod walls;
 mod workers;

@@ -1,0 +1,175 @@
+//! What is to be known of a scene before it runs.
+
+use super::error::Refusal;
+use super::remarks::remarks;
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Shape, Step};
+use crate::step::Simulation;
+use std::fmt;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Wall time after which the cost of a step is known well enough.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// Time steps made at once while the cost is measured.
+const STEPS_AT_ONCE: f64 = 10.0;
+
+/// Looks at the cost, at most.
+const LOOKS: usize = 20;
+
+/// What is to be known of a scene before it runs. Displays as text for a person.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// What the scene uses and pays for, a line each.
+    pub uses: Vec<String>,
+    /// The time step, the stable one and what limits it.
+    pub time_step: String,
+    /// Size of the state and of the whole process.
+    pub memory: String,
+    /// Wall time of a step, measured.
+    pub cost: String,
+    /// What is legal but risky.
+    pub remarks: Vec<String>,
+}
+
+/// Takes a scene to its start and a few steps further, writes nothing, and tells what was seen.
+pub fn check(scene: &Arc<Scene>, scene_name: &str) -> Result<Report, Refusal> {
+    let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
+    let mut simulation = Simulation::new(Arc::clone(scene)).map_err(start)?;
+    let mut remarks = remarks(scene, &simulation);
+    let uses = uses(scene, &simulation);
+    let time_step = time_step(scene, &simulation);
+    let cost = cost(&mut simulation, &mut remarks);
+    let memory = memory(&simulation);
+    Ok(Report { uses, time_step, memory, cost, remarks })
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in &self.uses {
+            writeln!(formatter, "uses       {line}")?;
+        }
+        writeln!(formatter, "time step  {}", self.time_step)?;
+        writeln!(formatter, "memory     {}", self.memory)?;
+        write!(formatter, "cost       {}", self.cost)?;
+        for remark in &self.remarks {
+            write!(formatter, "\nremark     {remark}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What the scene uses and pays for.
+fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let (particles, contacts) = (scene.particles.len(), simulation.contact_count());
+    let mut uses =
+        vec![format!("{particles} particles, {contacts} contacts at the start, {} threads", simulation.threads())];
+    uses.extend(scene.contacts.iter().map(contact_law));
+    if scene.contacts.is_empty() {
+        uses.push("no contact law: no neighbour search".to_owned());
+    }
+    uses.extend(scene.boundaries.iter().map(boundary));
+    if scene.gravity.iter().any(|part| *part != 0.0) {
+        uses.push(format!("gravity {:?} m/s²", scene.gravity));
+    }
+    uses.extend(scene.damping.iter().map(|damping| {
+        let damped = damping.linear.iter().zip(&damping.angular).filter(|(a, b)| **a != 0.0 || **b != 0.0).count();
+        format!("damping {} of {damped} particles", damping.name)
+    }));
+    uses.extend(scene.forces.iter().map(|force| format!("force {} on {} particles", force.name, force.members.len())));
+    if scene.output.energy {
+        uses.push("the algorithmic energy book".to_owned());
+    }
+    uses
+}
+
+/// A contact law in one line.
+fn contact_law(law: &ContactLaw) -> String {
+    let parts = [
+        ("normal", law.normal.name()),
+        ("tangential", law.tangential.name()),
+        ("rolling", law.rolling.name()),
+        ("cohesion", law.cohesion.name()),
+    ];
+    let chosen: Vec<_> =
+        parts.iter().filter(|(_, name)| *name != "none").map(|(kind, name)| format!("{kind} {name}")).collect();
+    format!("contact {}: {}", law.name, chosen.join(", "))
+}
+
+/// A boundary in one line.
+fn boundary(boundary: &Boundary) -> String {
+    let shape = match &boundary.shape {
+        Shape::Plane { .. } => "plane".to_owned(),
+        Shape::Particles { members } => format!("group of {} particles", members.len()),
+    };
+    let axes: Vec<_> = (["x", "y", "z"].iter().zip(&boundary.axes))
+        .filter_map(|(axis, motion)| match motion {
+            AxisMotion::Fixed => None,
+            AxisMotion::Driven => Some(format!("{axis} driven")),
+            AxisMotion::Prescribed(velocity) => Some(format!("{axis} at {velocity} m/s")),
+        })
+        .collect();
+    let motion = if axes.is_empty() { "fixed".to_owned() } else { axes.join(", ") };
+    format!("boundary {}: {shape}, {motion}", boundary.name)
+}
+
+/// The time step, the stable one and what limits it.
+fn time_step(scene: &Scene, simulation: &Simulation) -> String {
+    let step = simulation.state().clock.step;
+    let chosen = match scene.run.step {
+        Step::Given(_) => "given".to_owned(),
+        Step::Automatic { safety } => format!("automatic, safety {safety}"),
+    };
+    let limit = simulation.limit();
+    if !limit.safe.is_finite() {
+        return format!("{step:.4e} s ({chosen}); nothing is stiff, no bound");
+    }
+    let by =
+        limit.particle.and_then(|index| scene.particles.get(index as usize)).map_or_else(String::new, |particle| {
+            let material = &scene.materials[particle.material.index()].name;
+            format!(", limited by particle {} (radius {:e} m, {material})", particle.id.0, particle.radius)
+        });
+    format!("{step:.4e} s ({chosen}), {:.3} of the stable one, {:.4e} s{by}", step / limit.safe, limit.safe)
+}
+
+/// Wall time of a step, measured over a few; a step that fails becomes a remark.
+fn cost(simulation: &mut Simulation, remarks: &mut Vec<String>) -> String {
+    let (begun, first) = (Instant::now(), simulation.state().clock.steps);
+    for _ in 0..LOOKS {
+        let interval = STEPS_AT_ONCE * simulation.state().clock.step;
+        if let Err(error) = simulation.advance(interval) {
+            remarks.push(format!("it stops at once: {error}"));
+            break;
+        }
+        if begun.elapsed() > PATIENCE {
+            break;
+        }
+    }
+    let steps = simulation.state().clock.steps - first;
+    if steps == 0 {
+        return "unknown".to_owned();
+    }
+    let step = begun.elapsed().as_secs_f64() / steps as f64;
+    let end = simulation.scene().run.end.map_or_else(String::new, |end| {
+        format!("; the run of {end} s about {:.3e} s", end / simulation.state().clock.step * step)
+    });
+    let contacts = simulation.contact_count();
+    let share =
+        if contacts > 0 { format!(", {:.1} ns for each contact", step * 1e9 / contacts as f64) } else { String::new() };
+    format!("{step:.3e} s wall for each step (measured over {steps}){share}{end}")
+}
+
+/// Size of the state and of the whole process.
+fn memory(simulation: &Simulation) -> String {
+    /// Bytes in a mebibyte.
+    const MEBIBYTE: f64 = 1_048_576.0;
+    let state = simulation.state().to_bytes(0).len() as f64 / MEBIBYTE;
+    let process = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        line.split_whitespace().next()?.parse::<f64>().ok()
+    });
+    match process {
+        Some(kibibytes) => format!("{state:.2} MiB of state, {:.1} MiB at most in all", kibibytes / 1024.0),
+        None => format!("{state:.2} MiB of state"),
+    }
+}

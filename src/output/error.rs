@@ -1,0 +1,170 @@
+//! Why a command did not do its work.
+
+use super::vtk::EncodeError;
+use crate::state::snapshot::SnapshotError;
+use crate::step::RunError;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The system refused.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The bytes could not be made.
+    #[error("{}: {source}", path.display())]
+    Encode {
+        /// The file.
+        path: PathBuf,
+        /// What the encoder said.
+        source: EncodeError,
+    },
+    /// The thread that writes ended without a reason.
+    #[error("{}: the writer stopped; its results are not whole", path.display())]
+    Writer {
+        /// The folder it wrote to.
+        path: PathBuf,
+    },
+}
+
+impl OutputError {
+    /// Ties what the system said to the file.
+    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
+        move |source| Self::Write { path: path.to_owned(), source }
+    }
+}
+
+/// Why a checkpoint cannot be continued from.
+#[derive(Debug, thiserror::Error)]
+pub enum ResumeError {
+    /// There is none.
+    #[error("{}: holds no {}; run without --resume first", folder.display(), super::CHECKPOINT)]
+    None {
+        /// Where it was looked for.
+        folder: PathBuf,
+    },
+    /// It cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// It is no checkpoint of this scene.
+    #[error("{}: {source}", path.display())]
+    Snapshot {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: SnapshotError,
+    },
+    /// Its time is none that a run of this scene comes by.
+    #[error("the checkpoint is at t = {time} s, where a run of this scene writes nothing; {nearest} s would be right")]
+    Between {
+        /// Time of the checkpoint \[s\].
+        time: f64,
+        /// The nearest time that would do \[s\].
+        nearest: f64,
+    },
+    /// Rows that were there when the checkpoint was written are missing.
+    #[error(
+        "{}: {found} rows found; a run that is continued at t = {time} s has {expected}; \
+         take another folder with -o to begin a new file", path.display()
+    )]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// Rows it has.
+        found: usize,
+        /// Rows it had.
+        expected: usize,
+        /// Time of the checkpoint \[s\].
+        time: f64,
+    },
+    /// The columns are others.
+    #[error("{}: its columns are not those of this scene; take another folder with -o", path.display())]
+    Columns {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// Why the input was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// The scene does not say when a run ends.
+    #[error("{scene}, [run] end: not given; the time at which the run ends [s] is needed")]
+    NoEnd {
+        /// File name of the scene.
+        scene: String,
+    },
+    /// The scene cannot take its first step.
+    #[error("{scene}: {source}")]
+    Start {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: RunError,
+    },
+    /// The checkpoint does not fit.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+}
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The input was refused; nothing was written.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The simulation stopped.
+    #[error("the run stopped: {0}")]
+    Run(#[from] RunError),
+    /// A result could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Someone asked to stop.
+    #[error("interrupted at t = {time} s; run again with -o {} --resume to go on from there", folder.display())]
+    Interrupted {
+        /// How far it came \[s\].
+        time: f64,
+        /// The folder of the results, with the checkpoint.
+        folder: PathBuf,
+    },
+    /// Someone asked to stop before the packing had come to rest.
+    #[error("interrupted after {steps} steps at an unbalanced force of {ratio:.3e}; nothing was written")]
+    SettlingInterrupted {
+        /// Steps made.
+        steps: u64,
+        /// Unbalanced force over the mean contact force.
+        ratio: f64,
+    },
+    /// The packing did not come to rest.
+    #[error(
+        "not settled after {steps} steps (t = {time} s): the unbalanced force is {ratio:.3e} of the mean contact force, \
+         {tolerance:.3e} is asked for; a looser tolerance, more damping or more --steps may do"
+    )]
+    Unsettled {
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// Unbalanced force over the mean contact force.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+}
+
+impl From<ResumeError> for Failure {
+    fn from(error: ResumeError) -> Self {
+        Self::Refused(error.into())
+    }
+}

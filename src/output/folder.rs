@@ -1,0 +1,248 @@
+//! The folder of a run's results: which files stand in it, and how they are begun, taken up and added to.
+
+use super::collection::Collection;
+use super::error::{OutputError, ResumeError};
+use super::files::{Durability, UNFINISHED, sync, write_checkpoint, write_whole};
+use super::history::{Found, History};
+use super::schedule::Schedule;
+use super::{CHECKPOINT, HISTORY, SUMMARY, frames, vtk::Cloud};
+use crate::interface::Value;
+use crate::scene::Scene;
+use crate::state::{Particles, State};
+use crate::step::ContactRecord;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Kinds of frames: beginning of the names of their files.
+const FRAMES: [&str; 2] = ["particles", "contacts"];
+
+/// One thing to write.
+pub(super) enum Job {
+    /// A row of the history.
+    Row {
+        /// Time \[s\].
+        time: f64,
+        /// The outputs.
+        values: Vec<Value>,
+    },
+    /// A frame.
+    Frame {
+        /// Time \[s\].
+        time: f64,
+        /// The particles.
+        particles: Box<Particles>,
+        /// The contacts, if the scene asks for them.
+        contacts: Option<Vec<ContactRecord>>,
+    },
+    /// A checkpoint. Everything written before it is on the disk when it has its name.
+    Checkpoint(Box<State>),
+}
+
+/// Where a run begins, as far as its files are concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beginning {
+    /// At time 0: what an earlier run left is removed.
+    Anew,
+    /// At a later time, in the folder of the run that is continued.
+    Here,
+    /// At a later time, from a checkpoint of another folder.
+    Elsewhere,
+}
+
+/// A frame's `.pvd` and what has been added.
+struct Series {
+    /// Beginning of the file names.
+    name: &'static str,
+    /// The `.pvd`.
+    collection: Collection,
+    /// Number of the next frame.
+    next: usize,
+}
+
+/// The open folder.
+pub(super) struct Folder {
+    /// What is simulated.
+    scene: Arc<Scene>,
+    /// Where it is.
+    path: PathBuf,
+    /// `history.csv`.
+    history: History,
+    /// The kinds of frames that the scene asks for.
+    series: Vec<Series>,
+    /// Frames that may not be on the disk yet.
+    unsynced: Vec<PathBuf>,
+}
+
+/// What a continued run keeps of the files in a folder; looking changes nothing.
+pub(super) struct Kept {
+    /// The rows, or none where a new file is begun.
+    history: Option<Found>,
+    /// Times of the frames \[s\].
+    frames: Vec<f64>,
+}
+
+impl Kept {
+    /// Looks at the files in a folder, for a run that begins there at `time` \[s\].
+    pub(super) fn look(
+        path: &Path,
+        names: &[String],
+        schedule: &Schedule,
+        time: f64,
+        beginning: Beginning,
+    ) -> Result<Self, ResumeError> {
+        let history = path.join(HISTORY);
+        let keeps = match beginning {
+            Beginning::Anew => false,
+            Beginning::Here => true,
+            Beginning::Elsewhere => history.exists(),
+        };
+        if !keeps {
+            return Ok(Self { history: None, frames: Vec::new() });
+        }
+        let found = Found::rows(&history, names, schedule.rows_until(time), time)?;
+        Ok(Self { history: Some(found), frames: schedule.frames_until(time) })
+    }
+}
+
+impl Folder {
+    /// Makes the folder ready for the first row.
+    pub(super) fn open(path: &Path, scene: Arc<Scene>, names: &[String], kept: &Kept) -> Result<Self, OutputError> {
+        fs::create_dir_all(path).map_err(OutputError::at(path))?;
+        remove_results(path, kept)?;
+        let history = path.join(HISTORY);
+        let history = match &kept.history {
+            Some(found) => History::reopen(&history, found)?,
+            None => History::create(&history, names)?,
+        };
+        let wanted = [scene.output.frame_interval.is_some(), scene.output.contacts];
+        let series = (FRAMES.into_iter().zip(wanted))
+            .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
+            .map(|(name, _)| Series::open(path, name, &kept.frames))
+            .collect::<Result<_, _>>()?;
+        Ok(Self { scene, path: path.to_owned(), history, series, unsynced: Vec::new() })
+    }
+
+    /// Where it is.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Does one job.
+    pub(super) fn write(&mut self, job: Job) -> Result<(), OutputError> {
+        match job {
+            Job::Row { time, values } => self.history.add(time, &values),
+            Job::Frame { time, particles, contacts } => self.frame(time, &particles, contacts.as_deref()),
+            Job::Checkpoint(state) => {
+                self.history.sync()?;
+                for path in self.unsynced.drain(..) {
+                    sync(&path)?;
+                }
+                write_checkpoint(&self.path.join(CHECKPOINT), &state, self.scene.fingerprint)
+            }
+        }
+    }
+
+    /// Writes the files of a frame, then their entries.
+    fn frame(
+        &mut self,
+        time: f64,
+        particles: &Particles,
+        contacts: Option<&[ContactRecord]>,
+    ) -> Result<(), OutputError> {
+        let clouds = [
+            Some(frames::particles(&self.scene, particles)),
+            contacts.map(|contacts| frames::contacts(&self.scene, contacts)),
+        ];
+        for (series, cloud) in self.series.iter_mut().zip(clouds.into_iter().flatten()) {
+            self.unsynced.push(series.add(&self.path, time, cloud)?);
+        }
+        Ok(())
+    }
+}
+
+impl Series {
+    /// Takes up the frames of these times \[s\].
+    fn open(path: &Path, name: &'static str, times: &[f64]) -> Result<Self, OutputError> {
+        let frames: Vec<_> = (0..).zip(times).map(|(number, time)| (*time, frame_name(name, number))).collect();
+        let collection = Collection::create(&path.join(format!("{name}.pvd")), &frames)?;
+        Ok(Self { name, collection, next: times.len() })
+    }
+
+    /// Writes the next frame.
+    fn add(&mut self, folder: &Path, time: f64, cloud: Cloud) -> Result<PathBuf, OutputError> {
+        let name = frame_name(self.name, self.next);
+        let path = folder.join(&name);
+        let bytes = cloud.encode().map_err(|source| OutputError::Encode { path: path.clone(), source })?;
+        write_whole(&path, &bytes, Durability::Process)?;
+        self.collection.add(time, &name)?;
+        self.next += 1;
+        Ok(path)
+    }
+}
+
+/// File name of a frame.
+fn frame_name(kind: &str, number: usize) -> String {
+    format!("{kind}_{number:06}.vtu")
+}
+
+/// Removes what an earlier run left in the folder and this one does not keep, and nothing else. The checkpoint
+/// stays until the next one takes its place: this run may have begun from it.
+fn remove_results(path: &Path, kept: &Kept) -> Result<(), OutputError> {
+    for entry in fs::read_dir(path).map_err(OutputError::at(path))? {
+        let entry = entry.map_err(OutputError::at(path))?;
+        let name = entry.file_name();
+        let Some(name) = name.to_str() else { continue };
+        if is_stale(name, kept) {
+            fs::remove_file(entry.path()).map_err(OutputError::at(&entry.path()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a file is of an earlier run and not kept by this one.
+fn is_stale(name: &str, kept: &Kept) -> bool {
+    if let Some(name) = name.strip_suffix(&format!(".{UNFINISHED}")) {
+        return is_stale(name, &Kept { history: None, frames: Vec::new() });
+    }
+    let number = |kind: &str| -> Option<usize> {
+        let digits = name.strip_prefix(kind)?.strip_prefix('_')?.strip_suffix(".vtu")?;
+        (digits.len() >= 6 && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
+    };
+    let frame = FRAMES.iter().find_map(|kind| number(kind));
+    match name {
+        HISTORY => kept.history.is_none(),
+        SUMMARY => true,
+        _ => {
+            frame.is_some_and(|number| number >= kept.frames.len())
+                || FRAMES.iter().any(|kind| name == format!("{kind}.pvd"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn removes_what_an_earlier_run_left_and_nothing_else() {
+        let nothing = Kept { history: None, frames: Vec::new() };
+        for name in
+            ["history.csv", "particles_000003.vtu", "contacts_1234567.vtu", "particles.pvd", "summary.json.part"]
+        {
+            assert!(is_stale(name, &nothing), "{name}");
+        }
+        for name in
+            ["scene.toml", "particles_3.vtu", "particles_000003.vtk", "my_history.csv", "settled.cograin", "x.part"]
+        {
+            assert!(!is_stale(name, &nothing), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_continued_run_keeps_its_frames_and_rows() {
+        let kept = Kept { history: Some(Found::default()), frames: vec![0.0, 0.1] };
+        assert!(!is_stale("history.csv", &kept) && !is_stale("particles_000001.vtu", &kept));
+        assert!(is_stale("particles_000002.vtu", &kept));
+    }
+}

@@ -1,0 +1,49 @@
+//! The clouds of a frame: particles by ascending id, and the contacts between them.
+
+use super::vtk::{Cloud, Values};
+use crate::scene::Scene;
+use crate::state::Particles;
+use crate::step::ContactRecord;
+
+/// All particles, in the order of the scene whatever their order in memory.
+pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
+    let slots = || particles.slot.iter().map(|&slot| slot as usize);
+    let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
+    let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
+    Cloud {
+        points: three(&particles.position),
+        fields: vec![
+            ("radius", Values::Scalars(fourth(&particles.position))),
+            ("id", Values::Integers(scene.particles.iter().map(|particle| i64::from(particle.id.0)).collect())),
+            ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
+            ("velocity", Values::Vectors(three(&particles.velocity))),
+            ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
+            ("force", Values::Vectors(three(&particles.force))),
+            ("torque", Values::Vectors(three(&particles.torque))),
+            ("mass", Values::Scalars(fourth(&particles.velocity))),
+        ],
+    }
+}
+
+/// A point for each contact: where it is, its forces on the first body, and the two bodies.
+///
+/// A wall has no id: `id2` is then −1, and `boundary` is its place in the scene; between particles `boundary` is −1.
+pub(super) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
+    let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
+    let vectors = |of: fn(&ContactRecord) -> [f64; 3]| Values::Vectors(contacts.iter().flat_map(of).collect());
+    let scalars = |of: fn(&ContactRecord) -> f64| Values::Scalars(contacts.iter().map(of).collect());
+    let integers = |of: &dyn Fn(&ContactRecord) -> i64| Values::Integers(contacts.iter().map(of).collect());
+    Cloud {
+        points: contacts.iter().flat_map(|contact| contact.point).collect(),
+        fields: vec![
+            ("id1", integers(&|contact| id(contact.first))),
+            ("id2", integers(&|contact| contact.second.map_or(-1, id))),
+            ("boundary", integers(&|contact| contact.boundary.map_or(-1, i64::from))),
+            ("normal", vectors(|contact| contact.normal)),
+            ("overlap", scalars(|contact| contact.overlap)),
+            ("normal_force", scalars(|contact| contact.normal_force)),
+            ("tangential_force", vectors(|contact| contact.tangential_force)),
+            ("sliding", Values::Bytes(contacts.iter().map(|contact| u8::from(contact.sliding)).collect())),
+        ],
+    }
+}

@@ -1,0 +1,48 @@
+//! What the commands do and leave behind: a run with its files, a settled state, a report on a scene.
+//!
+//! | file in a run's folder      | what it holds                                                     |
+//! |-----------------------------|-------------------------------------------------------------------|
+//! | `history.csv`               | time and the unit's outputs, a row at each history interval       |
+//! | `particles_000000.vtu`, …   | the particles by ascending id, a file at each frame interval      |
+//! | `contacts_000000.vtu`, …    | the contacts of each frame, if the scene asks for them            |
+//! | `particles.pvd`, …          | the times of the frames                                           |
+//! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
+//! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |
+//!
+//! All of them are whole at any time, whatever ends the program; `--resume` takes them up where the checkpoint
+//! stands and ends with the same bytes as a run that was never broken (`summary.json`, which tells of one
+//! session, aside). When outputs are due, and how that divides the run, is told in `schedule.rs`.
+
+mod check;
+mod collection;
+mod error;
+mod files;
+mod folder;
+mod frames;
+mod history;
+mod momentum;
+mod remarks;
+mod run;
+mod schedule;
+mod settle;
+mod summary;
+mod vtk;
+mod writer;
+
+pub use check::{Report, check};
+pub use error::{Failure, OutputError, Refusal, ResumeError};
+pub use files::{read_checkpoint, write_checkpoint};
+pub use remarks::remarks;
+pub use run::{Progress, RunOrder, Start, run};
+pub use settle::{SettleOrder, SettleProgress, Settled, settle};
+pub use summary::Summary;
+pub use vtk::EncodeError;
+
+/// File of the unit's outputs over time.
+const HISTORY: &str = "history.csv";
+
+/// File of the state to continue from.
+pub const CHECKPOINT: &str = "checkpoint.cograin";
+
+/// File that tells how a run went.
+const SUMMARY: &str = "summary.json";

@@ -1,0 +1,114 @@
+//! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
+
+use crate::contact::MaterialPair;
+use crate::scene::{Scene, Step};
+use crate::step::Simulation;
+
+/// Part of the stable step above which a given step is said to be near it.
+const NEAR_THE_BOUND: f64 = 0.8;
+
+/// Young's moduli that a widely used program of the field takes without further ado \[Pa\].
+const USUAL_MODULI: [f64; 2] = [5e6, 1e9];
+
+/// Cohesion energy density over effective modulus from which contacts at rest are visibly pulled together.
+const DEEP_COHESION: f64 = 0.03;
+
+/// Cohesion energy density over effective modulus from which contacts collapse.
+const COLLAPSING_COHESION: f64 = 0.07;
+
+/// Overlap over radius above which contact laws are hardly valid.
+const DEEP_OVERLAP: f64 = 0.05;
+
+/// The remarks on a scene in its present state.
+pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let mut remarks = Vec::new();
+    remarks.extend(time_step(scene, simulation));
+    remarks.extend(intervals(scene));
+    remarks.extend(moduli(scene));
+    remarks.extend(cohesion(scene));
+    remarks.extend(overlap(simulation));
+    remarks.extend(falling(scene));
+    remarks
+}
+
+/// On a given step near the stable one.
+fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
+    let Step::Given(step) = scene.run.step else { return None };
+    let stable = simulation.state().clock.stable;
+    (step > NEAR_THE_BOUND * stable).then(|| {
+        format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
+    })
+}
+
+/// On intervals that are no whole number of given steps.
+fn intervals(scene: &Scene) -> Vec<String> {
+    let Step::Given(step) = scene.run.step else { return Vec::new() };
+    let output = &scene.output;
+    let named = [
+        ("history_interval", output.history_interval),
+        ("frame_interval", output.frame_interval),
+        ("checkpoint_interval", output.checkpoint_interval),
+    ];
+    let uneven = |interval: f64| ((interval / step).round() * step - interval).abs() > 1e-6 * step;
+    (named.into_iter())
+        .filter_map(|(key, interval)| interval.filter(|interval| uneven(*interval)).map(|interval| (key, interval)))
+        .map(|(key, interval)| {
+            format!(
+                "[output] {key}: {interval:e} s is no whole number of steps of {step:e} s; they are shortened to fit"
+            )
+        })
+        .collect()
+}
+
+/// On moduli that others would ask to confirm.
+fn moduli(scene: &Scene) -> Vec<String> {
+    let [soft, hard] = USUAL_MODULI;
+    let outside = |modulus: &f64| *modulus < soft || *modulus > hard;
+    (scene.materials.iter())
+        .filter_map(|material| material.youngs_modulus.filter(outside).map(|modulus| (&material.name, modulus)))
+        .map(|(name, modulus)| {
+            let effect = if modulus < soft { "overlaps will be large" } else { "time steps will be short" };
+            format!("[material.{name}] youngs_modulus: {modulus:e} Pa is outside {soft:e} to {hard:e} Pa, which particle programs usually take; {effect}")
+        })
+        .collect()
+}
+
+/// On cohesion that pulls contacts deep into each other.
+fn cohesion(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let mut remarks = Vec::new();
+    for law in scene.contacts.iter().filter(|law| law.cohesion.name() != "none") {
+        for (a, b) in (0..count).flat_map(|a| (a..count).map(move |b| (a, b))) {
+            let properties = &scene.pairs[a * count + b];
+            let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
+            let Some(density) = properties.cohesion_energy_density.filter(|_| law.between[a * count + b]) else {
+                continue;
+            };
+            let Ok(modulus) = pair.effective_youngs_modulus() else { continue };
+            let ratio = density.get() / modulus;
+            if ratio > DEEP_COHESION {
+                let effect =
+                    if ratio > COLLAPSING_COHESION { "contacts collapse" } else { "contacts rest deep in each other" };
+                remarks.push(format!(
+                    "[pair.{}.{}] cohesion_energy_density: {:e} J/m³ is {ratio:.2e} of the effective modulus; above {DEEP_COHESION} {effect}",
+                    pair.a.name, pair.b.name, density.get()
+                ));
+            }
+        }
+    }
+    remarks
+}
+
+/// On overlaps that contact laws are not made for.
+fn overlap(simulation: &Simulation) -> Option<String> {
+    let overlap = simulation.largest_overlap();
+    (overlap > DEEP_OVERLAP)
+        .then(|| format!("the largest overlap is {overlap:.3} of a radius; contact laws hold for small ones"))
+}
+
+/// On particles that fall for ever.
+fn falling(scene: &Scene) -> Option<String> {
+    let endless =
+        scene.boundaries.is_empty() && scene.domain.is_none() && scene.gravity.iter().any(|part| *part != 0.0);
+    endless.then(|| "gravity acts and there is no boundary and no [domain]: particles fall for ever".to_owned())
+}

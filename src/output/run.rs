@@ -1,0 +1,216 @@
+//! A scene that runs by itself, from one communication point to the next, and what it writes there.
+
+use super::error::{Failure, OutputError, Refusal, ResumeError};
+use super::files::{Durability, read_checkpoint, write_whole};
+use super::folder::{Beginning, Folder, Job, Kept};
+use super::momentum;
+use super::schedule::{Due, Schedule};
+use super::summary::{Meter, Summary};
+use super::writer::Writer;
+use super::{CHECKPOINT, SUMMARY};
+use crate::interface::Interface;
+use crate::scene::Scene;
+use crate::step::Simulation;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
+/// of what is in them.
+const CHECKPOINT_PAUSE: Duration = Duration::from_secs(30);
+
+/// Where a run begins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// With the scene as its file has it.
+    Scene,
+    /// With the checkpoint in the folder of the results.
+    LastCheckpoint,
+    /// With this checkpoint.
+    Checkpoint(PathBuf),
+}
+
+/// What is to be run, and where to.
+#[derive(Clone, Copy, Debug)]
+pub struct RunOrder<'a> {
+    /// The scene.
+    pub scene: &'a Arc<Scene>,
+    /// Its file name, for messages and the summary.
+    pub scene_name: &'a str,
+    /// Folder of the results.
+    pub folder: &'a Path,
+    /// Where it begins.
+    pub start: &'a Start,
+    /// Set from outside to stop at the next communication point.
+    pub stop: &'a AtomicBool,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Where this session began \[s\].
+    pub start: f64,
+    /// Time \[s\].
+    pub time: f64,
+    /// Where it ends \[s\].
+    pub end: f64,
+}
+
+/// Runs a scene to its end and returns the summary that also stands in `summary.json`.
+pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summary, Failure> {
+    let mut session = Session::begin(order)?;
+    let result = session.go(order.stop, watch);
+    session.end(result)
+}
+
+/// A run under way.
+struct Session<'a> {
+    /// What was asked for.
+    order: RunOrder<'a>,
+    /// When what is written.
+    schedule: Schedule,
+    /// The end of the run \[s\].
+    end: f64,
+    /// The scene in motion.
+    simulation: Simulation,
+    /// Its variables.
+    interface: Interface,
+    /// Who writes.
+    writer: Writer,
+    /// Communication point that was reached last \[s\].
+    time: f64,
+    /// Communication point where this session began \[s\].
+    start: f64,
+    /// Momentum and impulses at the start of this session.
+    momentum: momentum::Start,
+    /// What was counted.
+    meter: Meter,
+    /// When the last checkpoint was handed over.
+    last_checkpoint: Instant,
+}
+
+impl<'a> Session<'a> {
+    /// Refuses what cannot be run, before anything is written; then opens the folder.
+    fn begin(order: RunOrder<'a>) -> Result<Self, Failure> {
+        let scene_name = || order.scene_name.to_owned();
+        let end = order.scene.run.end.ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
+        let schedule = Schedule::new(&order.scene.output, end);
+        let (simulation, time, beginning) = match checkpoint(&order)? {
+            Some((path, beginning)) => {
+                let state = read_checkpoint(&path, order.scene.fingerprint)?;
+                let saved = state.clock.time;
+                let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
+                let beginning = if time > 0.0 { beginning } else { Beginning::Anew };
+                (Simulation::resume(Arc::clone(order.scene), state), time, beginning)
+            }
+            None => {
+                let start = |source| Refusal::Start { scene: scene_name(), source };
+                (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Beginning::Anew)
+            }
+        };
+        let interface = Interface::of(order.scene);
+        let outputs = interface.outputs().map(|(_, variable)| variable.name.clone());
+        let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
+        let kept = Kept::look(order.folder, &names, &schedule, time, beginning)?;
+        let writer = Writer::start(Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?)?;
+        let momentum = momentum::Start::of(&simulation);
+        let meter = Meter::start(&simulation);
+        let last_checkpoint = Instant::now();
+        let mut session = Self {
+            order,
+            schedule,
+            end,
+            simulation,
+            interface,
+            writer,
+            time,
+            start: time,
+            momentum,
+            meter,
+            last_checkpoint,
+        };
+        match beginning {
+            Beginning::Anew => session.write(session.schedule.at_start())?,
+            Beginning::Elsewhere => session.write(Due { history: false, frame: false, checkpoint: true })?,
+            Beginning::Here => {}
+        }
+        Ok(session)
+    }
+
+    /// Goes from point to point.
+    fn go(&mut self, stop: &AtomicBool, watch: &mut dyn FnMut(Progress)) -> Result<(), Failure> {
+        let (start, end) = (self.start, self.end);
+        let tell = |time| Progress { start, time, end };
+        watch(tell(self.time));
+        while let Some(point) = self.schedule.after(self.time) {
+            self.meter.step(&mut self.simulation, point.interval)?;
+            self.time = point.time;
+            let stopped = stop.load(Ordering::Relaxed);
+            self.write(Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due })?;
+            watch(tell(point.time));
+            if stopped && point.time < self.end {
+                return Err(self.interrupted());
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a scene that gives no interval has waited long for a checkpoint.
+    fn overdue(&self) -> bool {
+        let unnamed = self.order.scene.output.checkpoint_interval.is_none();
+        unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
+    }
+
+    /// Hands what is due of the present state to the writer.
+    fn write(&mut self, due: Due) -> Result<(), OutputError> {
+        let time = self.time;
+        if due.history {
+            let values = self.interface.outputs().map(|(index, _)| self.interface.value(&self.simulation, index));
+            let values = values.collect();
+            self.writer.send(Job::Row { time, values })?;
+        }
+        if due.frame {
+            let particles = Box::new(self.simulation.state().particles.clone());
+            let contacts = self.order.scene.output.contacts.then(|| self.simulation.contacts());
+            self.writer.send(Job::Frame { time, particles, contacts })?;
+        }
+        if due.checkpoint {
+            self.last_checkpoint = Instant::now();
+            self.writer.send(Job::Checkpoint(Box::new(self.simulation.state().clone())))?;
+        }
+        Ok(())
+    }
+
+    /// What is told who asked to stop.
+    fn interrupted(&self) -> Failure {
+        Failure::Interrupted { time: self.time, folder: self.order.folder.to_owned() }
+    }
+
+    /// Waits for the writer and leaves the summary. The first thing that went wrong is told.
+    fn end(mut self, result: Result<(), Failure>) -> Result<Summary, Failure> {
+        let result = result.and(self.writer.finish().map_err(Failure::from));
+        let momentum = self.momentum.balance(&self.simulation);
+        self.meter.look(&self.simulation);
+        let summary =
+            Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
+        let path = self.order.folder.join(SUMMARY);
+        let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
+        result.and(written.map_err(Failure::from)).map(|()| summary)
+    }
+}
+
+/// The checkpoint that a run begins with, if any, and what that means for its files.
+fn checkpoint(order: &RunOrder<'_>) -> Result<Option<(PathBuf, Beginning)>, ResumeError> {
+    let own = order.folder.join(CHECKPOINT);
+    match order.start {
+        Start::Scene => Ok(None),
+        Start::LastCheckpoint if own.exists() => Ok(Some((own, Beginning::Here))),
+        Start::LastCheckpoint => Err(ResumeError::None { folder: order.folder.to_owned() }),
+        Start::Checkpoint(path) => {
+            let same = |path: &Path| path.canonicalize().ok();
+            let here = same(path).is_some() && same(path) == same(&own);
+            Ok(Some((path.clone(), if here { Beginning::Here } else { Beginning::Elsewhere })))
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! `summary.json`: how a run went.
+
+use super::error::Failure;
+use super::momentum::MomentumBalance;
+use super::remarks::remarks;
+use super::run::RunOrder;
+use crate::state::ledger::Source;
+use crate::step::{RunError, Simulation};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Counts what a session does.
+pub(super) struct Meter {
+    /// When the session began.
+    begun: Instant,
+    /// Time spent in time steps.
+    stepping: Duration,
+    /// Time steps of earlier sessions.
+    steps_before: u64,
+    /// Contacts summed over the time steps of the session.
+    contact_steps: f64,
+    /// Contacts at the last look.
+    contacts: usize,
+    /// Largest overlap over radius at any look.
+    largest_overlap: f64,
+}
+
+impl Meter {
+    /// Begins to count.
+    pub(super) fn start(simulation: &Simulation) -> Self {
+        Self {
+            begun: Instant::now(),
+            stepping: Duration::ZERO,
+            steps_before: simulation.state().clock.steps,
+            contact_steps: 0.0,
+            contacts: simulation.contact_count(),
+            largest_overlap: simulation.largest_overlap(),
+        }
+    }
+
+    /// Makes a communication step and counts it.
+    pub(super) fn step(&mut self, simulation: &mut Simulation, interval: f64) -> Result<(), RunError> {
+        let (begun, before) = (Instant::now(), simulation.state().clock.steps);
+        let result = simulation.advance(interval);
+        self.stepping += begun.elapsed();
+        let contacts = simulation.contact_count();
+        let steps = (simulation.state().clock.steps - before) as f64;
+        self.contact_steps += 0.5 * steps * (self.contacts + contacts) as f64;
+        self.contacts = contacts;
+        result
+    }
+
+    /// Looks at the overlaps.
+    pub(super) fn look(&mut self, simulation: &Simulation) {
+        self.largest_overlap = self.largest_overlap.max(simulation.largest_overlap());
+    }
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// It came to its end.
+    Completed,
+    /// Someone asked to stop.
+    Interrupted,
+    /// It could not go on.
+    Failed,
+}
+
+/// Numbers of things.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Counts {
+    /// Particles.
+    pub particles: usize,
+    /// Boundaries.
+    pub boundaries: usize,
+    /// Contacts at the end, those with planes included.
+    pub contacts: usize,
+    /// Contacts on average over the time steps of this session.
+    pub mean_contacts: f64,
+    /// Times the neighbour lists were made since time 0.
+    pub neighbour_rebuilds: u64,
+}
+
+/// Time steps \[s\].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TimeSteps {
+    /// The present one \[s\].
+    pub current: f64,
+    /// The largest stable one, as last computed \[s\]; none where nothing is stiff.
+    pub stable: Option<f64>,
+}
+
+/// The algorithmic energy book: work of each kind of force on the free particles since time 0 \[J\].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EnergyBook {
+    /// Kinetic energy when the book was opened \[J\].
+    pub initial_kinetic: f64,
+    /// Kinetic energy at the end \[J\].
+    pub kinetic: f64,
+    /// Work of each kind of force \[J\].
+    pub work: BTreeMap<&'static str, f64>,
+    /// Change of kinetic energy less all work \[J\].
+    pub residual: f64,
+    /// That, over the sum of the magnitudes of all entries.
+    pub relative_residual: f64,
+}
+
+/// How a run went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The program and its version.
+    pub program: String,
+    /// File name of the scene.
+    pub scene: String,
+    /// How it ended.
+    pub ended: Ending,
+    /// Why, unless it came to its end.
+    pub reason: Option<String>,
+    /// Where this session began \[s\].
+    pub start: f64,
+    /// Time at the end \[s\].
+    pub time: f64,
+    /// Time steps since time 0.
+    pub steps: u64,
+    /// Time steps of this session.
+    pub session_steps: u64,
+    /// Time steps \[s\].
+    pub time_step: TimeSteps,
+    /// Threads.
+    pub threads: usize,
+    /// Numbers of things.
+    pub counts: Counts,
+    /// Largest overlap over the smaller radius at the ends of this session.
+    pub largest_overlap: f64,
+    /// Wall time of this session, output included \[s\].
+    pub wall_time: f64,
+    /// Wall time of its time steps alone \[s\].
+    pub stepping_time: f64,
+    /// Of the time steps, for each contact and step \[ns\]; none without contacts.
+    pub ns_per_contact_and_step: Option<f64>,
+    /// Of the time steps, for each particle and step \[ns\]; none without steps.
+    pub ns_per_particle_and_step: Option<f64>,
+    /// The algorithmic energy book, where the scene keeps one.
+    pub energy: Option<EnergyBook>,
+    /// The momentum balance of this session.
+    pub momentum: MomentumBalance,
+    /// What is legal but risky in the scene.
+    pub remarks: Vec<String>,
+}
+
+impl Summary {
+    /// The summary at the present time.
+    pub(super) fn new(
+        order: &RunOrder<'_>,
+        simulation: &Simulation,
+        meter: &Meter,
+        start: f64,
+        momentum: MomentumBalance,
+        failure: Option<&Failure>,
+    ) -> Self {
+        let state = simulation.state();
+        let session_steps = state.clock.steps - meter.steps_before;
+        let particles = state.particles.len();
+        let nanoseconds = meter.stepping.as_secs_f64() * 1e9;
+        let share = |count: f64| (count > 0.0).then(|| nanoseconds / count);
+        Self {
+            program: concat!("cograin ", env!("CARGO_PKG_VERSION")).to_owned(),
+            scene: order.scene_name.to_owned(),
+            ended: match failure {
+                None => Ending::Completed,
+                Some(Failure::Interrupted { .. }) => Ending::Interrupted,
+                Some(_) => Ending::Failed,
+            },
+            reason: failure.map(ToString::to_string),
+            start,
+            time: state.clock.time,
+            steps: state.clock.steps,
+            session_steps,
+            time_step: TimeSteps {
+                current: state.clock.step,
+                stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
+            },
+            threads: simulation.threads(),
+            counts: Counts {
+                particles,
+                boundaries: state.boundaries.len(),
+                contacts: meter.contacts,
+                mean_contacts: if session_steps > 0 { meter.contact_steps / session_steps as f64 } else { 0.0 },
+                neighbour_rebuilds: state.clock.rebuilds,
+            },
+            largest_overlap: meter.largest_overlap,
+            wall_time: meter.begun.elapsed().as_secs_f64(),
+            stepping_time: meter.stepping.as_secs_f64(),
+            ns_per_contact_and_step: share(meter.contact_steps),
+            ns_per_particle_and_step: share(session_steps as f64 * particles as f64),
+            energy: energy_book(simulation),
+            momentum,
+            remarks: remarks(order.scene, simulation),
+        }
+    }
+
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        // Plain numbers and strings: writing them to memory has no way to fail.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+impl std::fmt::Display for Summary {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            formatter,
+            "{} steps to t = {} s, {} particles, {:.0} contacts on average, {:.3} s wall",
+            self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
+        )?;
+        match (self.ns_per_contact_and_step, self.ns_per_particle_and_step) {
+            (Some(cost), _) => write!(formatter, ", {cost:.1} ns per contact and step"),
+            (None, Some(cost)) => write!(formatter, ", {cost:.1} ns per particle and step"),
+            (None, None) => Ok(()),
+        }?;
+        write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })
+    }
+}
+
+/// The energy book at the present time, where the scene keeps one.
+fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
+    let ledger = simulation.state().ledger.as_ref()?;
+    let kinetic = simulation.kinetic_energy();
+    let residual = kinetic - ledger.initial_kinetic - ledger.total();
+    let scale = ledger.turnover.max(kinetic).max(ledger.initial_kinetic);
+    Some(EnergyBook {
+        initial_kinetic: ledger.initial_kinetic,
+        kinetic,
+        work: Source::ALL.into_iter().map(|source| (source.name(), ledger.work_of(source))).collect(),
+        residual,
+        relative_residual: if scale > 0.0 { residual / scale } else { 0.0 },
+    })
+}

@@ -1,0 +1,140 @@
+//! Clouds of points as `.vtu` files, which meshio and VTK read back bit for bit.
+//!
+//! The only place that knows `vtkio`. Files are binary, inline and uncompressed: random mantissas hardly
+//! compress, and compressing costs many times the writing.
+
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, IOBuffer, UnstructuredGridPiece, Version,
+    VertexNumbers, Vtk,
+};
+
+/// Why bytes could not be made.
+#[derive(Debug, thiserror::Error)]
+#[error("the frame cannot be encoded: {0}")]
+pub struct EncodeError(String);
+
+/// Values of one field, point after point.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Values {
+    /// One real number a point.
+    Scalars(Vec<f64>),
+    /// Three real numbers a point.
+    Vectors(Vec<f64>),
+    /// One whole number a point.
+    Integers(Vec<i64>),
+    /// One small whole number a point.
+    Bytes(Vec<u8>),
+}
+
+/// Points with named fields.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Cloud {
+    /// x, y, z of each point \[m\].
+    pub points: Vec<f64>,
+    /// The fields by name, in the order of the file.
+    pub fields: Vec<(&'static str, Values)>,
+}
+
+impl Cloud {
+    /// The cloud as a `.vtu` file.
+    pub(super) fn encode(self) -> Result<Vec<u8>, EncodeError> {
+        let count = self.points.len() / 3;
+        let piece = UnstructuredGridPiece {
+            points: self.points.into(),
+            cells: cells(count),
+            data: Attributes { point: self.fields.into_iter().map(attribute).collect(), cell: Vec::new() },
+        };
+        let file = Vtk {
+            version: Version::new_xml(1, 0),
+            title: String::new(),
+            byte_order: ByteOrder::LittleEndian,
+            file_path: None,
+            data: DataSet::inline(piece),
+        };
+        let mut bytes = Vec::new();
+        file.write_xml(&mut bytes).map_err(|error| EncodeError(error.to_string()))?;
+        if count == 0 { name_no_points(bytes) } else { Ok(bytes) }
+    }
+}
+
+/// A vertex for each point. Without points a single cell of no points: meshio refuses a file without cells.
+fn cells(count: usize) -> Cells {
+    if count == 0 {
+        let cell_verts = VertexNumbers::XML { connectivity: Vec::new(), offsets: vec![0] };
+        return Cells { cell_verts, types: vec![CellType::PolyVertex] };
+    }
+    let count_up = |from: u64| (from..from + count as u64).collect();
+    let cell_verts = VertexNumbers::XML { connectivity: count_up(0), offsets: count_up(1) };
+    Cells { cell_verts, types: vec![CellType::Vertex; count] }
+}
+
+/// One field as the file has it.
+fn attribute((name, values): (&'static str, Values)) -> Attribute {
+    Attribute::DataArray(match values {
+        Values::Scalars(values) => DataArray { data: IOBuffer::F64(values), ..DataArray::scalars(name, 1) },
+        Values::Vectors(values) => DataArray { data: IOBuffer::F64(values), ..DataArray::vectors(name) },
+        Values::Integers(values) => DataArray { data: IOBuffer::I64(values), ..DataArray::scalars(name, 1) },
+        Values::Bytes(values) => DataArray { data: IOBuffer::U8(values), ..DataArray::scalars(name, 1) },
+    })
+}
+
+/// Says that there are no points: the library leaves a count of 0 out, and no reader takes that.
+fn name_no_points(bytes: Vec<u8>) -> Result<Vec<u8>, EncodeError> {
+    let text = String::from_utf8(bytes).map_err(|error| EncodeError(error.to_string()))?;
+    if text.contains("NumberOfPoints") {
+        return Ok(text.into_bytes());
+    }
+    Ok(text.replacen("<Piece ", "<Piece NumberOfPoints=\"0\" ", 1).into_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cloud of `count` points with every kind of field, and numbers that do not survive rounding.
+    fn cloud(count: usize) -> Cloud {
+        let reals = |count: usize| (0..count).map(|k| (k as f64 + 0.1) / 3.0).collect::<Vec<_>>();
+        Cloud {
+            points: reals(3 * count),
+            fields: vec![
+                ("radius", Values::Scalars(reals(count))),
+                ("velocity", Values::Vectors(reals(3 * count))),
+                ("id", Values::Integers((0..count as i64).map(|k| k - (1 << 40)).collect())),
+                ("sliding", Values::Bytes((0..count).map(|k| (k % 2) as u8).collect())),
+            ],
+        }
+    }
+
+    /// What comes back of a file: its points and its fields as `f64` bits.
+    fn read_back(bytes: &[u8]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let file = Vtk::parse_xml(bytes).unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = file.data else { panic!("not an unstructured grid") };
+        let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
+        let fields = piece.data.point.into_iter().map(|attribute| match attribute {
+            Attribute::DataArray(array) => array.data.cast_into::<f64>().unwrap(),
+            Attribute::Field { .. } => panic!("not a plain field"),
+        });
+        (piece.points.cast_into().unwrap(), fields.collect())
+    }
+
+    #[test]
+    fn gives_every_bit_back() {
+        let bytes = cloud(7).encode().unwrap();
+        let (points, fields) = read_back(&bytes);
+        assert_eq!(points, cloud(7).points);
+        for ((name, values), read) in cloud(7).fields.into_iter().zip(fields) {
+            let expected = match values {
+                Values::Scalars(values) | Values::Vectors(values) => values,
+                Values::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
+                Values::Bytes(values) => values.into_iter().map(f64::from).collect(),
+            };
+            assert_eq!(read, expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_the_number_of_points_also_where_there_are_none() {
+        let text = String::from_utf8(cloud(0).encode().unwrap()).unwrap();
+        assert!(text.contains(r#"<Piece NumberOfPoints="0" NumberOfCells="1">"#), "{text}");
+    }
+}
