@@ -1,5 +1,6 @@
 //! Trials of whole bonds: claims that take motion, random placements or stored trajectories to test.
 
+mod compare;
 mod conservation;
 mod failures;
 mod gradient;

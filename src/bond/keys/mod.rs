@@ -1,5 +1,7 @@
 //! `[bond.<name>]` as the scene writes it, and the law that it means.
 
+mod check;
+
 use super::breakage::{distance::Distance, stress::ByStress};
 use super::coefficients::Law;
 use super::creation::{ContactPolicy, Creation};
@@ -9,6 +11,7 @@ use super::finite_rotation::FiniteRotation;
 use super::incremental::Incremental;
 use super::{BondLaw, Breakage, Composed, Damping, Formulation};
 use crate::quantity::{Fraction, NonNegative, Positive};
+use check::contradictions;
 use serde::{Deserialize, Deserializer};
 
 /// How forces and moments follow from the motion.
@@ -176,7 +179,7 @@ impl Keys {
 
     /// The law in numbers, or every contradiction among the keys.
     pub fn law(&self) -> Result<Law, Vec<KeyError>> {
-        let errors = self.contradictions();
+        let errors = contradictions(self);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -210,68 +213,6 @@ impl Keys {
             threshold_by_force: if smooth { SMOOTH_THRESHOLD_BY_FORCE } else { 0.0 },
             relaxation_rate: self.relaxation.map_or([0.0; 4], |keys| keys.parts(|time| 1.0 / time.get())),
         })
-    }
-
-    /// Every contradiction among the keys.
-    fn contradictions(&self) -> Vec<KeyError> {
-        let mut errors = Vec::new();
-        let mut say = |wrong: bool, key, message: &str| {
-            if wrong {
-                errors.push(KeyError { key, message: message.to_owned() });
-            }
-        };
-        let exact = self.formulation == FormulationChoice::EngineExact;
-        say(
-            self.create.needs_distance() && self.create_distance.is_none(),
-            "create_distance",
-            "missing; the distance of the centres below which bonds are made is needed, unless they are listed",
-        );
-        say(
-            self.create == Creation::Step(0),
-            "create",
-            "step 0 found; the first step that can bond is 1, and \"start\" bonds before it",
-        );
-        let opposes = matches!(self.damping, Some(DampingChoice::Opposing(_) | DampingChoice::Viscous(_)));
-        say(exact && opposes, "damping", "engine_exact has only the engine's damping; sign, smooth or none is right");
-        if let Some(keys) = self.breakage {
-            let stress = self.breaks_by_stress();
-            say(
-                !stress && keys.max_distance.is_none(),
-                "breakage",
-                "no limit found; max_distance, max_normal_stress or max_shear_stress is right, or no table",
-            );
-            say(
-                exact && stress && keys.max_distance.is_some(),
-                "breakage.max_distance",
-                "found beside a largest stress; engine_exact looks at one of them",
-            );
-            say(
-                keys.tension_ratio.is_some() && keys.max_normal_stress.is_none(),
-                "breakage.tension_ratio",
-                "found without max_normal_stress, which it multiplies",
-            );
-            say(
-                keys.friction_angle.is_some() && keys.max_shear_stress.is_none(),
-                "breakage.friction_angle",
-                "found without max_shear_stress, which it raises",
-            );
-            say(
-                keys.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
-                "breakage.friction_angle",
-                "an angle of π/2 or more found; radians from 0 to below π/2 are right",
-            );
-            say(
-                keys.compression_breaks.is_some() && keys.max_normal_stress.is_none(),
-                "breakage.compression_breaks",
-                "found without max_normal_stress, to which it belongs",
-            );
-            say(
-                exact && keys.compression_breaks == Some(false),
-                "breakage.compression_breaks",
-                "false found; in engine_exact compression always breaks",
-            );
-        }
-        errors
     }
 
     /// Why the time step must be given, if it must: what the law does depends on the step, or counts steps.
