@@ -204,3 +204,51 @@ fn a_scene_built_in_code_is_checked_too() {
          at most 0.1 is right ([run] max_overlap)"
     );
 }
+
+/// Tables that an example of the documentation leaves out because they are not its matter.
+const AROUND: [(&str, &str); 4] = [
+    ("[material.glass]", "density = 2500.0\nyoungs_modulus = 1e9\npoissons_ratio = 0.25"),
+    ("[material.steel]", "density = 7800.0\nyoungs_modulus = 2e11\npoissons_ratio = 0.3"),
+    (
+        "[particles.near]",
+        "material = \"glass\"\nlattice = { kind = \"simple_cubic\", counts = [2, 2, 2], radius = 1e-3 }",
+    ),
+    ("[boundary.wall]", "plane = { point = [0, 0, -0.5], normal = [0, 0, 1] }\nmaterial = \"steel\""),
+];
+
+/// An example of the documentation as a whole scene, with the files it names.
+fn example(text: &str) -> Source {
+    let mut whole = text.to_owned();
+    for (header, keys) in AROUND {
+        let kind = header.split('.').next().unwrap();
+        if !text.contains(header) && (kind == "[material" || !text.contains(kind)) {
+            whole = format!("{whole}\n{header}\n{keys}\n");
+        }
+    }
+    let files = fs::read_dir(folder("files")).unwrap().map(|entry| entry.unwrap().path());
+    let files = files.map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap()));
+    Source { name: "docs/scene.md".to_owned(), text: whole, files: files.collect() }
+}
+
+#[test]
+fn every_example_of_the_documentation_is_accepted() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scene.md")).unwrap();
+    let examples: Vec<&str> = text.split("```toml\n").skip(1).map(|rest| rest.split_once("\n```").unwrap().0).collect();
+    assert!(examples.len() > 10);
+    for text in examples {
+        let source = example(text);
+        if let Err(errors) = Scene::from_source(&source) {
+            panic!("{errors}\nin\n{}", source.text);
+        }
+    }
+}
+
+#[test]
+fn every_model_is_accepted() {
+    let models = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("models")).unwrap();
+    for path in models.map(|entry| entry.unwrap().path().join("scene.toml")).filter(|path| path.exists()) {
+        if let Err(errors) = Scene::read(&path) {
+            panic!("{}: {errors}", path.display());
+        }
+    }
+}
