@@ -72,6 +72,7 @@ fn scene(path: &str, threads: usize) -> Scene {
             cohesion: CohesionChoice::None(Default::default()),
             switches: Switches::of(false, true),
         }],
+        bonds: Vec::new(),
         sets: vec!["bed".into()],
         particles,
         boundaries: vec![

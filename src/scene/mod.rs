@@ -39,6 +39,8 @@ pub struct Scene {
     pub pairs: Vec<PairProperties>,
     /// Contact laws; each two materials belong to at most one.
     pub contacts: Vec<ContactLaw>,
+    /// Bond laws, in the order of the file.
+    pub bonds: Vec<Bond>,
     /// Names of the particle sets.
     pub sets: Vec<String>,
     /// All particles of all sets, by ascending id.
@@ -135,6 +137,25 @@ impl ContactLaw {
         let Self { normal, tangential, rolling, cohesion, switches, .. } = *self;
         LawChoice { normal, tangential, rolling, cohesion, switches }
     }
+}
+
+/// `[bond.<name>]`: a bond law and the particles it is for.
+#[derive(Clone, Debug)]
+pub struct Bond {
+    /// Its name in the scene.
+    pub name: String,
+    /// As the scene writes it; the type of the law follows from it.
+    pub keys: crate::bond::keys::Keys,
+    /// The law in numbers.
+    pub law: crate::bond::Law,
+    /// Between which sets of particles (one twice: inside it).
+    pub between: [SetIndex; 2],
+    /// When bonds are made.
+    pub create: crate::bond::creation::Creation,
+    /// Centres nearer than this are bonded \[m\].
+    pub create_distance: Option<f64>,
+    /// Listed pairs: indices into [`Scene::particles`].
+    pub pairs: Vec<[u32; 2]>,
 }
 
 /// A sphere as the scene starts it.

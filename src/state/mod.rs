@@ -3,6 +3,7 @@
 //! No physics here. Particles stand in the order of the present neighbour list, which follows space;
 //! [`Particles::id`] and [`Particles::slot`] go between that order and the scene's.
 
+pub mod bonds;
 pub mod boundaries;
 pub mod clock;
 pub mod contacts;
@@ -10,6 +11,7 @@ pub mod ledger;
 pub mod particles;
 pub mod snapshot;
 
+pub use bonds::{BondList, Break};
 pub use boundaries::BoundaryState;
 pub use clock::Clock;
 pub use contacts::{ContactList, Neighbours, WallContacts};
@@ -34,6 +36,10 @@ pub struct State {
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
     pub walls: Vec<WallContacts>,
+    /// Living bonds, a list for each bond law.
+    pub bonds: Vec<BondList>,
+    /// Bonds that broke since the present communication step began.
+    pub breaks: Vec<Break>,
     /// Motion and loads of the boundaries, in the scene's order.
     pub boundaries: Vec<BoundaryState>,
     /// The algorithmic energy book, if the scene asks for it.

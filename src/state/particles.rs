@@ -16,6 +16,8 @@ pub struct Particles {
     pub force: Vec<Row>,
     /// Torque \[N m\]; the fourth number is 0.
     pub torque: Vec<Row>,
+    /// Attitude since time 0 as a unit quaternion: scalar, x, y, z. Empty where no bond needs it.
+    pub attitude: Vec<Row>,
     /// Index of the material.
     pub material: Vec<u32>,
     /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs.

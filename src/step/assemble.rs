@@ -1,12 +1,14 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
+use super::bonds::BondPass;
 use super::contacts::{ContactPass, MOST_COEFFICIENTS, Table};
 use super::pass::Pass;
 use super::walls::{Plane, WallPass};
+use crate::bond::{BondLaw, keys};
 use crate::contact::{Law, LawChoice, TakeLaw};
 use crate::number::Vector;
 use crate::scene::{AxisMotion, ContactLaw, Scene, Shape};
-use crate::state::{BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
+use crate::state::{BondList, BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
 use std::marker::PhantomData;
 
 /// Skin of the neighbour lists over the mean radius, where the scene does not say.
@@ -22,6 +24,8 @@ pub(super) fn state(scene: &Scene) -> State {
         neighbours,
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
+        bonds: vec![BondList::default(); scene.bonds.len()],
+        breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(boundary).collect(),
         ledger: scene.output.energy.then(Ledger::default),
         damping_force: [0.0; 3],
@@ -96,6 +100,9 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
     for (index, law) in scene.contacts.iter().enumerate() {
         passes.push(choice(law).visit(BetweenParticles { scene, index }));
     }
+    for (index, bond) in scene.bonds.iter().enumerate() {
+        passes.push(bond.keys.visit(Bonded { scene, index }));
+    }
     for (list, (boundary, law)) in meetings(scene).into_iter().enumerate() {
         let maker = AtPlane { scene, list, boundary: boundary as usize, law: law as usize };
         passes.push(choice(&scene.contacts[law as usize]).visit(maker));
@@ -128,6 +135,21 @@ impl TakeLaw for BetweenParticles<'_> {
         const { assert!(L::COUNT <= MOST_COEFFICIENTS) };
         let table = Table::of(&law, self.scene, &self.scene.contacts[self.index].between);
         Box::new(ContactPass::<L> { index: self.index, table, law: PhantomData })
+    }
+}
+
+/// Makes the pass of a bond law.
+struct Bonded<'a> {
+    /// Where particles and bonds stand.
+    scene: &'a Scene,
+    /// Which bond law of the scene it is.
+    index: usize,
+}
+
+impl keys::TakeLaw for Bonded<'_> {
+    type Output = Box<dyn Pass>;
+    fn take<L: BondLaw>(self) -> Box<dyn Pass> {
+        Box::new(BondPass::<L>::of(self.scene, self.index))
     }
 }
 

@@ -184,7 +184,16 @@ impl<L: Law> Pass for ContactPass<L> {
                 let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
                 let response = L::stiffness(row, &contact);
                 let [first_arm, second_arm] = arms;
-                tell(Link { first: i, second: Some(j), response, first_arm, second_arm, normal: contact.normal });
+                tell(Link {
+                    first: i,
+                    second: Some(j),
+                    response,
+                    first_arm,
+                    second_arm,
+                    normal: contact.normal,
+                    torsion: 0.0,
+                    bending: 0.0,
+                });
             }
         }
     }

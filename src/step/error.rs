@@ -58,6 +58,18 @@ pub enum RunError {
         /// Position \[m\].
         z: f64,
     },
+    /// A bond is bent further than its formulation can follow.
+    #[error(
+        "the bond of particles {first} and {second} is bent beyond half a turn at t = {time} s; likely a missing breakage limit"
+    )]
+    Overbent {
+        /// One particle.
+        first: u32,
+        /// The other.
+        second: u32,
+        /// Time \[s\].
+        time: f64,
+    },
     /// The given time step is too long.
     #[error(
         "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s; likely a particle pair or load stiffer than thought; set [run] step below it, or \"auto\""

@@ -2,6 +2,7 @@
 
 use super::lanes::Shared;
 use super::pass::{CHUNK, Context};
+use crate::bond::Quaternion;
 use crate::state::{Particles, Row};
 
 /// Moves free particles by half a kick and a drift of `step` \[s\]. Returns the largest speed \[m/s\].
@@ -24,6 +25,19 @@ pub(super) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool
         fastest
     });
     speeds.into_iter().fold(0.0_f64, f64::max).sqrt()
+}
+
+/// Turns the attitudes by a drift of `step` \[s\], where particles have one.
+pub(super) fn turn(particles: &mut Particles, step: f64, context: &Context) {
+    let attitude = Shared::new(&mut particles.attitude);
+    let (count, spin) = (attitude.length(), &particles.angular_velocity);
+    context.each(count.div_ceil(CHUNK), |piece| {
+        for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
+            // SAFETY: pieces do not overlap.
+            let row = unsafe { attitude.at(slot) };
+            *row = Quaternion::from_row(*row).turned(spin[slot].into(), step).to_row();
+        }
+    });
 }
 
 /// Moves free particles by the second half of the kick. Returns the largest speed at the middle of the next step,

@@ -1,6 +1,7 @@
 //! One time step: the passes, in their order, over the state.
 
 mod assemble;
+mod bonds;
 mod boundaries;
 mod contacts;
 mod energy;
@@ -20,6 +21,8 @@ pub use error::RunError;
 pub use observe::ContactRecord;
 pub use stable::Limit;
 
+use crate::bond::Quaternion;
+use crate::bond::creation::Moment;
 use crate::quantity::BoundaryIndex;
 use crate::scene::{Scene, Step};
 use crate::state::State;
@@ -65,20 +68,12 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// The scene at time 0: forces evaluated, springs unmoved.
+    /// The scene at time 0: bonds made, forces evaluated, springs unmoved.
     pub fn new(scene: Arc<Scene>) -> Result<Self, RunError> {
         let state = assemble::state(&scene);
         let mut simulation = Self::resume(scene, state);
         simulation.begin()?;
         Ok(simulation)
-    }
-
-    /// Makes the lists and evaluates the forces, springs unmoved.
-    fn begin(&mut self) -> Result<(), RunError> {
-        boundaries::place_groups(&self.scene, &mut self.state);
-        self.search.rebuild(&mut self.state);
-        self.prepare_passes();
-        self.start()
     }
 
     /// The scene in a state saved earlier. The state must be of this scene ([`State::from_bytes`] sees to it).
@@ -136,6 +131,9 @@ impl Simulation {
     /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 2) and displacement \[m\] of each.
     /// Springs stay as they are; forces are evaluated anew. For use before the first interval only.
     pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
+        if self.state.clock.steps == 0 {
+            self.state = assemble::state(&self.scene);
+        }
         for &(boundary, axis, displacement) in starts {
             let boundary = &mut self.state.boundaries[boundary.index()];
             boundary.displacement[axis] = displacement;
@@ -159,6 +157,7 @@ impl Simulation {
         self.lengthen_step();
         let (count, step) = divide(interval, self.state.clock.step);
         boundaries::begin(&mut self.state, interval);
+        self.state.breaks.clear();
         let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
         let context = Context { step, width: self.width, parallel: workers.parallel() };
         let (done, result) = workers.run(|| self.run(count, step, &context));
@@ -183,11 +182,13 @@ impl Simulation {
     /// Makes one time step.
     fn step(&mut self, progress: Progress, context: &Context) -> Result<(), RunError> {
         let step = progress.step;
+        let earlier = self.state.clock.time;
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
         energy::book(&mut self.state, &self.fields, step, context);
         let speed = integrate::kick_and_drift(&mut self.state.particles, step, self.turning, context);
+        integrate::turn(&mut self.state.particles, step, context);
         let time = self.state.clock.time;
         let ways = boundaries::advance(&self.scene, &mut self.state, Progress { time, ..progress });
         boundaries::place_groups(&self.scene, &mut self.state);
@@ -196,8 +197,11 @@ impl Simulation {
         let mut result = Ok(());
         if self.search.outdated(&mut self.state) {
             result = self.check_domain();
-            self.search.rebuild(&mut self.state);
-            self.prepare_passes();
+            self.rebuild();
+        }
+        if !self.scene.bonds.is_empty() {
+            let number = self.state.clock.steps;
+            self.bond(&Moment { number, from: earlier, to: time }, step);
         }
         let before = boundaries::clear_loads(&mut self.state);
         let damping_before = self.state.damping_force;
@@ -265,13 +269,6 @@ impl Simulation {
             }
         }
         Ok(())
-    }
-
-    /// Lets every pass prepare its part of the state after the lists were made anew.
-    fn prepare_passes(&mut self) {
-        for pass in &self.passes {
-            pass.prepare(&mut self.state);
-        }
     }
 
     /// The stable time step of the present network of contacts, and of impacts at the present speeds.
@@ -367,14 +364,20 @@ impl Simulation {
         Ok(())
     }
 
+    /// The number in the scene of a particle by its index.
+    fn number(&self, index: u32) -> u32 {
+        self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0)
+    }
+
     /// The error with the particle's number in the scene instead of its index.
     fn named(&self, mut error: RunError) -> RunError {
         match &mut error {
             RunError::Runaway { id, .. }
             | RunError::NotFinite { id, .. }
             | RunError::Behind { id, .. }
-            | RunError::Escaped { id, .. } => {
-                *id = self.scene.particles.get(*id as usize).map_or(*id, |particle| particle.id.0);
+            | RunError::Escaped { id, .. } => *id = self.number(*id),
+            RunError::Overbent { first, second, .. } => {
+                (*first, *second) = (self.number(*first), self.number(*second));
             }
             RunError::StepTooLong { .. } | RunError::Interval { .. } => {}
         }

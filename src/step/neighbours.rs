@@ -4,7 +4,7 @@
 //! reach of a pair, and inside a slab into square columns of cells. Pairs therefore reach no further than the next
 //! slab. Springs follow the pair of particles, never a place in a list.
 
-use super::walls;
+use super::{bonds, walls};
 use crate::scene::{Scene, Shape};
 use crate::state::contacts::TOUCHING;
 use crate::state::{ContactList, Particles, Row, State};
@@ -25,6 +25,8 @@ pub(super) struct Search {
     /// Radius of the smallest particle \[m\].
     smallest: f64,
     /// Whether anything can touch.
+    touching: bool,
+    /// Whether there are lists at all.
     needed: bool,
 }
 
@@ -45,7 +47,8 @@ impl Search {
             planes: planes.collect(),
             largest: scene.particles.iter().fold(0.0, |largest, particle| particle.radius.max(largest)),
             smallest: scene.particles.iter().fold(f64::INFINITY, |smallest, particle| particle.radius.min(smallest)),
-            needed: !scene.contacts.is_empty() && !scene.particles.is_empty(),
+            touching: !scene.contacts.is_empty() && !scene.particles.is_empty(),
+            needed: !(scene.contacts.is_empty() && scene.bonds.is_empty()) && !scene.particles.is_empty(),
         }
     }
 
@@ -61,7 +64,7 @@ impl Search {
 
     /// Whether the lists no longer hold every pair that can touch.
     pub(super) fn outdated(&self, state: &mut State) -> bool {
-        if !self.needed {
+        if !self.touching {
             return false;
         }
         let walls = self.planes.iter().map(|&(boundary, ..)| {
@@ -88,10 +91,14 @@ impl Search {
         if !self.needed {
             return;
         }
-        let reach = 2.0 * self.largest + state.neighbours.skin;
+        let skin = if self.touching { state.neighbours.skin } else { 0.0 };
+        let reach = (2.0 * self.largest + skin).max(bonds::longest(state));
         let grid = Grid::around(&state.particles, reach);
         let order = grid.order(&state.particles);
         let new_slot = sort(&mut state.particles, &order.slots);
+        for list in &mut state.bonds {
+            bonds::sort(list, &new_slot, &order.slabs);
+        }
         let lists = self.pairs(&state.particles, &grid, &order, state.neighbours.skin, state.contacts.len());
         for (old, mut new) in state.contacts.iter_mut().zip(lists) {
             carry(old, &mut new, &new_slot, &order.slabs);
@@ -156,6 +163,26 @@ impl Search {
             list.spring = vec![[0.0; 4]; list.first.len()];
         }
         lists
+    }
+}
+
+/// Hands out every two particles (slots) that are not further apart than `reach` \[m\], with their distance.
+pub(super) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut(u32, u32, f64)) {
+    if particles.is_empty() || reach <= 0.0 {
+        return;
+    }
+    let grid = Grid::around(particles, reach);
+    let order = grid.order(particles);
+    for (place, &slot) in order.slots.iter().enumerate() {
+        grid.ahead(&order, order.cells[place], |from, to| {
+            for &other in &order.slots[from.max(place + 1).min(to)..to] {
+                let (a, b) = (particles.position[slot as usize], particles.position[other as usize]);
+                let distance = way(&[a[0], a[1], a[2]], &[b[0], b[1], b[2]]);
+                if distance <= reach {
+                    hand(slot, other, distance);
+                }
+            }
+        });
     }
 }
 
@@ -305,7 +332,11 @@ fn sort(particles: &mut Particles, slots: &[u32]) -> Vec<u32> {
         &mut particles.angular_velocity,
         &mut particles.force,
         &mut particles.torque,
+        &mut particles.attitude,
     ] {
+        if rows.is_empty() {
+            continue;
+        }
         *rows = slots.iter().map(|&old| rows[old as usize]).collect();
     }
     for numbers in [&mut particles.material, &mut particles.owner, &mut particles.id] {

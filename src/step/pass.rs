@@ -3,6 +3,7 @@
 use super::error::RunError;
 use super::lanes::Width;
 use super::observe::ContactRecord;
+use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::number::Vector;
 use crate::state::State;
@@ -50,6 +51,17 @@ pub(super) trait Pass: Send + Sync {
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
 
+    /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
+    /// whether anything was made: the lists are then made anew.
+    fn create(&self, _state: &mut State, _moment: &Moment, _step: f64) -> bool {
+        false
+    }
+
+    /// Whether particles need an attitude for it.
+    fn needs_attitudes(&self) -> bool {
+        false
+    }
+
     /// Whether particles feel torque from it.
     fn has_torque(&self) -> bool;
 
@@ -85,4 +97,8 @@ pub(super) struct Link {
     pub second_arm: f64,
     /// Unit normal, from the second to the first.
     pub normal: Vector,
+    /// Stiffness against twisting about the normal \[N m\].
+    pub torsion: f64,
+    /// Stiffness against bending \[N m\].
+    pub bending: f64,
 }

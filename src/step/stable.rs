@@ -93,6 +93,11 @@ impl<'a> Network<'a> {
                 if a < 3 && b < 3 {
                     sum += kn * v * v * n[a] * n[b];
                 }
+                if a >= 3 && b >= 3 {
+                    let along = n[a - 3] * n[b - 3];
+                    let across = f64::from(u8::from(a == b)) - along;
+                    sum += (link.torsion * along + link.bending * across) / inertia;
+                }
                 self.single[slot][a][b] += sum;
                 self.stiffness[slot][a][b] += doubled * sum;
             }

@@ -194,7 +194,16 @@ impl<L: Law> Pass for WallPass<L> {
                 let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
                 let response = L::stiffness(row, &contact);
                 let (first, normal) = (list.particle[entry], contact.normal);
-                tell(Link { first, second: None, response, first_arm: arm, second_arm: 0.0, normal });
+                tell(Link {
+                    first,
+                    second: None,
+                    response,
+                    first_arm: arm,
+                    second_arm: 0.0,
+                    normal,
+                    torsion: 0.0,
+                    bending: 0.0,
+                });
             }
         }
     }

@@ -42,6 +42,7 @@ pub(super) fn scene(case: &Case) -> Result<Scene, Mistake> {
         materials,
         pairs,
         contacts: vec![contact],
+        bonds: Vec::new(),
         sets: vec!["particles".into()],
         boundaries: boundaries(case, &index_of)?,
         damping: damping(case, &particles)?,

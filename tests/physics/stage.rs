@@ -102,6 +102,7 @@ pub(crate) fn scene(
         }],
         pairs: vec![properties; pairs],
         materials,
+        bonds: Vec::new(),
         sets: vec!["particles".into()],
         particles: numbered.collect(),
         ..Scene::default()

@@ -31,6 +31,7 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
     let damping = groups::damping(&written, &materials, &born, &mut faults);
     let forces = groups::forces(&written, &born, &mut faults);
     let scene = Scene {
+        bonds: Vec::new(),
         run,
         gravity: written.gravity.0,
         materials,

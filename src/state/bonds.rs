@@ -1,0 +1,45 @@
+//! Living bonds, and what became of the others.
+
+use super::Row;
+use serde::{Deserialize, Serialize};
+
+/// Living bonds of one law, ordered by slab and first particle.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BondList {
+    /// First bond of each slab, and behind the last one the number of bonds. A bond belongs to the slab of the
+    /// particle that stands first in memory, and reaches no further than the next.
+    pub slabs: Vec<u32>,
+    /// Body i of each bond (slot).
+    pub first: Vec<u32>,
+    /// Body j of each bond (slot).
+    pub second: Vec<u32>,
+    /// State of the bonds: the rows of the law, each a column here.
+    pub rows: Vec<Vec<Row>>,
+    /// Bonds made so far.
+    pub made: u64,
+    /// Bonds broken so far.
+    pub broken: u64,
+    /// Elastic energy in the last evaluation \[J\].
+    pub elastic: f64,
+    /// Elastic energy that relaxation took so far \[J\].
+    pub relaxed: f64,
+    /// Elastic energy that broken bonds released so far \[J\].
+    pub released: f64,
+}
+
+/// A bond broke.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Break {
+    /// When \[s\].
+    pub time: f64,
+    /// Bond law: index in the scene.
+    pub law: u32,
+    /// Body i: index into the scene's particles.
+    pub first: u32,
+    /// Body j: index into the scene's particles.
+    pub second: u32,
+    /// Why: code of the cause.
+    pub cause: f64,
+    /// Elastic energy released \[J\].
+    pub energy: f64,
+}

@@ -1,0 +1,499 @@
+//! Bonds between particles: one pass for each bond law.
+//!
+//! As the contacts, in slabs of even and odd number, batch by batch: the law on several bonds at once, results added
+//! one by one in the order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
+//! through.
+
+use super::error::RunError;
+use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
+use super::observe::ContactRecord;
+use super::pass::{Context, Link, Pass};
+use crate::bond::creation::{Creation, Moment, near_pair};
+use crate::bond::{Body, BondLaw, Law, MOST_ROWS, Pair, Quaternion, Rows};
+use crate::contact::Response;
+use crate::number::Vector;
+use crate::quantity::SetIndex;
+use crate::scene::Scene;
+use crate::state::bonds::Break;
+use crate::state::ledger::Source;
+use crate::state::{BondList, Particles, Row, State};
+use std::marker::PhantomData;
+
+/// Bonds in one batch.
+const BATCH: usize = 64;
+
+/// The pass of one bond law between particles.
+pub(super) struct BondPass<L> {
+    /// Which list of the state is its own; also the law's index in the scene.
+    pub index: usize,
+    /// The law in numbers.
+    pub numbers: Law,
+    /// When bonds are made.
+    pub creation: Creation,
+    /// Centres nearer than this are bonded \[m\].
+    pub create_distance: f64,
+    /// Set of each of the scene's particles.
+    pub sets: Vec<SetIndex>,
+    /// Between which sets.
+    pub between: [SetIndex; 2],
+    /// Listed pairs: indices into the scene's particles.
+    pub pairs: Vec<[u32; 2]>,
+    /// The law.
+    pub law: PhantomData<fn() -> L>,
+}
+
+impl<L: BondLaw> BondPass<L> {
+    /// The pass of this bond of the scene.
+    pub(super) fn of(scene: &Scene, index: usize) -> Self {
+        let bond = &scene.bonds[index];
+        Self {
+            index,
+            numbers: bond.law,
+            creation: bond.create.clone(),
+            create_distance: bond.create_distance.unwrap_or(0.0),
+            sets: scene.particles.iter().map(|particle| particle.set).collect(),
+            between: bond.between,
+            pairs: bond.pairs.clone(),
+            law: PhantomData,
+        }
+    }
+
+    /// Whether these two particles (indices into the scene's) may be bonded by this law.
+    fn may_bond(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.sets[a as usize], self.sets[b as usize]);
+        [a, b] == self.between || [b, a] == self.between
+    }
+
+    /// Pairs without a bond that are to be bonded at this moment, as slots of i and j; i has the smaller id.
+    fn wanted(&self, state: &State, moment: &Moment) -> Vec<[u32; 2]> {
+        let particles = &state.particles;
+        let mut pairs = Vec::new();
+        if moment.number == 0 {
+            pairs.extend(self.pairs.iter().map(|pair| pair.map(|index| particles.slot[index as usize])));
+        }
+        if self.creation.bonds_near_pairs(moment) {
+            super::neighbours::near_pairs(particles, self.create_distance, |a, b, distance| {
+                let ids = [particles.id[a as usize], particles.id[b as usize]];
+                if self.may_bond(ids[0], ids[1]) && near_pair(distance, self.create_distance) {
+                    pairs.push([a, b]);
+                }
+            });
+        }
+        for pair in &mut pairs {
+            pair.sort_unstable_by_key(|&slot| particles.id[slot as usize]);
+        }
+        pairs.sort_unstable_by_key(|pair| pair.map(|slot| particles.id[slot as usize]));
+        pairs.dedup();
+        let list = &state.bonds[self.index];
+        let mut bonded: Vec<[u32; 2]> = list.first.iter().zip(&list.second).map(|(&i, &j)| [i, j]).collect();
+        bonded.sort_unstable();
+        pairs.retain(|pair| bonded.binary_search(pair).is_err());
+        pairs
+    }
+}
+
+impl<L: BondLaw> Pass for BondPass<L> {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        let list = &mut state.bonds[self.index];
+        let particles = &mut state.particles;
+        let slabs = list.slabs.len().saturating_sub(1);
+        let mut columns = list.rows.iter_mut();
+        let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
+        let work = Work::<L> {
+            numbers: &self.numbers,
+            first: &list.first,
+            second: &list.second,
+            rows: [column(), column(), column()],
+            position: &particles.position,
+            velocity: &particles.velocity,
+            angular_velocity: &particles.angular_velocity,
+            attitude: &particles.attitude,
+            force: Shared::new(&mut particles.force),
+            torque: Shared::new(&mut particles.torque),
+            step: context.step,
+            law: PhantomData,
+        };
+        let ends = &list.slabs;
+        let mut results = vec![Done::default(); slabs];
+        for parity in 0..2 {
+            let done = context.collect((slabs + 1 - parity) / 2, |piece| {
+                let slab = 2 * piece + parity;
+                work.slab(ends[slab] as usize, ends[slab + 1] as usize, context.width)
+            });
+            for (piece, done) in done.into_iter().enumerate() {
+                results[2 * piece + parity] = done;
+            }
+        }
+        let time = state.clock.time;
+        self.book(state, results, time)
+    }
+
+    fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
+        let wanted = self.wanted(state, moment);
+        let law = self.numbers.coefficients::<f64>(step);
+        let list = &mut state.bonds[self.index];
+        list.rows.resize(L::ROWS, Vec::new());
+        for &[i, j] in &wanted {
+            let pair = pair_of(&state.particles, i as usize, j as usize);
+            let rows = L::create(&law, &pair);
+            list.first.push(i);
+            list.second.push(j);
+            for (column, row) in list.rows.iter_mut().zip(rows) {
+                column.push(row);
+            }
+        }
+        list.made += wanted.len() as u64;
+        !wanted.is_empty()
+    }
+
+    fn has_torque(&self) -> bool {
+        true
+    }
+
+    fn needs_attitudes(&self) -> bool {
+        L::NEEDS_ATTITUDES
+    }
+
+    fn source(&self) -> Source {
+        Source::Bonds
+    }
+
+    fn prepare(&self, _state: &mut State) {}
+
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        let list = &state.bonds[self.index];
+        for (&i, &j) in list.first.iter().zip(&list.second) {
+            let pair = pair_of(&state.particles, i as usize, j as usize);
+            let distance = pair.connection.length();
+            let [normal, shear, torsion, bending] = self.numbers.stiffness(pair.least_radius);
+            let response = Response {
+                normal_stiffness: normal,
+                tangential_stiffness: shear,
+                normal_damping: 0.0,
+                tangential_damping: 0.0,
+            };
+            tell(Link {
+                first: i,
+                second: Some(j),
+                response,
+                first_arm: pair.share_i * distance,
+                second_arm: pair.share_j * distance,
+                normal: pair.connection * (1.0 / distance),
+                torsion,
+                bending,
+            });
+        }
+    }
+
+    fn impact(&self, _radius: f64, _mass: f64, _speed: f64) -> Option<Response> {
+        None
+    }
+
+    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+}
+
+impl<L: BondLaw> BondPass<L> {
+    /// Sums energies, takes out what broke and tells of it.
+    fn book(&self, state: &mut State, results: Vec<Done>, time: f64) -> Result<(), RunError> {
+        let list = &mut state.bonds[self.index];
+        list.elastic = 0.0;
+        let mut outcome = Ok(());
+        let mut gone = Vec::new();
+        for done in results {
+            list.elastic += done.elastic;
+            list.relaxed += done.relaxed;
+            gone.extend(done.broken);
+            if let Some(bond) = done.overbent {
+                let id = |slot: u32| state.particles.id[slot as usize];
+                let (first, second) = (id(list.first[bond as usize]), id(list.second[bond as usize]));
+                outcome = outcome.and(Err(RunError::Overbent { first, second, time }));
+            }
+        }
+        for &(bond, cause, energy) in &gone {
+            let id = |slot: u32| state.particles.id[slot as usize];
+            let (first, second) = (id(list.first[bond as usize]), id(list.second[bond as usize]));
+            state.breaks.push(Break { time, law: self.index as u32, first, second, cause, energy });
+            list.released += energy;
+            list.broken += 1;
+        }
+        if !gone.is_empty() {
+            remove(list, &gone);
+        }
+        outcome
+    }
+}
+
+/// Takes bonds out of a list, keeping the order of the others.
+fn remove(list: &mut BondList, gone: &[(u32, f64, f64)]) {
+    let mut dead = vec![false; list.first.len()];
+    for &(bond, ..) in gone {
+        dead[bond as usize] = true;
+    }
+    let mut slabs = vec![0_u32; list.slabs.len()];
+    for slab in 1..list.slabs.len() {
+        let (from, to) = (list.slabs[slab - 1] as usize, list.slabs[slab] as usize);
+        let living = dead[from..to].iter().filter(|dead| !**dead).count() as u32;
+        slabs[slab] = slabs[slab - 1] + living;
+    }
+    list.slabs = slabs;
+    let mut living = dead.iter().map(|dead| !dead);
+    list.first.retain(|_| living.next().unwrap_or(true));
+    let mut living = dead.iter().map(|dead| !dead);
+    list.second.retain(|_| living.next().unwrap_or(true));
+    for column in &mut list.rows {
+        let mut living = dead.iter().map(|dead| !dead);
+        column.retain(|_| living.next().unwrap_or(true));
+    }
+}
+
+/// Two particles as bodies of a bond.
+pub(super) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
+    Pair::of_spheres(&body_of(particles, i), &body_of(particles, j))
+}
+
+/// A particle as a body of a bond.
+fn body_of(particles: &Particles, slot: usize) -> Body {
+    let attitude = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    Body {
+        position: particles.position[slot].into(),
+        velocity: particles.velocity[slot].into(),
+        spin: particles.angular_velocity[slot].into(),
+        attitude: Quaternion::from_row(attitude),
+        radius: particles.position[slot][3],
+        mass: particles.velocity[slot][3],
+        inertia: particles.angular_velocity[slot][3],
+    }
+}
+
+/// What a slab came to.
+#[derive(Clone, Debug, Default)]
+struct Done {
+    /// Elastic energy \[J\].
+    elastic: f64,
+    /// Elastic energy that relaxation took \[J\].
+    relaxed: f64,
+    /// Bonds that broke: bond, cause, released energy \[J\].
+    broken: Vec<(u32, f64, f64)>,
+    /// A bond bent beyond what can be followed.
+    overbent: Option<u32>,
+}
+
+/// What all slabs share.
+struct Work<'a, L> {
+    /// The law in numbers.
+    numbers: &'a Law,
+    /// Body i of each bond.
+    first: &'a [u32],
+    /// Body j of each bond.
+    second: &'a [u32],
+    /// State of each bond, row by row.
+    rows: [Shared<Row>; MOST_ROWS],
+    /// Positions and radii.
+    position: &'a [Row],
+    /// Velocities and masses.
+    velocity: &'a [Row],
+    /// Angular velocities and moments of inertia.
+    angular_velocity: &'a [Row],
+    /// Attitudes; empty where no law needs them.
+    attitude: &'a [Row],
+    /// Forces.
+    force: Shared<Row>,
+    /// Torques.
+    torque: Shared<Row>,
+    /// Time since bonds were last advanced.
+    step: f64,
+    /// The law.
+    law: PhantomData<fn() -> L>,
+}
+
+/// Results of a batch.
+struct Buffer {
+    /// Force on i.
+    force: [Row; BATCH + 8],
+    /// Torque on i.
+    first_torque: [Row; BATCH + 8],
+    /// Torque on j.
+    second_torque: [Row; BATCH + 8],
+    /// 0, or why the bond broke.
+    cause: [f64; BATCH + 8],
+    /// Elastic energy, or what is released.
+    elastic: [f64; BATCH + 8],
+    /// Elastic energy that relaxation took.
+    relaxed: [f64; BATCH + 8],
+    /// A bond bent beyond what can be followed.
+    overbent: Option<u32>,
+}
+
+impl<L: BondLaw> Work<'_, L> {
+    /// Works through a slab, batch by batch.
+    fn slab(&self, from: usize, to: usize, width: Width) -> Done {
+        let mut done = Done::default();
+        let mut buffer = Buffer {
+            force: [[0.0; 4]; BATCH + 8],
+            first_torque: [[0.0; 4]; BATCH + 8],
+            second_torque: [[0.0; 4]; BATCH + 8],
+            cause: [0.0; BATCH + 8],
+            elastic: [0.0; BATCH + 8],
+            relaxed: [0.0; BATCH + 8],
+            overbent: None,
+        };
+        let mut batch = from;
+        while batch < to {
+            let end = (batch + BATCH).min(to);
+            lanes::run(width, React { work: self, from: batch, to: end, buffer: &mut buffer });
+            self.scatter(batch, end, &buffer, &mut done);
+            batch = end;
+        }
+        done.overbent = buffer.overbent;
+        done
+    }
+
+    /// Adds the results of a batch to both bodies of each bond.
+    fn scatter(&self, from: usize, to: usize, buffer: &Buffer, done: &mut Done) {
+        for bond in from..to {
+            let (i, j, place) = (self.first[bond] as usize, self.second[bond] as usize, bond - from);
+            // SAFETY: slabs of one parity do not share particles.
+            unsafe {
+                let (on_i, on_j) = (self.force.at(i), self.torque.at(i));
+                for axis in 0..3 {
+                    on_i[axis] += buffer.force[place][axis];
+                    on_j[axis] += buffer.first_torque[place][axis];
+                }
+                let (on_i, on_j) = (self.force.at(j), self.torque.at(j));
+                for axis in 0..3 {
+                    on_i[axis] -= buffer.force[place][axis];
+                    on_j[axis] += buffer.second_torque[place][axis];
+                }
+            }
+            done.relaxed += buffer.relaxed[place];
+            if buffer.cause[place] == 0.0 {
+                done.elastic += buffer.elastic[place];
+            } else {
+                done.broken.push((bond as u32, buffer.cause[place], buffer.elastic[place]));
+            }
+        }
+    }
+}
+
+/// The law on one batch.
+struct React<'a, 'b, L> {
+    /// What all slabs share.
+    work: &'a Work<'a, L>,
+    /// First bond.
+    from: usize,
+    /// Behind the last bond.
+    to: usize,
+    /// Where the results go.
+    buffer: &'b mut Buffer,
+}
+
+impl<L: BondLaw> Kernel for React<'_, '_, L> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { work, from, to, buffer } = self;
+        let law = work.numbers.coefficients::<N>(work.step);
+        let mut bond = from;
+        while bond < to {
+            let here = if to - bond < N::WIDTH { to - bond } else { N::WIDTH };
+            let mut index = [0_u32; 8];
+            let mut first = [0_u32; 8];
+            let mut second = [0_u32; 8];
+            let mut lane = 0;
+            while lane < N::WIDTH {
+                let listed = if lane < here { bond + lane } else { bond };
+                index[lane] = listed as u32;
+                first[lane] = work.first[listed];
+                second[lane] = work.second[listed];
+                lane += 1;
+            }
+            let pair = Pair::of_spheres(&load_body::<L, N>(work, &first), &load_body::<L, N>(work, &second));
+            let mut rows: Rows<N> = [[N::zero(); 4]; MOST_ROWS];
+            let mut row = 0;
+            while row < L::ROWS {
+                // SAFETY: each column has a row for each bond; these bonds belong to this slab alone.
+                rows[row] = unsafe { N::load_rows(work.rows[row].pointer(), index.as_ptr()) };
+                row += 1;
+            }
+            let reaction = L::react(&law, &pair, &rows);
+            let place = bond - from;
+            // SAFETY: the buffer has room for a register beyond the batch; rows as above.
+            unsafe {
+                N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(place));
+                N::store_block(columns(reaction.torque_i), buffer.first_torque.as_mut_ptr().add(place));
+                N::store_block(columns(reaction.torque_j), buffer.second_torque.as_mut_ptr().add(place));
+                reaction.cause.store(buffer.cause.as_mut_ptr().add(place));
+                reaction.elastic.store(buffer.elastic.as_mut_ptr().add(place));
+                reaction.relaxed.store(buffer.relaxed.as_mut_ptr().add(place));
+                if work.step > 0.0 {
+                    let mut row = L::FIXED_ROWS;
+                    while row < L::ROWS {
+                        N::store_rows(reaction.rows[row], work.rows[row].pointer(), index.as_ptr(), here);
+                        row += 1;
+                    }
+                }
+            }
+            if N::any(reaction.overbent) && buffer.overbent.is_none() {
+                let lane = N::bits(reaction.overbent).trailing_zeros() as usize;
+                buffer.overbent = Some(index[lane]);
+            }
+            bond += N::WIDTH;
+        }
+    }
+}
+
+/// Loads a body in each lane.
+#[inline(always)]
+fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: &[u32; 8]) -> Body<N> {
+    let slots = slots.as_ptr();
+    // SAFETY: a list holds slots of particles, below their number; attitudes are there where a law needs them.
+    unsafe {
+        let position = N::load_rows(work.position.as_ptr(), slots);
+        let velocity = N::load_rows(work.velocity.as_ptr(), slots);
+        let spin = N::load_rows(work.angular_velocity.as_ptr(), slots);
+        let attitude = if L::NEEDS_ATTITUDES {
+            Quaternion::from_row(N::load_rows(work.attitude.as_ptr(), slots))
+        } else {
+            Quaternion::identity()
+        };
+        Body {
+            position: vector(position),
+            velocity: vector(velocity),
+            spin: vector(spin),
+            attitude,
+            radius: position[3],
+            mass: velocity[3],
+            inertia: spin[3],
+        }
+    }
+}
+
+/// Brings the bonds of a list into the order of newly sorted particles.
+pub(super) fn sort(list: &mut BondList, new_slot: &[u32], slabs: &[u32]) {
+    for slot in list.first.iter_mut().chain(&mut list.second) {
+        *slot = new_slot[*slot as usize];
+    }
+    let mut order: Vec<u32> = (0..list.first.len() as u32).collect();
+    let key = |&bond: &u32| {
+        let (i, j) = (list.first[bond as usize], list.second[bond as usize]);
+        (i.min(j), i.max(j))
+    };
+    order.sort_unstable_by_key(key);
+    let leading: Vec<u32> = order.iter().map(|bond| key(bond).0).collect();
+    list.slabs = slabs.iter().map(|&slot| leading.partition_point(|&first| first < slot) as u32).collect();
+    list.first = order.iter().map(|&bond| list.first[bond as usize]).collect();
+    list.second = order.iter().map(|&bond| list.second[bond as usize]).collect();
+    for column in &mut list.rows {
+        *column = order.iter().map(|&bond| column[bond as usize]).collect();
+    }
+}
+
+/// Length of the longest bond \[m\].
+pub(super) fn longest(state: &State) -> f64 {
+    let position = &state.particles.position;
+    let bonds = state.bonds.iter().flat_map(|list| list.first.iter().zip(&list.second));
+    let squares = bonds.map(|(&i, &j)| {
+        let apart = Vector::from(position[i as usize]) - Vector::from(position[j as usize]);
+        apart.dot(apart)
+    });
+    squares.fold(0.0, f64::max).sqrt()
+}
