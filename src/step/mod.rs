@@ -91,6 +91,37 @@ impl Simulation {
         }
     }
 
+    /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
+    fn begin(&mut self) -> Result<(), RunError> {
+        if self.passes.iter().any(|pass| pass.needs_attitudes()) {
+            self.state.particles.attitude.resize(self.scene.particles.len(), Quaternion::identity().to_row());
+        }
+        boundaries::place_groups(&self.scene, &mut self.state);
+        self.rebuild();
+        let time = self.state.clock.time;
+        self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, 0.0);
+        self.start()
+    }
+
+    /// Makes the bonds that are to be made at this moment, in a time step of this length \[s\].
+    fn bond(&mut self, moment: &Moment, step: f64) {
+        let mut made = false;
+        for pass in &self.passes {
+            made |= pass.create(&mut self.state, moment, step);
+        }
+        if made {
+            self.rebuild();
+        }
+    }
+
+    /// Makes the lists anew.
+    fn rebuild(&mut self) {
+        self.search.rebuild(&mut self.state);
+        for pass in &self.passes {
+            pass.prepare(&mut self.state);
+        }
+    }
+
     /// Puts back a state of this simulation; it continues from there bit for bit.
     pub fn restore(&mut self, state: &State) {
         self.state.clone_from(state);
