@@ -263,7 +263,6 @@ fn package(arguments: &ExportArguments) -> Result<(), Ending> {
 fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
     let options = verify::Options { tolerance: arguments.tolerance, write: arguments.write.clone() };
     let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
-    say(verify::Report::heading());
     let mut failed = 0;
     for case in &cases {
         let report = verify::replay(case, &options).map_err(Ending::refused)?;

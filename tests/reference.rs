@@ -126,6 +126,11 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
             "case.json, model.normal: \"jkr\" found; hertz, hooke, hertz/stiffness or hooke/stiffness is right",
         ),
         (
+            "bond",
+            with("\"cohesion\": \"off\"", "\"cohesion\": \"bond\""),
+            "case.json, model.cohesion: \"bond\" found; cases of bonds are not replayed; sjkr, sjkr2 or off is right",
+        ),
+        (
             "property",
             with("coefficientFriction", "coefficientFiction"),
             "case.json, pair_properties.coefficientFiction: not known here",

@@ -200,7 +200,7 @@ impl Meaning {
 fn mass(scene: &Scene, boundary: BoundaryIndex) -> f64 {
     match &scene.boundaries[boundary.index()].shape {
         Shape::Particles { members } => {
-            members.iter().filter_map(|&member| scene.particles.get(member as usize)).map(|found| found.mass()).sum()
+            members.iter().filter_map(|&member| scene.particles.get(member as usize)).map(crate::scene::Particle::mass).sum()
         }
         Shape::Plane { .. } => 0.0,
     }

@@ -16,9 +16,9 @@ pub(super) fn scene(case: &Case) -> Result<Scene, Mistake> {
         return Err(Mistake::new("steps, sample_every", "0 found; numbers above 0 are right"));
     }
     let step = positive("dt", case.dt)?.get();
+    let law = law::law(case)?;
     let materials = law::materials(case)?;
     let pairs = law::pairs(case)?;
-    let law = law::law(case)?;
     for (at, properties) in pairs.iter().enumerate() {
         let (a, b) = (&materials[at / materials.len()], &materials[at % materials.len()]);
         if let Some(missing) = law.missing(&MaterialPair { a, b, properties }) {

@@ -63,11 +63,6 @@ impl Report {
     pub fn passed(&self) -> bool {
         self.stopped.is_none() && self.errors.is_none_or(|errors| errors.passed())
     }
-
-    /// The heading of the lines of reports.
-    pub fn heading() -> String {
-        format!("{:<30} {:>9} {:>9} {:>9} {:>9} {:>9}", "case", "position", "velocity", "angular", "force", "torque")
-    }
 }
 
 impl fmt::Display for Report {

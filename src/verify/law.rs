@@ -165,6 +165,7 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
             "off" => CohesionChoice::None(NoKeys {}),
             "sjkr" => CohesionChoice::Sjkr(keys),
             "sjkr2" => CohesionChoice::Sjkr2(keys),
+            "bond" => return Err(unknown("cohesion", "bond", "cases of bonds are not replayed; sjkr, sjkr2 or off")),
             other => return Err(unknown("cohesion", other, "sjkr, sjkr2 or off")),
         },
         switches: Switches::of(model.limit_force, model.tangential_damping),
