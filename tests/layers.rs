@@ -52,7 +52,7 @@ fn check(path: &Path, module: &str, faults: &mut Vec<String>) {
             faults.push(format!("{}:{number}: {module} may not use {used}", path.display()));
         }
         if line.contains("super::super::") {
-            faults.push(format!("{}:{number}: an import climbs by super::super::", path.display()));
+            faults.push(format!("{}:{number}: a path climbs by super::super::", path.display()));
         }
     }
 }

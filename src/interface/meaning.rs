@@ -199,9 +199,11 @@ impl Meaning {
 /// Mass of the particles of a boundary; 0 for one that has none \[kg\].
 fn mass(scene: &Scene, boundary: BoundaryIndex) -> f64 {
     match &scene.boundaries[boundary.index()].shape {
-        Shape::Particles { members } => {
-            members.iter().filter_map(|&member| scene.particles.get(member as usize)).map(crate::scene::Particle::mass).sum()
-        }
+        Shape::Particles { members } => members
+            .iter()
+            .filter_map(|&member| scene.particles.get(member as usize))
+            .map(crate::scene::Particle::mass)
+            .sum(),
         Shape::Plane { .. } => 0.0,
     }
 }
