@@ -48,7 +48,7 @@ impl Search {
             largest: scene.particles.iter().fold(0.0, |largest, particle| particle.radius.max(largest)),
             smallest: scene.particles.iter().fold(f64::INFINITY, |smallest, particle| particle.radius.min(smallest)),
             touching: !scene.contacts.is_empty() && !scene.particles.is_empty(),
-            needed: !(scene.contacts.is_empty() && scene.bonds.is_empty()) && !scene.particles.is_empty(),
+            needed: !scene.particles.is_empty() && (!scene.contacts.is_empty() || !scene.bonds.is_empty()),
         }
     }
 

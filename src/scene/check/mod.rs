@@ -75,7 +75,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     Run {
-        end: table.end.map(super::super::quantity::Positive::get),
+        end: table.end.map(crate::quantity::Positive::get),
         step: match table.step {
             Some(StepKey::Given(step)) => Step::Given(step),
             Some(StepKey::Automatic) | None => {
@@ -84,12 +84,10 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         },
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),
-        skin: table.skin.map(super::super::quantity::Positive::get),
-        settle_tolerance: table
-            .settle_tolerance
-            .map_or(defaults.settle_tolerance, super::super::quantity::Positive::get),
-        settle_damping: table.settle_damping.map_or(defaults.settle_damping, super::super::quantity::Fraction::get),
-        max_overlap: table.max_overlap.map_or(defaults.max_overlap, super::super::quantity::NonNegative::get),
+        skin: table.skin.map(crate::quantity::Positive::get),
+        settle_tolerance: table.settle_tolerance.map_or(defaults.settle_tolerance, crate::quantity::Positive::get),
+        settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::quantity::Fraction::get),
+        max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::quantity::NonNegative::get),
     }
 }
 
@@ -100,10 +98,10 @@ fn output(table: &OutputTable, faults: &mut Faults) -> Output {
         faults.add("output", "frame_interval", Mistake::Missing { right });
     }
     Output {
-        history_interval: table.history_interval.map(super::super::quantity::Positive::get),
-        frame_interval: table.frame_interval.map(super::super::quantity::Positive::get),
+        history_interval: table.history_interval.map(crate::quantity::Positive::get),
+        frame_interval: table.frame_interval.map(crate::quantity::Positive::get),
         contacts: table.contacts,
         energy: table.energy,
-        checkpoint_interval: table.checkpoint_interval.map(super::super::quantity::Positive::get),
+        checkpoint_interval: table.checkpoint_interval.map(crate::quantity::Positive::get),
     }
 }
