@@ -172,22 +172,21 @@ fn child<'v, 'a>(value: &'v Spanned<DeValue<'a>>, segment: &str) -> Option<(usiz
 /// The way from a value down to the key or entry at a place of the text.
 fn path_to(value: &Spanned<DeValue>, place: &Range<usize>) -> Vec<String> {
     let holds = |span: Range<usize>| span.start <= place.start && place.end <= span.end;
-    let below = match value.get_ref() {
-        DeValue::Table(table) => table
-            .iter()
-            .find(|(key, value)| holds(key.span()) || holds(value.span()) || !path_to(value, place).is_empty())
-            .map(|(key, value)| (key.get_ref().to_string(), value)),
-        DeValue::Array(list) => list
-            .iter()
-            .enumerate()
-            .find(|(_, value)| holds(value.span()))
-            .map(|(i, value)| ((i + 1).to_string(), value)),
+    let nested = |name: String, spans: bool, below: &Spanned<DeValue>| {
+        let rest = path_to(below, place);
+        (spans || !rest.is_empty()).then(|| [vec![name], rest].concat())
+    };
+    let path = match value.get_ref() {
+        DeValue::Table(table) => table.iter().find_map(|(key, value)| {
+            nested(key.get_ref().to_string(), holds(key.span()) || holds(value.span()), value)
+        }),
+        DeValue::Array(list) => {
+            let entry = list.iter().position(|value| holds(value.span()));
+            entry.and_then(|entry| nested((entry + 1).to_string(), true, &list[entry]))
+        }
         _ => None,
     };
-    let Some((name, below)) = below else { return Vec::new() };
-    let mut path = vec![name];
-    path.extend(path_to(below, place));
-    path
+    path.unwrap_or_default()
 }
 
 /// Removes the key at the path; whether it was there.

@@ -7,8 +7,8 @@ use crate::contact::Material;
 use crate::scene::document::Faults;
 use crate::scene::error::Mistake;
 use crate::scene::file::{BoundaryTable, DampingTable, MotionTable, PlaneTable, ScaleTable, Selection};
+use crate::scene::import::REPORTED;
 use crate::scene::{AppliedForce, AxisMotion, Boundary, Damping, Shape};
-use std::collections::BTreeMap;
 
 /// The particles that a selection chooses, ascending; reports a selection of none.
 fn members(selection: &Selection, born: &Born, table: &str, faults: &mut Faults) -> Vec<u32> {
@@ -27,7 +27,8 @@ fn members(selection: &Selection, born: &Born, table: &str, faults: &mut Faults)
     let ids = selection.ids.as_ref().map(|ids| {
         let mut ids = ids.clone();
         ids.sort_unstable();
-        for id in ids.iter().filter(|id| born.particles.binary_search_by_key(id, |particle| &particle.id.0).is_err()) {
+        let known = |id: &&u32| born.particles.binary_search_by_key(id, |particle| &particle.id.0).is_ok();
+        for id in ids.iter().filter(|id| !known(id)).take(REPORTED) {
             let (found, right) = (id.to_string(), "the number of a particle of this scene".to_owned());
             faults.add(table, "particles.ids", Mistake::Wrong { found, right });
         }
@@ -64,13 +65,13 @@ fn extent(born: &Born) -> String {
 
 /// All boundaries.
 pub(super) fn boundaries(written: &Written, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Boundary> {
-    let mut owner: BTreeMap<u32, String> = BTreeMap::new();
+    let mut owners = Owners::of(born);
     let mut boundaries = Vec::new();
     for (name, boundary) in &written.boundaries {
         let table = format!("boundary.{name}");
         let Some(shape) = shape(boundary, &table, materials, born, faults) else { continue };
         if let Shape::Particles { members } = &shape {
-            claim(members, &table, "particles", born, &mut owner, faults);
+            owners.claim(members, &table, born, faults);
         }
         let reference = boundary.reference.map_or_else(|| centre(&shape, born), |reference| reference.0);
         let axes = axes(&boundary.motion.0, &table, faults);
@@ -84,15 +85,31 @@ pub(super) fn boundaries(written: &Written, materials: &[Material], born: &Born,
     boundaries
 }
 
-/// Notes whose the particles are; reports one that is somebody's already.
-fn claim(members: &[u32], table: &str, key: &str, born: &Born, owner: &mut BTreeMap<u32, String>, faults: &mut Faults) {
-    let taken = members.iter().find_map(|member| owner.get(member).map(|other| (member, other.clone())));
-    if let Some((member, other)) = taken {
-        let id = born.particles[*member as usize].id.0;
-        faults.add(table, key, Mistake::Taken { id, other: format!("[{other}]") });
+/// Whose the particles are.
+struct Owners {
+    /// The tables that have some.
+    tables: Vec<String>,
+    /// Index into the tables, of each particle.
+    of: Vec<Option<u32>>,
+}
+
+impl Owners {
+    /// Nobody's yet.
+    fn of(born: &Born) -> Self {
+        Self { tables: Vec::new(), of: vec![None; born.particles.len()] }
     }
-    for member in members {
-        owner.entry(*member).or_insert_with(|| table.to_owned());
+
+    /// Notes whose the members are; reports one that is somebody's already.
+    fn claim(&mut self, members: &[u32], table: &str, born: &Born, faults: &mut Faults) {
+        let taken = members.iter().find_map(|member| self.of[*member as usize].map(|owner| (*member, owner)));
+        if let Some((member, owner)) = taken {
+            let (id, other) = (born.particles[member as usize].id.0, format!("[{}]", self.tables[owner as usize]));
+            faults.add(table, "particles", Mistake::Taken { id, other });
+        }
+        for member in members {
+            self.of[*member as usize].get_or_insert(self.tables.len() as u32);
+        }
+        self.tables.push(table.to_owned());
     }
 }
 
@@ -189,7 +206,7 @@ fn axes(motion: &MotionTable, table: &str, faults: &mut Faults) -> [AxisMotion; 
 
 /// All damping.
 pub(super) fn damping(written: &Written, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Damping> {
-    let mut owner = BTreeMap::new();
+    let mut owners = Owners::of(born);
     let mut list = Vec::new();
     for (name, damping) in &written.damping {
         let table = format!("damping.{name}");
@@ -197,7 +214,7 @@ pub(super) fn damping(written: &Written, materials: &[Material], born: &Born, fa
             Some(selection) => members(selection, born, &table, faults),
             None => (0..born.particles.len() as u32).collect(),
         };
-        claim(&members, &table, "particles", born, &mut owner, faults);
+        owners.claim(&members, &table, born, faults);
         let scales = scales(damping, &members, &table, materials, born, faults);
         let mut all = [damping.linear.get(), damping.angular.get()].map(|coefficient| {
             let mut each = vec![0.0; born.particles.len()];

@@ -7,7 +7,7 @@ use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::scene::document::Faults;
 use crate::scene::error::Mistake;
 use crate::scene::file::{ListEntry, ParticlesTable, Triple};
-use crate::scene::import::{self, Request, Rows};
+use crate::scene::import::{self, REPORTED, Request, Rows};
 use crate::scene::source::Source;
 use crate::scene::{Particle, Run, generate};
 use std::collections::BTreeMap;
@@ -250,7 +250,7 @@ impl Nursery<'_> {
                 ("density", particle.density, "a number above 0", particle.density > 0.0),
                 ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
             ] {
-                if !fine && faults.count() < before + 10 {
+                if !fine && faults.count() < before + REPORTED {
                     let mistake = Mistake::Wrong { found: format!("{found:?}"), right: right.to_owned() };
                     faults.in_file(file, rows.line(row), &self.table, key, mistake);
                 }
@@ -274,6 +274,7 @@ impl Nursery<'_> {
             }
             return vec![self.fallback(faults)];
         }
+        let before = faults.count();
         let mut found = Vec::new();
         for (index, label) in rows.labels.iter().enumerate() {
             let mapped = self.written.materials.get(label);
@@ -283,7 +284,7 @@ impl Nursery<'_> {
                     self.materials.iter().position(|material| material.name == *label).map(|i| MaterialIndex(i as u32))
                 }
             };
-            if material.is_none() && mapped.is_none() {
+            if material.is_none() && mapped.is_none() && faults.count() < before + REPORTED {
                 let row = rows.label.iter().position(|label| *label as usize == index).unwrap_or(0);
                 let mistake = match label.parse::<i64>() {
                     Ok(_) => Mistake::Wrong {
@@ -352,7 +353,7 @@ fn number(
         all.push((id, row, newborn.particle));
     }
     all.sort_by_key(|(id, ..)| *id);
-    for two in all.windows(2).filter(|two| two[0].0 == two[1].0).take(10) {
+    for two in all.windows(2).filter(|two| two[0].0 == two[1].0).take(REPORTED) {
         let (id, row, particle) = &two[1];
         let other = sets[two[0].2.set.index()].0.clone();
         let mistake = Mistake::DuplicateId { id: *id as u32, other };

@@ -1,11 +1,8 @@
 //! Equal spheres in regular order.
 
-use super::Sphere;
+use super::{MOST, Sphere};
 use crate::scene::error::Mistake;
 use crate::scene::file::{LatticeKind, LatticeTable};
-
-/// How many spheres a lattice may have.
-const MOST: f64 = 5e7;
 
 /// A right-angled cell: its edges over the distance of neighbours, and the places in it over its edges.
 struct Cell {
@@ -58,8 +55,8 @@ pub(in crate::scene) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'
         }
     };
     let total = counts[0] * counts[1] * counts[2] * places.len() as f64;
-    if total > MOST {
-        let (found, right) = (format!("a lattice of {total:.3e} spheres"), format!("{MOST:.0e} at most"));
+    if total > MOST as f64 {
+        let (found, right) = (format!("a lattice of {total:.3e} spheres"), format!("{MOST} at most"));
         return Err(("lattice", Mistake::Wrong { found, right }));
     }
     Ok(filled(origin, counts.map(|count| count as usize), edges, places, bounds, radius))

@@ -8,3 +8,6 @@ pub(super) use packing::packing;
 
 /// Centre and radius \[m\].
 pub(super) type Sphere = ([f64; 3], f64);
+
+/// How many spheres one set may have, so that a slip in a length does not fill the memory.
+const MOST: usize = 50_000_000;

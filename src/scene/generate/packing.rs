@@ -1,6 +1,6 @@
 //! Spheres at random places of a box, none overlapping another.
 
-use super::Sphere;
+use super::{MOST, Sphere};
 use crate::scene::error::Mistake;
 use crate::scene::file::PackingTable;
 use rand_chacha::ChaCha8Rng;
@@ -86,6 +86,10 @@ pub(in crate::scene) fn packing(
     let [lower, upper] = table.corners.0;
     let size: [f64; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
     let count = table.count.get() as usize;
+    if count > MOST {
+        let (found, right) = (count.to_string(), format!("{MOST} at most"));
+        return Err(("packing.count", Mistake::Wrong { found, right }));
+    }
     let mut random = generator(seed, set);
     let [least, most] = table.radius.0;
     let radii: Vec<f64> = (0..count).map(|_| least + (most - least) * uniform(&mut random)).collect();

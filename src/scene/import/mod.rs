@@ -27,6 +27,8 @@ pub(super) struct Rows {
     pub(super) columns: BTreeMap<String, Vec<f64>>,
     /// What the file calls the materials: names or types.
     pub(super) labels: Vec<String>,
+    /// Where each label stands.
+    label_index: BTreeMap<String, u32>,
     /// Index into the labels, of each particle; empty if the file names no materials.
     pub(super) label: Vec<u32>,
     /// The column that names materials.
@@ -60,15 +62,14 @@ impl Rows {
 
     /// Notes what the file calls the material of the next particle.
     fn push_label(&mut self, name: &str) {
-        let last = self.label.last().map(|index| *index as usize);
-        let index = match last.filter(|index| self.labels[*index] == name) {
-            Some(index) => index,
-            None => self.labels.iter().position(|label| label == name).unwrap_or_else(|| {
-                self.labels.push(name.to_owned());
-                self.labels.len() - 1
-            }),
-        };
-        self.label.push(index as u32);
+        let last = self.label.last().copied().filter(|index| self.labels[*index as usize] == name);
+        let index = last.or_else(|| self.label_index.get(name).copied()).unwrap_or_else(|| {
+            let index = self.labels.len() as u32;
+            self.labels.push(name.to_owned());
+            self.label_index.insert(name.to_owned(), index);
+            index
+        });
+        self.label.push(index);
     }
 }
 
@@ -106,8 +107,8 @@ impl FileFault {
     }
 }
 
-/// How many mistakes of one file are reported.
-const REPORTED: usize = 10;
+/// How many mistakes of one kind and file are reported.
+pub(super) const REPORTED: usize = 10;
 
 /// What the scene says about a file.
 pub(super) struct Request<'a> {

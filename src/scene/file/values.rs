@@ -1,0 +1,214 @@
+//! Values that are more than one plain number.
+
+use crate::quantity::{Finite, Positive};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+use std::num::NonZeroU32;
+
+/// Three finite numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::scene) struct Triple(pub(in crate::scene) [f64; 3]);
+
+impl<'de> Deserialize<'de> for Triple {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let list: Vec<Finite> = deserializer.deserialize_seq(Numbers)?;
+        match list[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("{} numbers found; [x, y, z] is right", list.len()))),
+        }
+    }
+}
+
+/// Reads a list of numbers.
+struct Numbers;
+
+impl<'de> Visitor<'de> for Numbers {
+    type Value = Vec<Finite>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list of numbers")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Finite>, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = list.next_element()? {
+            numbers.push(number);
+        }
+        Ok(numbers)
+    }
+}
+
+/// Two corners, the second above the first along each axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) struct Corners(pub(in crate::scene) [[f64; 3]; 2]);
+
+impl<'de> Deserialize<'de> for Corners {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let corners = Vec::<Triple>::deserialize(deserializer)?;
+        let [Triple(lower), Triple(upper)] = corners[..] else {
+            let found = corners.len();
+            return Err(D::Error::custom(format!("{found} corners found; [[x, y, z], [x, y, z]] is right")));
+        };
+        match (0..3).find(|axis| lower[*axis] >= upper[*axis]) {
+            None => Ok(Self([lower, upper])),
+            Some(axis) => Err(D::Error::custom(format!(
+                "{:?} to {:?} along {} found; the lower corner before the upper one is right",
+                lower[axis],
+                upper[axis],
+                ["x", "y", "z"][axis]
+            ))),
+        }
+    }
+}
+
+/// `step` of `[run]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) enum StepKey {
+    /// A number \[s\].
+    Given(f64),
+    /// `"auto"`
+    Automatic,
+}
+
+impl<'de> Deserialize<'de> for StepKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a number or a word.
+        struct NumberOrWord;
+        /// What is right.
+        const RIGHT: &str = "a number above 0, in seconds, or \"auto\"";
+        impl Visitor<'_> for NumberOrWord {
+            type Value = StepKey;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(RIGHT)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<StepKey, E> {
+                match Positive::new(value) {
+                    Some(step) => Ok(StepKey::Given(step.get())),
+                    None => Err(E::custom(format!("{value:?} found; {RIGHT} is right"))),
+                }
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<StepKey, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<StepKey, E> {
+                match word {
+                    "auto" => Ok(StepKey::Automatic),
+                    _ => Err(E::custom(format!("{word:?} found; {RIGHT} is right"))),
+                }
+            }
+        }
+        deserializer.deserialize_any(NumberOrWord)
+    }
+}
+
+/// A number above 0 and below 1.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct Safety(pub(in crate::scene) f64);
+
+impl<'de> Deserialize<'de> for Safety {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = f64::deserialize(deserializer)?;
+        if value > 0.0 && value < 1.0 {
+            return Ok(Self(value));
+        }
+        Err(D::Error::custom(format!("{value:?} found; a number above 0 and below 1 is right")))
+    }
+}
+
+/// Pairs of material names.
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct Between(pub(in crate::scene) Vec<[String; 2]>);
+
+impl<'de> Deserialize<'de> for Between {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// A name or a pair of names.
+        struct Part(Vec<String>, bool);
+        impl<'de> Deserialize<'de> for Part {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                /// Takes a name or a list of names.
+                struct NameOrNames;
+                impl<'de> Visitor<'de> for NameOrNames {
+                    type Value = Part;
+                    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                        f.write_str("a material's name or a pair of them")
+                    }
+                    fn visit_str<E: Error>(self, name: &str) -> Result<Part, E> {
+                        Ok(Part(vec![name.to_owned()], false))
+                    }
+                    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Part, A::Error> {
+                        let mut names = Vec::new();
+                        while let Some(name) = list.next_element()? {
+                            names.push(name);
+                        }
+                        Ok(Part(names, true))
+                    }
+                }
+                deserializer.deserialize_any(NameOrNames)
+            }
+        }
+        /// What is right.
+        const RIGHT: &str = "[\"a\", \"b\"] or a list of such pairs";
+        let parts = Vec::<Part>::deserialize(deserializer)?;
+        let pair = |names: &[String]| match names {
+            [a, b] => Ok([a.clone(), b.clone()]),
+            names => Err(D::Error::custom(format!("{} names found; {RIGHT} is right", names.len()))),
+        };
+        if parts.iter().all(|part| !part.1) {
+            let names: Vec<String> = parts.into_iter().flat_map(|part| part.0).collect();
+            return pair(&names).map(|pair| Self(vec![pair]));
+        }
+        if parts.iter().any(|part| !part.1) {
+            return Err(D::Error::custom(format!("names beside pairs found; {RIGHT} is right")));
+        }
+        parts.iter().map(|part| pair(&part.0)).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+/// Cells along each axis, each at least 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) struct Counts(pub(in crate::scene) [u32; 3]);
+
+impl<'de> Deserialize<'de> for Counts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
+        match counts[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("{} numbers found; [nx, ny, nz] is right", counts.len()))),
+        }
+    }
+}
+
+/// Least and largest radius \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) struct Radii(pub(in crate::scene) [f64; 2]);
+
+impl<'de> Deserialize<'de> for Radii {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a number or a list.
+        struct OneOrTwo;
+        /// What is right.
+        const RIGHT: &str = "a number above 0, or [least, largest]";
+        impl<'de> Visitor<'de> for OneOrTwo {
+            type Value = Radii;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(RIGHT)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
+                let refused = || E::custom(format!("{value:?} found; {RIGHT} is right"));
+                Positive::new(value).map(|radius| Radii([radius.get(); 2])).ok_or_else(refused)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
+                let radii = Numbers.visit_seq(list)?;
+                match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
+                    [least, most] if least > 0.0 && least <= most => Ok(Radii([least, most])),
+                    ref found => Err(A::Error::custom(format!("{found:?} found; {RIGHT} is right"))),
+                }
+            }
+        }
+        deserializer.deserialize_any(OneOrTwo)
+    }
+}
