@@ -1,9 +1,13 @@
 //! The commands: what they leave, what they say, and with which status they end.
 
+use cograin::output::read_checkpoint;
+use cograin::scene::Scene;
+use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -360,6 +364,24 @@ fn settling_ends_at_rest_and_a_run_begins_there_at_time_0() {
             &row[0]
         );
     }
+}
+
+#[test]
+fn a_unit_that_begins_settled_keeps_the_packing_when_its_boundaries_are_placed() {
+    let place = Place::new("settled_unit");
+    let path = place.scene("end = 0.004\nstep = 2e-5", "");
+    let file = place.at("settled.cograin");
+    complaint(&cograin(&[&"settle", &path, &"-o", &file]).output().unwrap(), 0);
+    let (scene, _) = Scene::read(&path).unwrap();
+    let state = read_checkpoint(&file, scene.fingerprint).unwrap();
+    let mut simulation = Simulation::resume(Arc::new(scene), state.clone());
+    simulation.place(&[]).unwrap();
+    let particles = &simulation.state().particles;
+    for (index, slot) in particles.slot.iter().enumerate() {
+        let before = state.particles.slot[index] as usize;
+        assert_eq!(particles.position[*slot as usize], state.particles.position[before], "particle {index}");
+    }
+    assert!(simulation.contact_count() >= 5, "{} contacts are left", simulation.contact_count());
 }
 
 #[test]

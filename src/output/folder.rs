@@ -3,12 +3,13 @@
 use super::collection::Collection;
 use super::error::{OutputError, ResumeError};
 use super::files::{Durability, UNFINISHED, sync, write_checkpoint, write_whole};
-use super::history::{Found, History};
 use super::schedule::Schedule;
-use super::{CHECKPOINT, HISTORY, SUMMARY, frames, vtk::Cloud};
+use super::table::{Found, Table};
+use super::{BREAKAGE, CHECKPOINT, HISTORY, SUMMARY, frames, vtk::Cloud};
+use crate::bond::breakage::Cause;
 use crate::interface::Value;
 use crate::scene::Scene;
-use crate::state::{Particles, State};
+use crate::state::{Break, Particles, State};
 use crate::step::ContactRecord;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,9 @@ use std::sync::Arc;
 
 /// Kinds of frames: beginning of the names of their files.
 const FRAMES: [&str; 2] = ["particles", "contacts"];
+
+/// Columns of `breakage.csv`.
+const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
 
 /// One thing to write.
 pub(super) enum Job {
@@ -26,6 +30,8 @@ pub(super) enum Job {
         /// The outputs.
         values: Vec<Value>,
     },
+    /// Bonds that broke.
+    Breaks(Vec<Break>),
     /// A frame.
     Frame {
         /// Time \[s\].
@@ -39,9 +45,9 @@ pub(super) enum Job {
     Checkpoint(Box<State>),
 }
 
-/// Where a run begins, as far as its files are concerned.
+/// Where a run comes from, as far as its files are concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Beginning {
+pub(super) enum Origin {
     /// At time 0: what an earlier run left is removed.
     Anew,
     /// At a later time, in the folder of the run that is continued.
@@ -67,7 +73,9 @@ pub(super) struct Folder {
     /// Where it is.
     path: PathBuf,
     /// `history.csv`.
-    history: History,
+    history: Table,
+    /// `breakage.csv`, if the scene has bonds.
+    breakage: Option<Table>,
     /// The kinds of frames that the scene asks for.
     series: Vec<Series>,
     /// Frames that may not be on the disk yet.
@@ -76,32 +84,56 @@ pub(super) struct Folder {
 
 /// What a continued run keeps of the files in a folder; looking changes nothing.
 pub(super) struct Kept {
-    /// The rows, or none where a new file is begun.
+    /// The rows of the history, or none where a new file is begun.
     history: Option<Found>,
+    /// The rows of the breakage, or none where a new file is begun or there are no bonds.
+    breakage: Option<Found>,
     /// Times of the frames \[s\].
     frames: Vec<f64>,
 }
 
+/// What a continued run begins with, as far as its files are concerned.
+#[derive(Clone, Copy)]
+pub(super) struct Beginning<'a> {
+    /// What is simulated.
+    pub scene: &'a Scene,
+    /// Columns of the history.
+    pub names: &'a [String],
+    /// When what is written.
+    pub schedule: &'a Schedule,
+    /// Communication point where it begins \[s\].
+    pub time: f64,
+    /// The state there.
+    pub state: &'a State,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
 impl Kept {
-    /// Looks at the files in a folder, for a run that begins there at `time` \[s\].
-    pub(super) fn look(
-        path: &Path,
-        names: &[String],
-        schedule: &Schedule,
-        time: f64,
-        beginning: Beginning,
-    ) -> Result<Self, ResumeError> {
+    /// Nothing is kept.
+    const NOTHING: Self = Self { history: None, breakage: None, frames: Vec::new() };
+
+    /// Looks at the files in a folder.
+    pub(super) fn look(path: &Path, beginning: &Beginning<'_>) -> Result<Self, ResumeError> {
+        let Beginning { scene, names, schedule, time, state, origin } = *beginning;
         let history = path.join(HISTORY);
-        let keeps = match beginning {
-            Beginning::Anew => false,
-            Beginning::Here => true,
-            Beginning::Elsewhere => history.exists(),
+        let keeps = match origin {
+            Origin::Anew => false,
+            Origin::Here => true,
+            Origin::Elsewhere => history.exists(),
         };
         if !keeps {
-            return Ok(Self { history: None, frames: Vec::new() });
+            return Ok(Self::NOTHING);
         }
-        let found = Found::rows(&history, names, schedule.rows_until(time), time)?;
-        Ok(Self { history: Some(found), frames: schedule.frames_until(time) })
+        let history = Found::rows(&history, names, schedule.rows_until(time), time)?;
+        let breakage = if scene.bonds.is_empty() {
+            None
+        } else {
+            let broken = state.bonds.iter().map(|list| list.broken).sum::<u64>();
+            let columns = BREAKAGE_COLUMNS.map(String::from);
+            Some(Found::rows(&path.join(BREAKAGE), &columns, broken as usize, time)?)
+        };
+        Ok(Self { history: Some(history), breakage, frames: schedule.frames_until(time) })
     }
 }
 
@@ -110,17 +142,19 @@ impl Folder {
     pub(super) fn open(path: &Path, scene: Arc<Scene>, names: &[String], kept: &Kept) -> Result<Self, OutputError> {
         fs::create_dir_all(path).map_err(OutputError::at(path))?;
         remove_results(path, kept)?;
-        let history = path.join(HISTORY);
-        let history = match &kept.history {
-            Some(found) => History::reopen(&history, found)?,
-            None => History::create(&history, names)?,
+        let table = |name: &str, names: &[String], found: &Option<Found>| match found {
+            Some(found) => Table::reopen(&path.join(name), found),
+            None => Table::create(&path.join(name), names),
         };
+        let history = table(HISTORY, names, &kept.history)?;
+        let bonded = !scene.bonds.is_empty();
+        let breakage = bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
         let wanted = [scene.output.frame_interval.is_some(), scene.output.contacts];
         let series = (FRAMES.into_iter().zip(wanted))
             .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
             .map(|(name, _)| Series::open(path, name, &kept.frames))
             .collect::<Result<_, _>>()?;
-        Ok(Self { scene, path: path.to_owned(), history, series, unsynced: Vec::new() })
+        Ok(Self { scene, path: path.to_owned(), history, breakage, series, unsynced: Vec::new() })
     }
 
     /// Where it is.
@@ -131,16 +165,38 @@ impl Folder {
     /// Does one job.
     pub(super) fn write(&mut self, job: Job) -> Result<(), OutputError> {
         match job {
-            Job::Row { time, values } => self.history.add(time, &values),
+            Job::Row { time, values } => {
+                let row: Vec<_> = std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect();
+                self.history.add(&row)
+            }
+            Job::Breaks(breaks) => self.breaks(&breaks),
             Job::Frame { time, particles, contacts } => self.frame(time, &particles, contacts.as_deref()),
             Job::Checkpoint(state) => {
                 self.history.sync()?;
+                self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
                 for path in self.unsynced.drain(..) {
                     sync(&path)?;
                 }
                 write_checkpoint(&self.path.join(CHECKPOINT), &state, self.scene.fingerprint)
             }
         }
+    }
+
+    /// Writes a row for each bond that broke.
+    fn breaks(&mut self, breaks: &[Break]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.breakage else { return Ok(()) };
+        let id = |index: u32| self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
+        for broken in breaks {
+            let cause = Cause::from_code(broken.cause).map_or("unknown", Cause::name);
+            table.add(&[
+                format!("{:?}", broken.time),
+                id(broken.first).to_string(),
+                id(broken.second).to_string(),
+                cause.to_owned(),
+                format!("{:?}", broken.energy),
+            ])?;
+        }
+        Ok(())
     }
 
     /// Writes the files of a frame, then their entries.
@@ -203,7 +259,7 @@ fn remove_results(path: &Path, kept: &Kept) -> Result<(), OutputError> {
 /// Whether a file is of an earlier run and not kept by this one.
 fn is_stale(name: &str, kept: &Kept) -> bool {
     if let Some(name) = name.strip_suffix(&format!(".{UNFINISHED}")) {
-        return is_stale(name, &Kept { history: None, frames: Vec::new() });
+        return is_stale(name, &Kept::NOTHING);
     }
     let number = |kind: &str| -> Option<usize> {
         let digits = name.strip_prefix(kind)?.strip_prefix('_')?.strip_suffix(".vtu")?;
@@ -212,6 +268,7 @@ fn is_stale(name: &str, kept: &Kept) -> bool {
     let frame = FRAMES.iter().find_map(|kind| number(kind));
     match name {
         HISTORY => kept.history.is_none(),
+        BREAKAGE => kept.breakage.is_none(),
         SUMMARY => true,
         _ => {
             frame.is_some_and(|number| number >= kept.frames.len())
@@ -226,7 +283,7 @@ mod tests {
 
     #[test]
     fn removes_what_an_earlier_run_left_and_nothing_else() {
-        let nothing = Kept { history: None, frames: Vec::new() };
+        let nothing = Kept::NOTHING;
         for name in
             ["history.csv", "particles_000003.vtu", "contacts_1234567.vtu", "particles.pvd", "summary.json.part"]
         {
@@ -241,7 +298,7 @@ mod tests {
 
     #[test]
     fn a_continued_run_keeps_its_frames_and_rows() {
-        let kept = Kept { history: Some(Found::default()), frames: vec![0.0, 0.1] };
+        let kept = Kept { history: Some(Found::default()), breakage: None, frames: vec![0.0, 0.1] };
         assert!(!is_stale("history.csv", &kept) && !is_stale("particles_000001.vtu", &kept));
         assert!(is_stale("particles_000002.vtu", &kept));
     }

@@ -3,6 +3,7 @@
 //! | file in a run's folder      | what it holds                                                     |
 //! |-----------------------------|-------------------------------------------------------------------|
 //! | `history.csv`               | time and the unit's outputs, a row at each history interval       |
+//! | `breakage.csv`              | in a scene with bonds: time, pair, cause and energy of each break |
 //! | `particles_000000.vtu`, …   | the particles by ascending id, a file at each frame interval      |
 //! | `contacts_000000.vtu`, …    | the contacts of each frame, if the scene asks for them            |
 //! | `particles.pvd`, …          | the times of the frames                                           |
@@ -19,13 +20,13 @@ mod error;
 mod files;
 mod folder;
 mod frames;
-mod history;
 mod momentum;
 mod remarks;
 mod run;
 mod schedule;
 mod settle;
 mod summary;
+mod table;
 mod vtk;
 mod writer;
 
@@ -40,6 +41,9 @@ pub use vtk::EncodeError;
 
 /// File of the unit's outputs over time.
 const HISTORY: &str = "history.csv";
+
+/// File of the bonds that broke.
+const BREAKAGE: &str = "breakage.csv";
 
 /// File of the state to continue from.
 pub const CHECKPOINT: &str = "checkpoint.cograin";

@@ -2,7 +2,7 @@
 
 use super::error::{Failure, OutputError, Refusal, ResumeError};
 use super::files::{Durability, read_checkpoint, write_whole};
-use super::folder::{Beginning, Folder, Job, Kept};
+use super::folder::{Beginning, Folder, Job, Kept, Origin};
 use super::momentum;
 use super::schedule::{Due, Schedule};
 use super::summary::{Meter, Summary};
@@ -96,23 +96,25 @@ impl<'a> Session<'a> {
         let scene_name = || order.scene_name.to_owned();
         let end = order.scene.run.end.ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
         let schedule = Schedule::new(&order.scene.output, end);
-        let (simulation, time, beginning) = match checkpoint(&order)? {
-            Some((path, beginning)) => {
+        let (simulation, time, origin) = match checkpoint(&order)? {
+            Some((path, origin)) => {
                 let state = read_checkpoint(&path, order.scene.fingerprint)?;
                 let saved = state.clock.time;
                 let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
-                let beginning = if time > 0.0 { beginning } else { Beginning::Anew };
-                (Simulation::resume(Arc::clone(order.scene), state), time, beginning)
+                let origin = if time > 0.0 { origin } else { Origin::Anew };
+                (Simulation::resume(Arc::clone(order.scene), state), time, origin)
             }
             None => {
                 let start = |source| Refusal::Start { scene: scene_name(), source };
-                (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Beginning::Anew)
+                (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
             }
         };
         let interface = Interface::of(order.scene);
         let outputs = interface.outputs().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
-        let kept = Kept::look(order.folder, &names, &schedule, time, beginning)?;
+        let state = simulation.state();
+        let beginning = Beginning { scene: order.scene, names: &names, schedule: &schedule, time, state, origin };
+        let kept = Kept::look(order.folder, &beginning)?;
         let writer = Writer::start(Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?)?;
         let momentum = momentum::Start::of(&simulation);
         let meter = Meter::start(&simulation);
@@ -130,10 +132,10 @@ impl<'a> Session<'a> {
             meter,
             last_checkpoint,
         };
-        match beginning {
-            Beginning::Anew => session.write(session.schedule.at_start())?,
-            Beginning::Elsewhere => session.write(Due { history: false, frame: false, checkpoint: true })?,
-            Beginning::Here => {}
+        match origin {
+            Origin::Anew => session.write(session.schedule.at_start())?,
+            Origin::Elsewhere => session.write(Due { history: false, frame: false, checkpoint: true })?,
+            Origin::Here => {}
         }
         Ok(session)
     }
@@ -144,7 +146,9 @@ impl<'a> Session<'a> {
         let tell = |time| Progress { start, time, end };
         watch(tell(self.time));
         while let Some(point) = self.schedule.after(self.time) {
-            self.meter.step(&mut self.simulation, point.interval)?;
+            let advanced = self.meter.step(&mut self.simulation, point.interval);
+            self.write_breaks()?;
+            advanced?;
             self.time = point.time;
             let stopped = stop.load(Ordering::Relaxed);
             self.write(Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due })?;
@@ -160,6 +164,12 @@ impl<'a> Session<'a> {
     fn overdue(&self) -> bool {
         let unnamed = self.order.scene.output.checkpoint_interval.is_none();
         unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
+    }
+
+    /// Hands the bonds that broke in the last communication step to the writer.
+    fn write_breaks(&mut self) -> Result<(), OutputError> {
+        let breaks = &self.simulation.state().breaks;
+        if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.clone())) }
     }
 
     /// Hands what is due of the present state to the writer.
@@ -201,16 +211,16 @@ impl<'a> Session<'a> {
 }
 
 /// The checkpoint that a run begins with, if any, and what that means for its files.
-fn checkpoint(order: &RunOrder<'_>) -> Result<Option<(PathBuf, Beginning)>, ResumeError> {
+fn checkpoint(order: &RunOrder<'_>) -> Result<Option<(PathBuf, Origin)>, ResumeError> {
     let own = order.folder.join(CHECKPOINT);
     match order.start {
         Start::Scene => Ok(None),
-        Start::LastCheckpoint if own.exists() => Ok(Some((own, Beginning::Here))),
+        Start::LastCheckpoint if own.exists() => Ok(Some((own, Origin::Here))),
         Start::LastCheckpoint => Err(ResumeError::None { folder: order.folder.to_owned() }),
         Start::Checkpoint(path) => {
             let same = |path: &Path| path.canonicalize().ok();
             let here = same(path).is_some() && same(path) == same(&own);
-            Ok(Some((path.clone(), if here { Beginning::Here } else { Beginning::Elsewhere })))
+            Ok(Some((path.clone(), if here { Origin::Here } else { Origin::Elsewhere })))
         }
     }
 }

@@ -80,6 +80,10 @@ pub struct Counts {
     pub contacts: usize,
     /// Contacts on average over the time steps of this session.
     pub mean_contacts: f64,
+    /// Bonds that live.
+    pub bonds_intact: usize,
+    /// Bonds that broke since time 0.
+    pub bonds_broken: u64,
     /// Times the neighbour lists were made since time 0.
     pub neighbour_rebuilds: u64,
 }
@@ -189,6 +193,8 @@ impl Summary {
                 boundaries: state.boundaries.len(),
                 contacts: meter.contacts,
                 mean_contacts: if session_steps > 0 { meter.contact_steps / session_steps as f64 } else { 0.0 },
+                bonds_intact: state.bonds.iter().map(|list| list.first.len()).sum(),
+                bonds_broken: state.bonds.iter().map(|list| list.broken).sum(),
                 neighbour_rebuilds: state.clock.rebuilds,
             },
             largest_overlap: meter.largest_overlap,

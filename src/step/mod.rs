@@ -65,13 +65,24 @@ pub struct Simulation {
     width: Width,
     /// Threads.
     workers: workers::Workers,
+    /// Where the state came from.
+    origin: Origin,
+}
+
+/// Where the state of a simulation came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    /// From the scene: before the first step it can be made anew.
+    Scene,
+    /// From an earlier simulation: its contacts and bonds are not the scene's.
+    Reached,
 }
 
 impl Simulation {
     /// The scene at time 0: bonds made, forces evaluated, springs unmoved.
     pub fn new(scene: Arc<Scene>) -> Result<Self, RunError> {
         let state = assemble::state(&scene);
-        let mut simulation = Self::resume(scene, state);
+        let mut simulation = Self { origin: Origin::Scene, ..Self::resume(scene, state) };
         simulation.begin()?;
         Ok(simulation)
     }
@@ -88,6 +99,7 @@ impl Simulation {
             workers: workers::Workers::new(scene.run.threads, scene.particles.len()),
             scene,
             state,
+            origin: Origin::Reached,
         }
     }
 
@@ -162,7 +174,8 @@ impl Simulation {
     /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 2) and displacement \[m\] of each.
     /// Springs stay as they are; forces are evaluated anew. For use before the first interval only.
     pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
-        if self.state.clock.steps == 0 {
+        let from_scene = self.origin == Origin::Scene && self.state.clock.steps == 0;
+        if from_scene {
             self.state = assemble::state(&self.scene);
         }
         for &(boundary, axis, displacement) in starts {
@@ -170,7 +183,12 @@ impl Simulation {
             boundary.displacement[axis] = displacement;
             boundary.target[axis] = displacement;
         }
-        self.begin()
+        if from_scene {
+            return self.begin();
+        }
+        boundaries::place_groups(&self.scene, &mut self.state);
+        self.rebuild();
+        self.start()
     }
 
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s\].

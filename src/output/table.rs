@@ -1,29 +1,28 @@
-//! `history.csv`: time and the unit's outputs, a row at each output time.
+//! Tables that grow by rows: `history.csv` (time and the unit's outputs at each output time) and `breakage.csv`.
 //!
-//! Numbers have the shortest form that reads back as the same bits. Each row is written at once, so the file
+//! Numbers have the shortest form that reads back as the same bits. Each row is written at once, so a file
 //! ends with a whole row at any time.
 
 use super::error::{OutputError, ResumeError};
-use crate::interface::Value;
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// The open file.
-pub(super) struct History {
+pub(super) struct Table {
     /// Where it is.
     path: PathBuf,
     /// Its end.
     rows: csv::Writer<File>,
 }
 
-impl History {
+impl Table {
     /// Begins a file with a row of column names.
     pub(super) fn create(path: &Path, names: &[String]) -> Result<Self, OutputError> {
         let file = File::create(path).map_err(OutputError::at(path))?;
-        let mut history = Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) };
-        history.write(names.iter().cloned())?;
-        Ok(history)
+        let mut table = Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) };
+        table.add(names)?;
+        Ok(table)
     }
 
     /// Takes up a file after the rows that are kept; those behind them are cut off.
@@ -34,20 +33,15 @@ impl History {
         Ok(Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) })
     }
 
-    /// Adds a row.
-    pub(super) fn add(&mut self, time: f64, values: &[Value]) -> Result<(), OutputError> {
-        self.write(std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)))
+    /// Adds a row and hands it to the system.
+    pub(super) fn add(&mut self, row: &[String]) -> Result<(), OutputError> {
+        let written = self.rows.write_record(row).map_err(io::Error::from).and_then(|()| self.rows.flush());
+        written.map_err(OutputError::at(&self.path))
     }
 
     /// Makes sure that all rows are on the disk.
     pub(super) fn sync(&self) -> Result<(), OutputError> {
         self.rows.get_ref().sync_all().map_err(OutputError::at(&self.path))
-    }
-
-    /// Writes one record and hands it to the system.
-    fn write(&mut self, record: impl Iterator<Item = String>) -> Result<(), OutputError> {
-        let written = self.rows.write_record(record).map_err(io::Error::from).and_then(|()| self.rows.flush());
-        written.map_err(OutputError::at(&self.path))
     }
 }
 
@@ -90,14 +84,19 @@ mod tests {
         ["time", "floor.force.z", "contacts.count"].map(String::from).to_vec()
     }
 
+    /// A row of these numbers.
+    fn row(time: f64, force: f64) -> [String; 3] {
+        [format!("{time:?}"), format!("{force:?}"), "3".to_owned()]
+    }
+
     /// A file of three rows in a folder of its own.
     fn three_rows(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("cograin-history-{name}-{}", std::process::id()));
+        let folder = std::env::temp_dir().join(format!("cograin-table-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("history.csv");
-        let mut history = History::create(&path, &names()).unwrap();
+        let path = folder.join("table.csv");
+        let mut table = Table::create(&path, &names()).unwrap();
         for (time, force) in [(0.0, -1.0 / 3.0), (1e-7, 1e300), (0.1, f64::MIN_POSITIVE)] {
-            history.add(time, &[Value::Real(force), Value::Integer(3)]).unwrap();
+            table.add(&row(time, force)).unwrap();
         }
         path
     }
@@ -117,9 +116,9 @@ mod tests {
         let path = three_rows("reopened");
         let whole = std::fs::read(&path).unwrap();
         let found = Found::rows(&path, &names(), 1, 0.0).unwrap();
-        let mut history = History::reopen(&path, &found).unwrap();
-        history.add(1e-7, &[Value::Real(1e300), Value::Integer(3)]).unwrap();
-        history.add(0.1, &[Value::Real(f64::MIN_POSITIVE), Value::Integer(3)]).unwrap();
+        let mut table = Table::reopen(&path, &found).unwrap();
+        table.add(&row(1e-7, 1e300)).unwrap();
+        table.add(&row(0.1, f64::MIN_POSITIVE)).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), whole);
     }
 
