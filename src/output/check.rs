@@ -68,9 +68,13 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     if scene.contacts.is_empty() {
         uses.push("no contact law: no neighbour search".to_owned());
     }
-    uses.extend(scene.bonds.iter().zip(&simulation.state().bonds).map(|(bond, list)| {
-        format!("bond {}: {} bonds at the start", bond.name, list.first.len())
-    }));
+    uses.extend(
+        scene
+            .bonds
+            .iter()
+            .zip(&simulation.state().bonds)
+            .map(|(bond, list)| format!("bond {}: {} bonds at the start", bond.name, list.first.len())),
+    );
     uses.extend(scene.boundaries.iter().map(boundary));
     if scene.gravity.iter().any(|part| *part != 0.0) {
         uses.push(format!("gravity {:?} m/s²", scene.gravity));

@@ -10,13 +10,13 @@ use crate::bond::breakage::Cause;
 use crate::interface::Value;
 use crate::scene::Scene;
 use crate::state::{Break, Particles, State};
-use crate::step::ContactRecord;
+use crate::step::{BondRecord, ContactRecord};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Kinds of frames: beginning of the names of their files.
-const FRAMES: [&str; 2] = ["particles", "contacts"];
+const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];
 
 /// Columns of `breakage.csv`.
 const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
@@ -40,6 +40,8 @@ pub(super) enum Job {
         particles: Box<Particles>,
         /// The contacts, if the scene asks for them.
         contacts: Option<Vec<ContactRecord>>,
+        /// The bonds, if the scene has any.
+        bonds: Option<Vec<BondRecord>>,
     },
     /// A checkpoint. Everything written before it is on the disk when it has its name.
     Checkpoint(Box<State>),
@@ -148,8 +150,9 @@ impl Folder {
         };
         let history = table(HISTORY, names, &kept.history)?;
         let bonded = !scene.bonds.is_empty();
-        let breakage = bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
-        let wanted = [scene.output.frame_interval.is_some(), scene.output.contacts];
+        let breakage =
+            bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
+        let wanted = [true, scene.output.contacts, bonded];
         let series = (FRAMES.into_iter().zip(wanted))
             .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
             .map(|(name, _)| Series::open(path, name, &kept.frames))
@@ -166,11 +169,19 @@ impl Folder {
     pub(super) fn write(&mut self, job: Job) -> Result<(), OutputError> {
         match job {
             Job::Row { time, values } => {
-                let row: Vec<_> = std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect();
+                let row: Vec<_> =
+                    std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect();
                 self.history.add(&row)
             }
             Job::Breaks(breaks) => self.breaks(&breaks),
-            Job::Frame { time, particles, contacts } => self.frame(time, &particles, contacts.as_deref()),
+            Job::Frame { time, particles, contacts, bonds } => {
+                let clouds = [
+                    Some(frames::particles(&self.scene, &particles)),
+                    contacts.map(|contacts| frames::contacts(&self.scene, &contacts)),
+                    bonds.map(|bonds| frames::bonds(&self.scene, &particles, &bonds)),
+                ];
+                self.frame(time, clouds.into_iter().flatten())
+            }
             Job::Checkpoint(state) => {
                 self.history.sync()?;
                 self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
@@ -200,17 +211,8 @@ impl Folder {
     }
 
     /// Writes the files of a frame, then their entries.
-    fn frame(
-        &mut self,
-        time: f64,
-        particles: &Particles,
-        contacts: Option<&[ContactRecord]>,
-    ) -> Result<(), OutputError> {
-        let clouds = [
-            Some(frames::particles(&self.scene, particles)),
-            contacts.map(|contacts| frames::contacts(&self.scene, contacts)),
-        ];
-        for (series, cloud) in self.series.iter_mut().zip(clouds.into_iter().flatten()) {
+    fn frame(&mut self, time: f64, clouds: impl Iterator<Item = Cloud>) -> Result<(), OutputError> {
+        for (series, cloud) in self.series.iter_mut().zip(clouds) {
             self.unsynced.push(series.add(&self.path, time, cloud)?);
         }
         Ok(())

@@ -1,9 +1,9 @@
-//! The clouds of a frame: particles by ascending id, and the contacts between them.
+//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds.
 
-use super::vtk::{Cloud, Values};
+use super::vtk::{Cloud, Kind, Values};
 use crate::scene::Scene;
 use crate::state::Particles;
-use crate::step::ContactRecord;
+use crate::step::{BondRecord, ContactRecord};
 
 /// All particles, in the order of the scene whatever their order in memory.
 pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
@@ -22,6 +22,7 @@ pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
             ("torque", Values::Vectors(three(&particles.torque))),
             ("mass", Values::Scalars(fourth(&particles.velocity))),
         ],
+        ..Cloud::default()
     }
 }
 
@@ -44,6 +45,34 @@ pub(super) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
             ("normal_force", scalars(|contact| contact.normal_force)),
             ("tangential_force", vectors(|contact| contact.tangential_force)),
             ("sliding", Values::Bytes(contacts.iter().map(|contact| u8::from(contact.sliding)).collect())),
+        ],
+        ..Cloud::default()
+    }
+}
+
+/// A line for each bond, from body i to body j: what it carries. The ids of the bodies are those of the points.
+pub(super) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> Cloud {
+    let ends = || bonds.iter().flat_map(|bond| [bond.first, bond.second]);
+    let position = |particle: u32| {
+        let slot = particles.slot[particle as usize] as usize;
+        particles.position[slot].into_iter().take(3)
+    };
+    let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
+    let vectors = |of: fn(&BondRecord) -> [f64; 3]| Values::Vectors(bonds.iter().flat_map(of).collect());
+    let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
+    Cloud {
+        points: ends().flat_map(position).collect(),
+        kind: Kind::Lines,
+        fields: vec![("id", Values::Integers(ends().map(id).collect()))],
+        line_fields: vec![
+            ("law", Values::Integers(bonds.iter().map(|bond| i64::from(bond.law)).collect())),
+            ("normal_force", scalars(|bond| bond.carried.normal)),
+            ("shear_force", vectors(|bond| bond.carried.shear)),
+            ("torsion", scalars(|bond| bond.carried.torsion)),
+            ("bending", vectors(|bond| bond.carried.bending)),
+            ("normal_stress", scalars(|bond| bond.carried.normal_stress)),
+            ("shear_stress", scalars(|bond| bond.carried.shear_stress)),
+            ("energy", scalars(|bond| bond.carried.energy)),
         ],
     }
 }

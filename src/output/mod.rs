@@ -6,6 +6,7 @@
 //! | `breakage.csv`              | in a scene with bonds: time, pair, cause and energy of each break |
 //! | `particles_000000.vtu`, …   | the particles by ascending id, a file at each frame interval      |
 //! | `contacts_000000.vtu`, …    | the contacts of each frame, if the scene asks for them            |
+//! | `bonds_000000.vtu`, …       | the bonds of each frame, in a scene with bonds                    |
 //! | `particles.pvd`, …          | the times of the frames                                           |
 //! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
 //! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |

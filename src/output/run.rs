@@ -183,7 +183,8 @@ impl<'a> Session<'a> {
         if due.frame {
             let particles = Box::new(self.simulation.state().particles.clone());
             let contacts = self.order.scene.output.contacts.then(|| self.simulation.contacts());
-            self.writer.send(Job::Frame { time, particles, contacts })?;
+            let bonds = (!self.order.scene.bonds.is_empty()).then(|| self.simulation.bonds());
+            self.writer.send(Job::Frame { time, particles, contacts, bonds })?;
         }
         if due.checkpoint {
             self.last_checkpoint = Instant::now();

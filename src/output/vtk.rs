@@ -1,4 +1,4 @@
-//! Clouds of points as `.vtu` files, which meshio and VTK read back bit for bit.
+//! Points, and lines between them, as `.vtu` files, which meshio and VTK read back bit for bit.
 //!
 //! The only place that knows `vtkio`. Files are binary, inline and uncompressed: random mantissas hardly
 //! compress, and compressing costs many times the writing.
@@ -13,17 +13,27 @@ use vtkio::model::{
 #[error("the frame cannot be encoded: {0}")]
 pub struct EncodeError(String);
 
-/// Values of one field, point after point.
+/// Values of one field, point after point or line after line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Values {
-    /// One real number a point.
+    /// One real number each.
     Scalars(Vec<f64>),
-    /// Three real numbers a point.
+    /// Three real numbers each.
     Vectors(Vec<f64>),
-    /// One whole number a point.
+    /// One whole number each.
     Integers(Vec<i64>),
-    /// One small whole number a point.
+    /// One small whole number each.
     Bytes(Vec<u8>),
+}
+
+/// What the points stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Each for itself.
+    #[default]
+    Points,
+    /// Each two, in order, for a line.
+    Lines,
 }
 
 /// Points with named fields.
@@ -31,18 +41,25 @@ pub(super) enum Values {
 pub(super) struct Cloud {
     /// x, y, z of each point \[m\].
     pub points: Vec<f64>,
-    /// The fields by name, in the order of the file.
+    /// What they stand for.
+    pub kind: Kind,
+    /// The fields of the points by name, in the order of the file.
     pub fields: Vec<(&'static str, Values)>,
+    /// The fields of the lines.
+    pub line_fields: Vec<(&'static str, Values)>,
 }
 
 impl Cloud {
     /// The cloud as a `.vtu` file.
     pub(super) fn encode(self) -> Result<Vec<u8>, EncodeError> {
         let count = self.points.len() / 3;
+        let attributes = |fields: Vec<(&'static str, Values)>| fields.into_iter().map(attribute).collect();
+        // The one cell of a file without points has no values.
+        let line_fields = if count == 0 { Vec::new() } else { self.line_fields };
         let piece = UnstructuredGridPiece {
             points: self.points.into(),
-            cells: cells(count),
-            data: Attributes { point: self.fields.into_iter().map(attribute).collect(), cell: Vec::new() },
+            cells: cells(count, self.kind),
+            data: Attributes { point: attributes(self.fields), cell: attributes(line_fields) },
         };
         let file = Vtk {
             version: Version::new_xml(1, 0),
@@ -57,15 +74,20 @@ impl Cloud {
     }
 }
 
-/// A vertex for each point. Without points a single cell of no points: meshio refuses a file without cells.
-fn cells(count: usize) -> Cells {
-    if count == 0 {
+/// A cell for each point or line. Without points a single cell of no points: meshio refuses a file without cells.
+fn cells(points: usize, kind: Kind) -> Cells {
+    if points == 0 {
         let cell_verts = VertexNumbers::XML { connectivity: Vec::new(), offsets: vec![0] };
         return Cells { cell_verts, types: vec![CellType::PolyVertex] };
     }
-    let count_up = |from: u64| (from..from + count as u64).collect();
-    let cell_verts = VertexNumbers::XML { connectivity: count_up(0), offsets: count_up(1) };
-    Cells { cell_verts, types: vec![CellType::Vertex; count] }
+    let (cell, corners) = match kind {
+        Kind::Points => (CellType::Vertex, 1),
+        Kind::Lines => (CellType::Line, 2),
+    };
+    let count = points / corners;
+    let offsets = (1..=count).map(|cell| (cell * corners) as u64).collect();
+    let cell_verts = VertexNumbers::XML { connectivity: (0..(count * corners) as u64).collect(), offsets };
+    Cells { cell_verts, types: vec![cell; count] }
 }
 
 /// One field as the file has it.
@@ -102,6 +124,7 @@ mod tests {
                 ("id", Values::Integers((0..count as i64).map(|k| k - (1 << 40)).collect())),
                 ("sliding", Values::Bytes((0..count).map(|k| (k % 2) as u8).collect())),
             ],
+            ..Cloud::default()
         }
     }
 
@@ -130,6 +153,21 @@ mod tests {
             };
             assert_eq!(read, expected, "{name}");
         }
+    }
+
+    #[test]
+    fn lines_join_each_two_points() {
+        let energy = vec![0.1, 0.2, 0.3];
+        let lines = vec![("energy", Values::Scalars(energy.clone()))];
+        let bytes = Cloud { kind: Kind::Lines, line_fields: lines, ..cloud(6) }.encode().unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
+            panic!("not an unstructured grid")
+        };
+        let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
+        let expected = VertexNumbers::XML { connectivity: vec![0, 1, 2, 3, 4, 5], offsets: vec![2, 4, 6] };
+        assert_eq!(piece.cells, Cells { cell_verts: expected, types: vec![CellType::Line; 3] });
+        let Attribute::DataArray(array) = &piece.data.cell[0] else { panic!("not a plain field") };
+        assert_eq!(array.data.cast_into::<f64>().unwrap(), energy);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
-use super::observe::ContactRecord;
+use super::observe::{BondRecord, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::{Body, BondLaw, Law, MOST_ROWS, Pair, Quaternion, Rows};
@@ -190,6 +190,19 @@ impl<L: BondLaw> Pass for BondPass<L> {
     }
 
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
+        let (list, particles) = (&state.bonds[self.index], &state.particles);
+        for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
+            let mut rows = Rows::default();
+            for (row, column) in rows.iter_mut().zip(&list.rows) {
+                *row = column[bond];
+            }
+            let carried = L::carried(&self.numbers, &pair_of(particles, i as usize, j as usize), &rows);
+            let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
+            tell(BondRecord { law: self.index as u32, first, second, carried });
+        }
+    }
 }
 
 impl<L: BondLaw> BondPass<L> {

@@ -18,7 +18,7 @@ mod walls;
 mod workers;
 
 pub use error::RunError;
-pub use observe::ContactRecord;
+pub use observe::{BondRecord, ContactRecord};
 pub use stable::Limit;
 
 use crate::bond::Quaternion;

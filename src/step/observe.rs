@@ -2,6 +2,7 @@
 
 use super::pass::Context;
 use super::{Simulation, energy};
+use crate::bond::Carried;
 use crate::contact::{Contact, Law, Reaction, Response};
 use crate::number::Vector;
 use crate::state::contacts::{SLIDING, TOUCHING};
@@ -28,6 +29,19 @@ pub struct ContactRecord {
     pub tangential_force: [f64; 3],
     /// Whether the tangential spring is at its limit.
     pub sliding: bool,
+}
+
+/// One living bond and what it carries at the present time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondRecord {
+    /// Its law: index into the scene's bond laws.
+    pub law: u32,
+    /// Body i: index into the scene's particles.
+    pub first: u32,
+    /// Body j: index into the scene's particles.
+    pub second: u32,
+    /// Forces, torques, stresses and energy.
+    pub carried: Carried,
 }
 
 impl ContactRecord {
@@ -121,6 +135,15 @@ impl Simulation {
         let mut records = Vec::new();
         for pass in &self.passes {
             pass.contacts(&self.state, self.state.clock.last_step, &mut |record| records.push(record));
+        }
+        records
+    }
+
+    /// Every living bond, law by law.
+    pub fn bonds(&self) -> Vec<BondRecord> {
+        let mut records = Vec::new();
+        for pass in &self.passes {
+            pass.bonds(&self.state, &mut |record| records.push(record));
         }
         records
     }

@@ -2,7 +2,7 @@
 
 use super::error::RunError;
 use super::lanes::Width;
-use super::observe::ContactRecord;
+use super::observe::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::number::Vector;
@@ -80,6 +80,9 @@ pub(super) trait Pass: Send + Sync {
 
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord));
+
+    /// Tells each living bond and what it carries. Changes nothing.
+    fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
 }
 
 /// The stiffness of one interaction at work.
