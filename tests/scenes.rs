@@ -1,6 +1,8 @@
 //! Scenes that are accepted, and scenes that are refused with the very message they hold after `#!`.
 
 use cograin::scene::{AxisMotion, InputCourse, Scene, Shape, Source, Step};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -251,4 +253,57 @@ fn every_model_is_accepted() {
             panic!("{}: {errors}", path.display());
         }
     }
+}
+
+/// The text with a few characters lost, doubled or swapped for those of its own.
+fn damaged(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..1 + random.next_u32() % 4 {
+        if bytes.is_empty() {
+            break;
+        }
+        let mut place = || random.next_u32() as usize % bytes.len();
+        let (here, there) = (place(), place());
+        match random.next_u32() % 4 {
+            0 => drop(bytes.remove(here)),
+            1 => bytes.insert(here, bytes[there]),
+            2 => bytes[here] = bytes[there],
+            _ => bytes.truncate(bytes.len() - there % 8),
+        }
+    }
+    bytes
+}
+
+#[test]
+fn a_damaged_scene_or_file_is_accepted_or_refused_and_never_panics() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut refused = 0;
+    for path in scenes("good") {
+        let (_, whole) = Scene::read(&path).unwrap();
+        for _ in 0..300 {
+            let mut source = whole.clone();
+            if let Some(bytes) = source.files.values_mut().next().filter(|_| random.next_u32() % 2 == 0) {
+                *bytes = damaged(bytes, &mut random);
+            } else {
+                source.text = String::from_utf8_lossy(&damaged(source.text.as_bytes(), &mut random)).into_owned();
+            }
+            if let Err(errors) = Scene::from_source(&source) {
+                refused += 1;
+                assert!(!errors.list.is_empty() && errors.list.iter().all(|error| !error.file.is_empty()));
+            }
+        }
+    }
+    assert!(refused > 500, "only {refused} refused");
+}
+
+#[test]
+fn bonds_arrive_by_distance_and_by_list() {
+    let scene = good("bonded.toml");
+    let (beam, chain) = (&scene.bonds[0], &scene.bonds[1]);
+    assert_eq!((beam.name.as_str(), beam.create_distance), ("beam", Some(1.6e-3)));
+    assert_eq!(beam.between.map(|set| set.0), [0, 0]);
+    let ids: Vec<[u32; 2]> =
+        chain.pairs.iter().map(|pair| pair.map(|index| scene.particles[index as usize].id.0)).collect();
+    assert_eq!(ids, [[20, 10], [30, 10]]);
+    assert_eq!(chain.law.compression_strength, 1e7);
 }

@@ -214,6 +214,14 @@ pub enum Mistake {
         /// The set of the other particle.
         other: String,
     },
+    /// A bond law without bonds.
+    #[error("{} bonds no pair; {}", short(*.distance), nearest_centres(*.closest))]
+    BondsNobody {
+        /// Centres nearer than this are bonded \[m\].
+        distance: f64,
+        /// Least distance of two centres that may be bonded \[m\].
+        closest: Option<f64>,
+    },
     /// A group that holds nothing.
     #[error("chooses no particle; {right}")]
     Nobody {
@@ -303,6 +311,27 @@ pub enum Mistake {
         /// Volume of those over that of the box.
         fraction: f64,
     },
+}
+
+/// A length in at most four digits: `2.0e-3`, `1.837e-3`.
+fn short(length: f64) -> String {
+    let text = format!("{length:.3e}");
+    match text.split_once('e') {
+        Some((digits, power)) => {
+            let digits = digits.trim_end_matches('0');
+            let zero = if digits.ends_with('.') { "0" } else { "" };
+            format!("{digits}{zero}e{power}")
+        }
+        None => text,
+    }
+}
+
+/// How near the centres are that could be bonded.
+fn nearest_centres(closest: Option<f64>) -> String {
+    match closest {
+        Some(distance) => format!("the closest centres are {} apart", short(distance)),
+        None => "no two centres are near".to_owned(),
+    }
 }
 
 /// ", and 3 more pairs", or nothing.

@@ -49,16 +49,12 @@ impl Scene {
         let mut source = Source { name, text, files: BTreeMap::new() };
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (set, file) in written::files(&document) {
+        for (table, key, file) in written::files(&document) {
             match fs::read(folder.join(&file)) {
                 Ok(bytes) => {
                     source.files.insert(file, bytes);
                 }
-                Err(error) => faults.add(
-                    &format!("particles.{set}"),
-                    "file",
-                    Mistake::Unreadable { file, reason: reason(&error) },
-                ),
+                Err(error) => faults.add(&table, key, Mistake::Unreadable { file, reason: reason(&error) }),
             }
         }
         let scene = check::scene(&source, &document, faults)?;
@@ -69,10 +65,10 @@ impl Scene {
     pub fn from_source(source: &Source) -> Result<Self, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (set, file) in written::files(&document) {
+        for (table, key, file) in written::files(&document) {
             if !source.files.contains_key(&file) {
                 let reason = "it was not handed over with the scene".to_owned();
-                faults.add(&format!("particles.{set}"), "file", Mistake::Unreadable { file, reason });
+                faults.add(&table, key, Mistake::Unreadable { file, reason });
             }
         }
         check::scene(source, &document, faults)

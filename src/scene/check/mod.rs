@@ -1,5 +1,6 @@
 //! From tables, each right in itself, to a scene that is right as a whole.
 
+mod bonds;
 mod close;
 mod contacts;
 mod groups;
@@ -28,10 +29,11 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
     let born = particles::particles(&written, source, &materials, &mut faults);
     faults.so_far()?;
     let boundaries = groups::boundaries(&written, &materials, &born, &mut faults);
+    let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);
     let damping = groups::damping(&written, &materials, &born, &mut faults);
     let forces = groups::forces(&written, &born, &mut faults);
     let scene = Scene {
-        bonds: Vec::new(),
+        bonds,
         run,
         gravity: written.gravity.0,
         materials,

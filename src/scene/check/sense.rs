@@ -1,5 +1,6 @@
 //! What must hold in any scene, read from a file or built in code.
 
+use super::bonds::{Bonded, idle};
 use super::close::for_each_overlap;
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
@@ -24,7 +25,7 @@ pub(super) struct Finding {
 
 impl Finding {
     /// At a key of a table.
-    fn at(table: String, key: &str, mistake: Mistake) -> Self {
+    pub(super) fn at(table: String, key: &str, mistake: Mistake) -> Self {
         Self { otherwise: table.clone(), table, key: key.to_owned(), mistake }
     }
 }
@@ -171,6 +172,7 @@ pub(super) fn places(scene: &Scene) -> Vec<Finding> {
     outside(scene, &mut findings);
     planes(scene, &mut findings);
     overlaps(scene, &mut findings);
+    findings.extend(idle(scene));
     findings
 }
 
@@ -242,6 +244,7 @@ fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
     let spheres: Vec<([f64; 3], f64)> =
         scene.particles.iter().map(|particle| (particle.position, particle.radius)).collect();
     let permitted = scene.run.max_overlap;
+    let bonded = Bonded::of(scene);
     let mut worst: Option<(f64, u32, u32)> = None;
     let mut count = 0;
     for_each_overlap(&spheres, |i, j, overlap| {
@@ -250,6 +253,9 @@ fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
         let relative = overlap / a.radius.min(b.radius);
         let rigid = group[i] != 0 && group[i] == group[j];
         if relative <= permitted || rigid || !governed(scene, a.material.index(), b.material.index()) {
+            return;
+        }
+        if bonded.holds(i, j, a.radius + b.radius - overlap) {
             return;
         }
         count += 1;

@@ -1,5 +1,6 @@
 //! Every table of the text as its own type; from here on only relations between tables can be wrong.
 
+use crate::bond::keys::Keys;
 use crate::contact::PairProperties;
 use crate::contact::cohesion::CohesionChoice;
 use crate::contact::normal::NormalChoice;
@@ -29,6 +30,8 @@ pub(in crate::scene) struct Written {
     pub(super) pairs: Vec<([String; 2], PairProperties)>,
     /// `[contact.<name>]`
     pub(super) contacts: Named<Law>,
+    /// `[bond.<name>]`
+    pub(super) bonds: Named<Keys>,
     /// `[particles.<name>]`
     pub(super) particles: Named<ParticlesTable>,
     /// `[boundary.<name>]`
@@ -57,10 +60,21 @@ pub(super) struct Law {
     pub(super) cohesion: CohesionChoice,
 }
 
-/// The files that the particle sets name: set and file.
-pub(in crate::scene) fn files(document: &Document) -> Vec<(String, String)> {
-    let file = |set: &String| document.text(&format!("particles.{set}.file")).map(str::to_owned);
-    document.names("particles").into_iter().filter_map(|set| file(&set).map(|file| (set, file))).collect()
+/// A file that a scene names: the table, the key, and the name.
+pub(in crate::scene) type FileName = (String, &'static str, String);
+
+/// The files that a scene names.
+pub(in crate::scene) fn files(document: &Document) -> Vec<FileName> {
+    let mut files = Vec::new();
+    for (kind, key) in [("particles", "file"), ("bond", "create.file")] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            if let Some(file) = document.text(&format!("{table}.{key}")) {
+                files.push((table, key, file.to_owned()));
+            }
+        }
+    }
+    files
 }
 
 impl Written {
@@ -75,6 +89,7 @@ impl Written {
         let materials = all(document, "material", faults);
         let pairs = pairs(document, faults);
         let contacts = laws(document, faults);
+        let bonds = all(document, "bond", faults);
         let particles = all(document, "particles", faults);
         let boundaries = all(document, "boundary", faults);
         let damping = all(document, "damping", faults);
@@ -86,7 +101,20 @@ impl Written {
         }
         let (run, gravity, output) = (run?, gravity?, output?);
         let domain = domain.flatten();
-        Some(Self { run, gravity, materials, pairs, contacts, particles, boundaries, damping, forces, domain, output })
+        Some(Self {
+            run,
+            gravity,
+            materials,
+            pairs,
+            contacts,
+            bonds,
+            particles,
+            boundaries,
+            damping,
+            forces,
+            domain,
+            output,
+        })
     }
 }
 

@@ -19,8 +19,20 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene) const TABLES: [&str; 11] =
-    ["run", "gravity", "material", "pair", "contact", "particles", "boundary", "damping", "force", "domain", "output"];
+pub(in crate::scene) const TABLES: [&str; 12] = [
+    "run",
+    "gravity",
+    "material",
+    "pair",
+    "contact",
+    "bond",
+    "particles",
+    "boundary",
+    "damping",
+    "force",
+    "domain",
+    "output",
+];
 
 /// `[run]`
 #[derive(Debug, Default, Deserialize)]
