@@ -92,12 +92,14 @@ unsafe extern "C" fn log(environment: *mut c_void, _name: Text, status: Status, 
     messages.borrow_mut().push((status, text(category), text(message)));
 }
 
+/// [`log`] as Rust sees it.
+type PlainLogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text);
+
 /// Callbacks that keep messages.
 fn callbacks(messages: &Messages) -> Callbacks {
-    let log: unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text) = log;
     // SAFETY: a callee without variadic arguments reads the named ones where a variadic call puts them, on the
     // systems that units run on.
-    let log = unsafe { std::mem::transmute::<_, crate::types::LogFunction>(log) };
+    let log = unsafe { std::mem::transmute::<PlainLogFunction, crate::types::LogFunction>(log) };
     Callbacks {
         logger: Some(log),
         allocate_memory: None,
