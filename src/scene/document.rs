@@ -114,7 +114,11 @@ impl<'a> Document<'a> {
                 Ok(read) => return (faults.count() == before).then_some(read),
                 Err(error) => error,
             };
-            let path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
+            let mut path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
+            // A table that only its sub-tables name lies in their headers; the unknown key is where the way ends.
+            if let Some(end) = words::unknown_field(&error).and_then(|field| path.iter().position(|key| key == field)) {
+                path.truncate(end + 1);
+            }
             let mistake = words::mistake(&error, path.last().map_or("", String::as_str));
             let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
             // What was taken out as wrong is not missing, nor is the sub-model that it was.

@@ -33,6 +33,11 @@ pub(super) fn missing_field(error: &Error) -> Option<&str> {
     error.message().strip_prefix("missing field `")?.strip_suffix('`')
 }
 
+/// The field that serde does not know.
+pub(super) fn unknown_field(error: &Error) -> Option<&str> {
+    error.message().strip_prefix("unknown field `")?.split('`').next()
+}
+
 /// The mistake that an error of serde means; `key` is where it stands.
 pub(super) fn mistake(error: &Error, key: &str) -> Mistake {
     let message = error.message();
@@ -47,6 +52,10 @@ pub(super) fn mistake(error: &Error, key: &str) -> Mistake {
     if message.starts_with("unknown variant") {
         let found = quoted.next().unwrap_or_default();
         return absent(&found).unwrap_or_else(|| Mistake::Choice { found, known: quoted.collect() });
+    }
+    if message.ends_with("number overflowed") {
+        let (found, right) = ("a number too large for 64 bits".to_owned(), "a finite number".to_owned());
+        return Mistake::Wrong { found, right };
     }
     if let Some((found, right)) = message.split_once(", expected ") {
         return Mistake::Wrong { found: found_in(found), right: expected_in(right) };
@@ -79,7 +88,7 @@ fn expected_in(message: &str) -> String {
         "a map" => "a table",
         "u32" => "a whole number from 0 to 4294967295",
         "u64" | "usize" => "a whole number of 0 or above",
-        "a nonzero u32" | "a nonzero usize" => "a whole number of 1 or above",
+        "a nonzero u32" => "a whole number from 1 to 4294967295",
         text if text.starts_with("struct ") => "a table",
         text => text,
     };

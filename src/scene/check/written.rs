@@ -142,9 +142,9 @@ fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec<String> {
         let (found, right) = (document.written(kind).to_owned(), format!("a table [{kind}.<name>]"));
         faults.add("", kind, Mistake::Wrong { found, right });
     }
-    let names = document.names(kind);
-    for name in names.iter().filter(|name| !is_name(name)) {
-        faults.add(&format!("{kind}.{name}"), "", Mistake::Name { found: name.clone() });
+    let (names, others): (Vec<String>, Vec<String>) = document.names(kind).into_iter().partition(|name| is_name(name));
+    for found in others {
+        faults.add(&format!("{kind}.{found}"), "", Mistake::Name { found });
     }
     names
 }

@@ -16,6 +16,9 @@ pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => {
             return Err(refused("raw appended data (encoding=\"raw\")".to_owned()));
         }
+        Ok(Err(_)) if holds(bytes, b"vtkLZMADataCompressor") => {
+            return Err(refused("data packed by lzma".to_owned()));
+        }
         Ok(Err(_)) => return Err(refused("a file that is no VTK file, or a damaged one,".to_owned())),
         Err(_) => return Err(refused("a file that VTK's reader fails on".to_owned())),
     };
@@ -103,6 +106,6 @@ fn holds(bytes: &[u8], part: &[u8]) -> bool {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "an unstructured grid (.vtu) with inline ascii or base64 data".to_owned();
+    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib,".to_owned();
     vec![FileFault::whole(Mistake::Wrong { found, right })]
 }
