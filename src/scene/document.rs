@@ -1,6 +1,7 @@
 //! The text of a scene as tables whose lines are known, and from tables to typed values.
 
-use super::error::{Mistake, SceneError, SceneErrors};
+use super::error::{SceneError, SceneErrors};
+use super::mistake::Mistake;
 use super::words;
 use serde::de::DeserializeOwned;
 use std::ops::Range;

@@ -9,11 +9,13 @@ mod error;
 mod file;
 mod generate;
 mod import;
+mod mistake;
 mod nearest;
 mod source;
 mod words;
 
-pub use error::{Mistake, SceneError, SceneErrors};
+pub use error::{SceneError, SceneErrors};
+pub use mistake::Mistake;
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;

@@ -2,7 +2,8 @@
 
 use super::check;
 use super::document::{Document, Faults};
-use super::error::{Mistake, SceneError, SceneErrors};
+use super::error::{SceneError, SceneErrors};
+use super::mistake::Mistake;
 use super::{Scene, check::written};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

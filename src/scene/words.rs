@@ -1,6 +1,6 @@
 //! From what the readers of TOML and of single values say to messages in the scene's own words.
 
-use super::error::Mistake;
+use super::mistake::Mistake;
 use toml::de::Error;
 
 /// What people look for under these names and this program does not have.

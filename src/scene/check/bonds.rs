@@ -8,8 +8,8 @@ use crate::bond::creation::{ContactPolicy, Creation};
 use crate::bond::keys::Keys;
 use crate::quantity::SetIndex;
 use crate::scene::document::{Document, Faults};
-use crate::scene::error::Mistake;
 use crate::scene::import::REPORTED;
+use crate::scene::mistake::Mistake;
 use crate::scene::source::Source;
 use crate::scene::{Bond, Scene, Step};
 

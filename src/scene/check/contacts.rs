@@ -5,8 +5,8 @@ use crate::contact::{Material, PairProperties, Switches};
 use crate::quantity::MaterialIndex;
 use crate::scene::ContactLaw;
 use crate::scene::document::Faults;
-use crate::scene::error::Mistake;
 use crate::scene::file::Between;
+use crate::scene::mistake::Mistake;
 
 /// The materials, in the order of the text.
 pub(super) fn materials(written: &Written) -> Vec<Material> {

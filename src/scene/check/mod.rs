@@ -1,16 +1,20 @@
 //! From tables, each right in itself, to a scene that is right as a whole.
 
 mod bonds;
+mod boundaries;
 mod close;
 mod contacts;
-mod groups;
+mod damping;
+mod nursery;
 mod particles;
+mod selection;
 mod sense;
 pub(super) mod written;
 
 use super::document::{Document, Faults};
-use super::error::{Mistake, SceneErrors};
+use super::error::SceneErrors;
 use super::file::{OutputTable, RunTable, StepKey};
+use super::mistake::Mistake;
 use super::source::Source;
 use super::{Output, Run, Scene, Step};
 use sense::Finding;
@@ -28,10 +32,10 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
     let laws = contacts::laws(&written.contacts, &materials, &mut faults);
     let born = particles::particles(&written, source, &materials, &mut faults);
     faults.so_far()?;
-    let boundaries = groups::boundaries(&written, &materials, &born, &mut faults);
+    let boundaries = boundaries::boundaries(&written, &materials, &born, &mut faults);
     let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);
-    let damping = groups::damping(&written, &materials, &born, &mut faults);
-    let forces = groups::forces(&written, &born, &mut faults);
+    let damping = damping::damping(&written, &materials, &born, &mut faults);
+    let forces = damping::forces(&written, &born, &mut faults);
     let scene = Scene {
         bonds,
         run,

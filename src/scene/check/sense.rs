@@ -7,7 +7,8 @@ use crate::contact::normal::TakeNormal;
 use crate::contact::rolling::TakeRolling;
 use crate::contact::tangential::TakeTangential;
 use crate::contact::{Cohesion, FrictionNeeds, MaterialPair, Missing, Normal, Rolling, Tangential};
-use crate::scene::error::{Mistake, SceneError, SceneErrors};
+use crate::scene::error::{SceneError, SceneErrors};
+use crate::scene::mistake::Mistake;
 use crate::scene::{ContactLaw, Scene, Shape};
 
 /// A mistake and the table and key where it shows.

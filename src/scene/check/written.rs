@@ -7,11 +7,11 @@ use crate::contact::normal::NormalChoice;
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
 use crate::scene::document::{Document, Faults};
-use crate::scene::error::Mistake;
 use crate::scene::file::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, OutputTable, ParticlesTable,
     RunTable, TABLES, Triple,
 };
+use crate::scene::mistake::Mistake;
 use crate::scene::words;
 use serde::de::DeserializeOwned;
 

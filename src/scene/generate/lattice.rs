@@ -1,8 +1,8 @@
 //! Equal spheres in regular order.
 
 use super::{MOST, Sphere};
-use crate::scene::error::Mistake;
 use crate::scene::file::{LatticeKind, LatticeTable};
+use crate::scene::mistake::Mistake;
 
 /// A right-angled cell: its edges over the distance of neighbours, and the places in it over its edges.
 struct Cell {

@@ -1,8 +1,8 @@
 //! Spheres at random places of a box, none overlapping another.
 
 use super::{MOST, Sphere};
-use crate::scene::error::Mistake;
 use crate::scene::file::PackingTable;
+use crate::scene::mistake::Mistake;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use xxhash_rust::xxh3::xxh3_64;

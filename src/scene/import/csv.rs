@@ -1,7 +1,7 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
 use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed};
-use crate::scene::error::Mistake;
+use crate::scene::mistake::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
 /// What a column is read for.

@@ -1,7 +1,7 @@
 //! Data files of LIGGGHTS and LAMMPS (`read_data`, `write_data`) with spheres.
 
 use super::{FileFault, REPORTED, Request, Rows, non_spherical, periodic};
-use crate::scene::error::Mistake;
+use crate::scene::mistake::Mistake;
 use std::collections::BTreeMap;
 
 /// Columns of a line of atoms, by the atom style that its section names.

@@ -1,7 +1,7 @@
 //! Dump files of LIGGGHTS and LAMMPS in text form: one or more snapshots of named columns.
 
 use super::{FileFault, POSSIBLE, REPORTED, Request, Rows, needed, non_spherical, periodic};
-use crate::scene::error::Mistake;
+use crate::scene::mistake::Mistake;
 use std::collections::BTreeMap;
 
 /// A line of text and its number.

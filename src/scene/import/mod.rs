@@ -5,8 +5,8 @@ mod data;
 mod dump;
 mod vtu;
 
-use super::error::Mistake;
 use super::file::{Format, Units};
+use super::mistake::Mistake;
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::collections::BTreeMap;

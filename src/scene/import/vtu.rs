@@ -1,7 +1,7 @@
 //! Particles from VTK's XML unstructured grids, read by vtkio: points, and arrays of point data.
 
 use super::{FileFault, POSSIBLE, Request, Rows, needed};
-use crate::scene::error::Mistake;
+use crate::scene::mistake::Mistake;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use vtkio::model::{Attribute, DataArray, DataSet, Piece};
 use vtkio::{IOBuffer, Vtk};

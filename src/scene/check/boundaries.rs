@@ -1,0 +1,124 @@
+//! Boundaries: shape, motion, point of reference.
+
+use super::contacts::material_index;
+use super::particles::Born;
+use super::selection::{Owners, members};
+use super::written::Written;
+use crate::contact::Material;
+use crate::scene::document::Faults;
+use crate::scene::file::{BoundaryTable, MotionTable, PlaneTable};
+use crate::scene::mistake::Mistake;
+use crate::scene::{AxisMotion, Boundary, Shape};
+
+/// All boundaries.
+pub(super) fn boundaries(written: &Written, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Boundary> {
+    let mut owners = Owners::of(born);
+    let mut boundaries = Vec::new();
+    for (name, boundary) in &written.boundaries {
+        let table = format!("boundary.{name}");
+        let Some(shape) = shape(boundary, &table, materials, born, faults) else { continue };
+        if let Shape::Particles { members } = &shape {
+            owners.claim(members, &table, born, faults);
+        }
+        let reference = boundary.reference.map_or_else(|| centre(&shape, born), |reference| reference.0);
+        let axes = axes(&boundary.motion.0, &table, faults);
+        if boundary.input.is_some() && !axes.contains(&AxisMotion::Driven) {
+            let (what, right) = ("no axis is driven".to_owned(), "leave input out".to_owned());
+            faults.add(&table, "input", Mistake::Senseless { what, right });
+        }
+        let input = boundary.input.unwrap_or_default();
+        boundaries.push(Boundary { name: name.clone(), shape, axes, input, reference });
+    }
+    boundaries
+}
+
+/// The shape of a boundary.
+fn shape(
+    boundary: &BoundaryTable,
+    table: &str,
+    materials: &[Material],
+    born: &Born,
+    faults: &mut Faults,
+) -> Option<Shape> {
+    match (&boundary.plane, &boundary.particles) {
+        (Some(plane), None) => match &boundary.material {
+            Some(name) => {
+                let material = material_index(materials, name, table, "material", faults);
+                plane_shape(plane, table, faults).zip(material).map(|((point, normal), material)| Shape::Plane {
+                    material,
+                    point,
+                    normal,
+                })
+            }
+            None => {
+                faults.add(table, "material", Mistake::Missing { right: "a plane needs one".to_owned() });
+                None
+            }
+        },
+        (None, Some(selection)) => {
+            if boundary.material.is_some() {
+                let what = "particles have their own material".to_owned();
+                faults.add(table, "material", Mistake::Senseless { what, right: "leave it out".to_owned() });
+            }
+            Some(Shape::Particles { members: members(selection, born, table, faults) })
+        }
+        (Some(_), Some(_)) => {
+            let (found, right) = ("plane and particles".to_owned(), "one shape".to_owned());
+            faults.add(table, "", Mistake::Wrong { found, right });
+            None
+        }
+        (None, None) => {
+            let right = "plane = { point, normal } or particles = { set, box, ids } gives its shape".to_owned();
+            faults.add(table, "", Mistake::Missing { right });
+            None
+        }
+    }
+}
+
+/// Point and unit normal of a plane.
+fn plane_shape(plane: &PlaneTable, table: &str, faults: &mut Faults) -> Option<([f64; 3], [f64; 3])> {
+    let normal = plane.normal.0;
+    // Scaled first, so that neither very long nor very short normals overflow.
+    let largest = normal.iter().fold(0.0_f64, |largest, part| largest.max(part.abs()));
+    if largest == 0.0 {
+        let (found, right) = ("a normal of length 0".to_owned(), "one that points towards the particles".to_owned());
+        faults.add(table, "plane.normal", Mistake::Wrong { found, right });
+        return None;
+    }
+    let scaled = normal.map(|part| part / largest);
+    let length = scaled.iter().map(|part| part * part).sum::<f64>().sqrt();
+    Some((plane.point.0, scaled.map(|part| part / length)))
+}
+
+/// The point about which a moment is taken if the scene names none.
+fn centre(shape: &Shape, born: &Born) -> [f64; 3] {
+    match shape {
+        Shape::Plane { point, .. } => *point,
+        Shape::Particles { members } => {
+            let (mut mass, mut first) = (0.0, [0.0; 3]);
+            for particle in members.iter().map(|member| &born.particles[*member as usize]) {
+                mass += particle.mass();
+                for (sum, part) in first.iter_mut().zip(particle.position) {
+                    *sum += particle.mass() * part;
+                }
+            }
+            if mass > 0.0 { first.map(|moment| moment / mass) } else { [0.0; 3] }
+        }
+    }
+}
+
+/// What each axis does; an axis may be named once.
+fn axes(motion: &MotionTable, table: &str, faults: &mut Faults) -> [AxisMotion; 3] {
+    let mut axes = [None; 3];
+    let named = (motion.fixed.iter().map(|axis| (axis, AxisMotion::Fixed)))
+        .chain(motion.driven.iter().map(|axis| (axis, AxisMotion::Driven)))
+        .chain(motion.prescribed.iter().map(|(axis, speed)| (axis, AxisMotion::Prescribed(speed.get()))));
+    for (axis, does) in named {
+        if axes[*axis as usize].replace(does).is_some() {
+            let what = format!("axis {} is named twice", ["x", "y", "z"][*axis as usize]);
+            let right = "an axis is fixed, driven or prescribed".to_owned();
+            faults.add(table, "motion", Mistake::Senseless { what, right });
+        }
+    }
+    axes.map(|does| does.unwrap_or(AxisMotion::Fixed))
+}

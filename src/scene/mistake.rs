@@ -1,0 +1,314 @@
+//! Kinds of mistakes and their words.
+
+use super::nearest::nearest;
+
+/// What is wrong: what was found, and what would be right.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Mistake {
+    /// The text is not TOML.
+    #[error("this is not TOML: {message}")]
+    Syntax {
+        /// The parser's words.
+        message: String,
+    },
+    /// A file cannot be read.
+    #[error("{file} cannot be read: {reason}")]
+    Unreadable {
+        /// The file, as the scene names it.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// A key that has no meaning here.
+    #[error("no such key; {}", proposal(.found, .known, "the keys here are"))]
+    UnknownKey {
+        /// The key.
+        found: String,
+        /// The keys that have one.
+        known: Vec<String>,
+    },
+    /// A table that has no meaning.
+    #[error("no such table; {}", proposal(.found, .known, "the tables are"))]
+    UnknownTable {
+        /// The table.
+        found: String,
+        /// The tables that have one.
+        known: Vec<String>,
+    },
+    /// A sub-model that is not among those of its kind.
+    #[error("no such {kind} model; {}", proposal(.found, .known, "there are"))]
+    UnknownModel {
+        /// The model.
+        found: String,
+        /// Normal, tangential, rolling or cohesion.
+        kind: &'static str,
+        /// Those that exist.
+        known: Vec<String>,
+    },
+    /// A name that the scene does not define.
+    #[error("{found:?} is no {kind} of this scene; {}", proposal(.found, .known, "there are"))]
+    UnknownName {
+        /// The name.
+        found: String,
+        /// Of what.
+        kind: &'static str,
+        /// The names that the scene defines.
+        known: Vec<String>,
+    },
+    /// A choice that is not offered.
+    #[error("{found:?} found; {} is right", alternatives(.known))]
+    Choice {
+        /// What was chosen.
+        found: String,
+        /// What is offered.
+        known: Vec<String>,
+    },
+    /// Something the program does not have.
+    #[error("{what} are not there; {instead}")]
+    NotThere {
+        /// What, in the plural.
+        what: &'static str,
+        /// What is there.
+        instead: &'static str,
+    },
+    /// A name with characters that names may not have.
+    #[error("{found:?} is no name; a letter or _ followed by letters, digits or _ is right")]
+    Name {
+        /// The name.
+        found: String,
+    },
+    /// Something needed is absent.
+    #[error("missing; {right}")]
+    Missing {
+        /// What belongs there, or who needs it.
+        right: String,
+    },
+    /// A value that is not permitted.
+    #[error("{found} found; {right} is right")]
+    Wrong {
+        /// The value.
+        found: String,
+        /// What is permitted.
+        right: String,
+    },
+    /// A combination that makes no sense.
+    #[error("{what}; {right}")]
+    Senseless {
+        /// The combination and why it is senseless.
+        what: String,
+        /// What would make sense.
+        right: String,
+    },
+    /// A value that a type refused in words of its own.
+    #[error("{message}")]
+    Refused {
+        /// Those words.
+        message: String,
+    },
+    /// The two tables of a pair of materials differ.
+    #[error("{found} found, but {other} in [{table}]; a pair of materials has one value")]
+    Asymmetric {
+        /// The value here.
+        found: String,
+        /// The value there.
+        other: String,
+        /// The other table.
+        table: String,
+    },
+    /// Two laws for one pair of materials.
+    #[error("{a} and {b} have a law already, [contact.{other}]; each two materials have one at most")]
+    TwoLaws {
+        /// A material.
+        a: String,
+        /// The other.
+        b: String,
+        /// The law that came first.
+        other: String,
+    },
+    /// No law for two materials that can touch.
+    #[error("no law for {a} and {b}, which can touch; a [contact] table whose between names them is right")]
+    NoLaw {
+        /// A material.
+        a: String,
+        /// The other.
+        b: String,
+    },
+    /// Columns that a data file does not have.
+    #[error("column {column} is missing; found {}", listed(.found))]
+    Column {
+        /// The column.
+        column: String,
+        /// The columns it has.
+        found: Vec<String>,
+    },
+    /// A file whose units are not known.
+    #[error("its units are not stated; units = \"si\", \"cgs\", \"micro\" or \"nano\" in the scene is right")]
+    NoUnits,
+    /// A file in units that have no size, or that the program does not convert.
+    #[error("{found} units found; si, cgs, micro or nano units are right")]
+    Units {
+        /// What the file says.
+        found: String,
+    },
+    /// A number used twice.
+    #[error("{id} is the number of another particle, of [particles.{other}]; each particle has its own")]
+    DuplicateId {
+        /// The number.
+        id: u32,
+        /// The set of the other particle.
+        other: String,
+    },
+    /// A bond law without bonds.
+    #[error("{} bonds no pair; {}", short(*.distance), nearest_centres(*.closest))]
+    BondsNobody {
+        /// Centres nearer than this are bonded \[m\].
+        distance: f64,
+        /// Least distance of two centres that may be bonded \[m\].
+        closest: Option<f64>,
+    },
+    /// A group that holds nothing.
+    #[error("chooses no particle; {right}")]
+    Nobody {
+        /// What is there to choose.
+        right: String,
+    },
+    /// A particle that already belongs elsewhere.
+    #[error("particle {id} is in {other} already; a particle is in one at most")]
+    Taken {
+        /// The particle.
+        id: u32,
+        /// Where.
+        other: String,
+    },
+    /// Two particles inside one another.
+    #[error(
+        "particles {a} and {b} overlap by {overlap:.3} of the smaller radius{}; \
+         at most {permitted} is right ([run] max_overlap)", and_more(*.more, "pair")
+    )]
+    Overlap {
+        /// A particle.
+        a: u32,
+        /// The other.
+        b: u32,
+        /// Overlap over the smaller radius.
+        overlap: f64,
+        /// What is permitted of it.
+        permitted: f64,
+        /// How many further pairs overlap as badly.
+        more: usize,
+    },
+    /// A particle inside a plane.
+    #[error(
+        "particle {id} overlaps [boundary.{boundary}] by {overlap:.3} of its radius{}; \
+         at most {permitted} is right ([run] max_overlap)", and_more(*.more, "particle")
+    )]
+    WallOverlap {
+        /// The particle.
+        id: u32,
+        /// The plane.
+        boundary: String,
+        /// Overlap over the radius.
+        overlap: f64,
+        /// What is permitted of it.
+        permitted: f64,
+        /// How many further particles do.
+        more: usize,
+    },
+    /// A particle whose centre is behind a plane.
+    #[error(
+        "the centre of particle {id} is {depth:.3e} m behind [boundary.{boundary}]{}; \
+         the normal of a plane points towards the particles", and_more(*.more, "particle")
+    )]
+    Behind {
+        /// The particle.
+        id: u32,
+        /// The plane.
+        boundary: String,
+        /// How far \[m\].
+        depth: f64,
+        /// How many further particles are.
+        more: usize,
+    },
+    /// A particle outside the domain.
+    #[error(
+        "particle {id} at {position:?} m is outside{}; a box that holds every centre is right",
+        and_more(*.more, "particle")
+    )]
+    Outside {
+        /// The particle.
+        id: u32,
+        /// Where it is \[m\].
+        position: [f64; 3],
+        /// How many further particles are.
+        more: usize,
+    },
+    /// A packing that does not fit its box.
+    #[error(
+        "{reached} of {count} particles found room ({fraction:.3} of the box is filled); \
+         fewer or smaller ones or a larger box are right"
+    )]
+    Full {
+        /// How many found room.
+        reached: usize,
+        /// How many were asked for.
+        count: usize,
+        /// Volume of those over that of the box.
+        fraction: f64,
+    },
+}
+
+/// A length in at most four digits: `2.0e-3`, `1.837e-3`.
+fn short(length: f64) -> String {
+    let text = format!("{length:.3e}");
+    match text.split_once('e') {
+        Some((digits, power)) => {
+            let digits = digits.trim_end_matches('0');
+            let zero = if digits.ends_with('.') { "0" } else { "" };
+            format!("{digits}{zero}e{power}")
+        }
+        None => text,
+    }
+}
+
+/// How near the centres are that could be bonded.
+fn nearest_centres(closest: Option<f64>) -> String {
+    match closest {
+        Some(distance) => format!("the closest centres are {} apart", short(distance)),
+        None => "no two centres are near".to_owned(),
+    }
+}
+
+/// ", and 3 more pairs", or nothing.
+fn and_more(more: usize, what: &str) -> String {
+    match more {
+        0 => String::new(),
+        1 => format!(", and 1 more {what}"),
+        more => format!(", and {more} more {what}s"),
+    }
+}
+
+/// Names the nearest known word, or all of them.
+fn proposal(found: &str, known: &[String], all: &str) -> String {
+    match nearest(found, known.iter().map(String::as_str)) {
+        Some(near) => format!("the nearest is {near}"),
+        None if known.is_empty() => "none is known here".to_owned(),
+        None => format!("{all} {}", listed(known)),
+    }
+}
+
+/// `a, b, c`
+fn listed(words: &[String]) -> String {
+    words.join(", ")
+}
+
+/// `"a", "b" or "c"`
+fn alternatives(words: &[String]) -> String {
+    match words {
+        [] => "nothing".to_owned(),
+        [one] => format!("{one:?}"),
+        [first @ .., last] => {
+            let first: Vec<String> = first.iter().map(|word| format!("{word:?}")).collect();
+            format!("{} or {last:?}", first.join(", "))
+        }
+    }
+}
