@@ -1,6 +1,7 @@
 //! The command line: parse, call, print.
 
 use clap::{Args, Parser, Subcommand};
+use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
 use cograin::output::{self, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
 use cograin::scene::{Scene, Source};
@@ -114,6 +115,17 @@ struct VerifyArguments {
     /// Folder that gets the trajectories
     #[arg(long, value_name = "OUT")]
     write: Option<PathBuf>,
+    /// Run cases of bonds from their start, not from each sample to the next
+    #[arg(long)]
+    free: bool,
+    /// Formulation of bonds; the others than engine_exact run from the start of a case
+    #[arg(long, value_name = "NAME", default_value = "engine_exact", value_parser = formulation)]
+    formulation: FormulationChoice,
+}
+
+/// A formulation by its name.
+fn formulation(name: &str) -> Result<FormulationChoice, String> {
+    FormulationChoice::named(name).ok_or_else(|| "finite_rotation, incremental or engine_exact is right".to_owned())
 }
 
 /// How a command ended that did not do its work.
@@ -261,7 +273,12 @@ fn package(arguments: &ExportArguments) -> Result<(), Ending> {
 
 /// `cograin verify`
 fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
-    let options = verify::Options { tolerance: arguments.tolerance, write: arguments.write.clone() };
+    let options = verify::Options {
+        tolerance: arguments.tolerance,
+        write: arguments.write.clone(),
+        free: arguments.free,
+        formulation: arguments.formulation,
+    };
     let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
     let mut failed = 0;
     for case in &cases {

@@ -1,11 +1,15 @@
 //! Trajectories that other engines left are reproduced, and bad cases are refused with a reason.
 
-use cograin::verify::{Options, find, replay};
+use cograin::bond::keys::FormulationChoice;
+use cograin::verify::{Options, Report, find, replay};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Where the cases of contacts lie.
 const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/contact");
+
+/// Where the cases of bonds lie.
+const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
 
 /// A folder of this test's own that goes when it is dropped.
 struct Scratch(PathBuf);
@@ -57,6 +61,101 @@ fn every_contact_case_holds() {
     let reports: Vec<_> = cases.iter().map(|case| replay(case, &Options::default()).unwrap()).collect();
     let failed: Vec<String> = reports.iter().filter(|report| !report.passed()).map(ToString::to_string).collect();
     assert!(failed.is_empty(), "\n{}", failed.join("\n"));
+}
+
+/// The lines of those cases of bonds that fail, of the named ones or of all.
+fn failing_bonds(options: &Options, chosen: impl Fn(&str) -> bool) -> (usize, Vec<String>) {
+    let cases = find(&[BOND.into()]).unwrap();
+    let cases = cases.iter().filter(|case| chosen(&case.file_name().unwrap().to_string_lossy()));
+    let reports: Vec<Report> = cases.map(|case| replay(case, options).unwrap()).collect();
+    let failed = reports.iter().filter(|report| !report.passed()).map(ToString::to_string);
+    (reports.len(), failed.collect())
+}
+
+#[test]
+fn every_bond_case_between_particles_holds_in_windows_and_from_its_start() {
+    for free in [false, true] {
+        let (count, failed) = failing_bonds(&Options { free, ..Options::default() }, |case| !case.starts_with("wall"));
+        assert_eq!(count, 38);
+        assert!(failed.is_empty(), "free: {free}\n{}", failed.join("\n"));
+    }
+}
+
+#[test]
+fn bonds_that_do_not_turn_are_the_same_in_every_formulation() {
+    let still = [
+        "tension",
+        "compression",
+        "twist",
+        "bending",
+        "break_distance",
+        "break_sigma",
+        "break_bending",
+        "break_twist",
+        "ratio_tension_compression",
+    ];
+    for formulation in [FormulationChoice::Incremental, FormulationChoice::FiniteRotation] {
+        let options = Options { formulation, ..Options::default() };
+        let (count, failed) = failing_bonds(&options, |case| still.contains(&case));
+        assert_eq!(count, still.len());
+        assert!(failed.is_empty(), "{formulation:?}\n{}", failed.join("\n"));
+        let (_, failed) = failing_bonds(&options, |case| case == "free_combined");
+        assert_eq!(failed.len(), 1, "{formulation:?} repeats the engine's bending");
+    }
+}
+
+#[test]
+fn a_bond_with_another_stiffness_or_strength_fails() {
+    let folder = Path::new(BOND).join("break_sigma");
+    let whole = fs::read_to_string(folder.join("case.json")).unwrap();
+    let case: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    for property in ["normalBondStiffnessPerUnitArea", "maxSigmaBond"] {
+        let scratch = Scratch::new(property);
+        for file in ["samples.csv", "bonds.csv"] {
+            fs::copy(folder.join(file), scratch.0.join(file)).unwrap();
+        }
+        let mut other = case.clone();
+        let entry = &mut other["pair_properties"][property][0][0];
+        *entry = serde_json::json!(entry.as_f64().unwrap() * 0.5);
+        let report = replay(&scratch.case(&other.to_string()), &Options::default()).unwrap();
+        assert!(!report.passed(), "{report}");
+    }
+}
+
+#[test]
+fn bad_cases_of_bonds_are_refused() {
+    let whole = fs::read_to_string(Path::new(BOND).join("tension/case.json")).unwrap();
+    let case: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    let with = |place: &str, key: &str, value: serde_json::Value| {
+        let mut other = case.clone();
+        other[place][key] = value;
+        other.to_string()
+    };
+    let table = [
+        (
+            "heat",
+            with("model", "temperatureBreak", true.into()),
+            "case.json, model.temperatureBreak: true found; the other engine refuses it as well",
+        ),
+        (
+            "damping",
+            with("pair_properties", "dampingNormalForceBond", serde_json::json!([[1.5]])),
+            "case.json, pair_properties.dampingNormalForceBond[0][0]: 1.5 found; a number from 0 to 1 is right",
+        ),
+        (
+            "reach",
+            with("pair_properties", "maxDistanceBond", serde_json::json!([])),
+            "case.json, pair_properties.maxDistanceBond[0][0]: no number, or not that of the mirrored entry",
+        ),
+        (
+            "flag",
+            with("model", "shearStress", 7.into()),
+            "case.json, model.shearStress: 7 found; true, false, \"on\" or \"off\" is right",
+        ),
+    ];
+    for (name, text, expected) in table {
+        assert_eq!(refusal(name, &text), expected);
+    }
 }
 
 #[test]
@@ -128,7 +227,7 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
         (
             "bond",
             with("\"cohesion\": \"off\"", "\"cohesion\": \"bond\""),
-            "case.json, model.cohesion: \"bond\" found; cases of bonds are not replayed; sjkr, sjkr2 or off is right",
+            "case.json, pair_properties.tsCreateBond: absent; a step is right",
         ),
         (
             "property",

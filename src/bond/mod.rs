@@ -146,6 +146,10 @@ pub trait BondLaw: Send + Sync + 'static {
 /// What a bond carries, for outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried {
+    /// Distance of the centres at which it bears no normal force \[m\].
+    pub rest: f64,
+    /// Unit vector from j to i.
+    pub axis: [f64; 3],
     /// Normal force, above 0 when it pushes \[N\].
     pub normal: f64,
     /// Shear force on i \[N\].
@@ -213,6 +217,8 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
         let elastic = F::respond(&law, pair, &motion, rows);
         let stress = breakage::Stress::of(&law, &motion.section, &elastic);
         Carried {
+            rest: elastic.compression + motion.distance,
+            axis: motion.axis.to_array(),
             normal: elastic.normal,
             shear: elastic.shear.to_array(),
             torsion: elastic.torsion,

@@ -12,6 +12,7 @@ pub mod lanes;
 mod neighbours;
 mod observe;
 mod pass;
+mod placement;
 mod settled;
 mod stable;
 mod walls;
@@ -19,6 +20,7 @@ mod workers;
 
 pub use error::RunError;
 pub use observe::{BondRecord, ContactRecord};
+pub use placement::{PlacedBond, PlacedParticle, PlacedSpring, Placement};
 pub use stable::Limit;
 
 use crate::bond::Quaternion;
@@ -105,14 +107,19 @@ impl Simulation {
 
     /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
     fn begin(&mut self) -> Result<(), RunError> {
-        if self.passes.iter().any(|pass| pass.needs_attitudes()) {
-            self.state.particles.attitude.resize(self.scene.particles.len(), Quaternion::identity().to_row());
-        }
+        self.give_attitudes();
         boundaries::place_groups(&self.scene, &mut self.state);
         self.rebuild();
         let time = self.state.clock.time;
         self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, 0.0);
         self.start()
+    }
+
+    /// Gives the particles the attitude of time 0, where a bond needs one and they have none.
+    fn give_attitudes(&mut self) {
+        if self.passes.iter().any(|pass| pass.needs_attitudes()) {
+            self.state.particles.attitude.resize(self.scene.particles.len(), Quaternion::identity().to_row());
+        }
     }
 
     /// Makes the bonds that are to be made at this moment, in a time step of this length \[s\].

@@ -1,8 +1,10 @@
 //! From a case to a scene: names are translated and values checked, nothing is computed.
 
+use super::bond;
 use super::case::{Case, GlobalDamping, Scale, Wall};
 use super::error::Mistake;
 use super::law;
+use crate::bond::keys::FormulationChoice;
 use crate::contact::MaterialPair;
 use crate::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use crate::scene::{
@@ -10,8 +12,8 @@ use crate::scene::{
 };
 use std::collections::BTreeMap;
 
-/// The scene that a case describes.
-pub(super) fn scene(case: &Case) -> Result<Scene, Mistake> {
+/// The scene that a case describes, its bonds in this formulation.
+pub(super) fn scene(case: &Case, formulation: FormulationChoice) -> Result<Scene, Mistake> {
     if case.steps == 0 || case.sample_every == 0 {
         return Err(Mistake::new("steps, sample_every", "0 found; numbers above 0 are right"));
     }
@@ -42,8 +44,8 @@ pub(super) fn scene(case: &Case) -> Result<Scene, Mistake> {
         materials,
         pairs,
         contacts: vec![contact],
-        bonds: Vec::new(),
-        sets: vec!["particles".into()],
+        bonds: bond::laws(case, formulation)?,
+        sets: (0..case.materials.len()).map(bond::set_name).collect(),
         boundaries: boundaries(case, &index_of)?,
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
@@ -80,10 +82,11 @@ fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
     let one = |index: usize| {
         let particle = &case.particles[index];
         let place = |key: &str| format!("particles[{index}].{key}");
+        let material = material(place("type"), particle.kind, case)?;
         Ok(Particle {
             id: ParticleId(particle.id),
-            set: SetIndex(0),
-            material: material(place("type"), particle.kind, case)?,
+            set: SetIndex(material.0),
+            material,
             radius: positive(place("radius"), particle.radius)?.get(),
             density: positive(place("density"), particle.density)?.get(),
             position: finite(place("position"), particle.position)?,

@@ -43,9 +43,22 @@ pub(super) struct Case {
     /// Particles that do not move by forces.
     #[serde(default)]
     pub(super) prescribed_motion: Vec<PrescribedMotion>,
+    /// How far an independent integration of the same equations is from the samples.
+    #[serde(default)]
+    pub(super) reproducible: Reproducible,
     /// How far the other engine's own samples move when its inputs change by 1e-13, relative.
     #[serde(default, rename = "sensitivity_to_1e-13_input_perturbation")]
     pub(super) sensitivity: Option<Sensitivity>,
+}
+
+/// How well the trajectory of a case of bonds can be repeated.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Reproducible {
+    /// Largest relative deviation from a sample to the next.
+    pub(super) window_deviation: Option<f64>,
+    /// The step to which a run from the start stays within 1e-9; beyond it rounding decides.
+    pub(super) free_run_1e9_until_step: Option<u64>,
 }
 
 /// A material.
@@ -253,6 +266,11 @@ impl Case {
             place: format!("line {}", cause.line()),
             message: cause.to_string(),
         })
+    }
+
+    /// Whether it has bonds.
+    pub(super) fn bonds(&self) -> bool {
+        self.model.cohesion == "bond"
     }
 
     /// Indices of the particles, by ascending id: the order that a scene has.

@@ -1,7 +1,9 @@
 //! How far two trajectories are apart.
 
 use super::case::Case;
-use super::samples::{Row, Samples};
+use super::linked::LinkErrors;
+use super::samples::Samples;
+use super::trajectory::Sample;
 use std::fmt;
 
 /// The quantities compared, in order: position, velocity, angular velocity, force, torque.
@@ -12,6 +14,41 @@ const ROUND_OFF: f64 = 1e-9;
 
 /// How much further than the other engine's own sensitivity a right answer may be away.
 const SENSITIVITY_FACTOR: f64 = 100.0;
+
+/// How much further than the deviation of an independent integration a window may be away.
+const WINDOW_FACTOR: f64 = 10.0;
+
+/// What a comparison allows, and how far it goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Measure {
+    /// Largest errors that pass, of the quantities of particles.
+    pub(super) allowed: [f64; QUANTITIES],
+    /// Largest error that passes, of the quantities of bonds.
+    pub(super) allowed_of_links: f64,
+    /// The last step compared.
+    pub(super) until: u64,
+}
+
+impl Measure {
+    /// Of a run from the start, or of one from each sample to the next.
+    ///
+    /// A run with bonds from the start is compared to half the step to which the case can be repeated, or to its end
+    /// if all of it can.
+    pub(super) fn of(case: &Case, tolerance: f64, windows: bool) -> Self {
+        let sensitivity = case.sensitivity.unwrap_or_default().to_array();
+        let mut allowed = sensitivity.map(|value| tolerance.max(SENSITIVITY_FACTOR * value));
+        let mut allowed_of_links = tolerance;
+        let mut until = case.steps;
+        if windows {
+            let deviation = case.reproducible.window_deviation.unwrap_or(0.0);
+            allowed_of_links = tolerance.max(WINDOW_FACTOR * deviation);
+            allowed = [allowed_of_links; QUANTITIES];
+        } else if let Some(step) = case.reproducible.free_run_1e9_until_step.filter(|step| *step < case.steps) {
+            until = step / 2;
+        }
+        Self { allowed, allowed_of_links, until }
+    }
+}
 
 /// Largest relative errors of a case and what they may be, of position, velocity, angular velocity, force, torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,18 +66,20 @@ pub struct Report {
     pub name: String,
     /// How far it is from its samples; `None` for a case without samples.
     pub errors: Option<Errors>,
+    /// How far its bonds are from theirs; `None` for a case without a record of bonds.
+    pub links: Option<LinkErrors>,
     /// Why the run stopped before its end.
     pub stopped: Option<String>,
 }
 
 impl Errors {
     /// Compares with the samples; what is missing of ours counts as infinitely far.
-    pub(super) fn between(case: &Case, theirs: &Samples, ours: &[(u64, Vec<Row>)], tolerance: f64) -> Self {
+    pub(super) fn between(case: &Case, theirs: &Samples, ours: &[Sample], measure: &Measure) -> Self {
         let scales = scales(case, theirs);
         let mut found = [0.0_f64; QUANTITIES];
-        for (sample, (_, rows)) in theirs.rows.iter().enumerate() {
+        for (sample, (_, rows)) in theirs.rows.iter().enumerate().filter(|(_, (step, _))| *step <= measure.until) {
             for (particle, theirs) in rows.iter().enumerate() {
-                let ours = ours.get(sample).map(|(_, rows)| rows[particle]);
+                let ours = ours.get(sample).map(|sample| sample.rows[particle]);
                 for quantity in 0..QUANTITIES {
                     let error = ours.map_or(f64::INFINITY, |ours| distance(ours[quantity], theirs[quantity]));
                     let error = if scales[quantity] > 0.0 { error / scales[quantity] } else { error };
@@ -48,8 +87,7 @@ impl Errors {
                 }
             }
         }
-        let sensitivity = case.sensitivity.unwrap_or_default().to_array();
-        Self { found, allowed: sensitivity.map(|value| tolerance.max(SENSITIVITY_FACTOR * value)) }
+        Self { found, allowed: measure.allowed }
     }
 
     /// Whether all are allowed.
@@ -61,7 +99,8 @@ impl Errors {
 impl Report {
     /// Whether the case ran to its end and holds its samples, if it has any.
     pub fn passed(&self) -> bool {
-        self.stopped.is_none() && self.errors.is_none_or(|errors| errors.passed())
+        let links = self.links.is_none_or(|links| links.passed());
+        self.stopped.is_none() && links && self.errors.is_none_or(|errors| errors.passed())
     }
 }
 
@@ -74,6 +113,9 @@ impl fmt::Display for Report {
                 None => write!(formatter, " {:>9}", "-")?,
             }
         }
+        if let Some(links) = &self.links {
+            write!(formatter, " {links}")?;
+        }
         write!(formatter, " {}", if self.passed() { "ok" } else { "FAIL" })?;
         match &self.stopped {
             Some(cause) => write!(formatter, ": {cause}"),
@@ -83,12 +125,12 @@ impl fmt::Display for Report {
 }
 
 /// Distance of two points.
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     length([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
 }
 
 /// Euclidean length.
-fn length(a: [f64; 3]) -> f64 {
+pub(super) fn length(a: [f64; 3]) -> f64 {
     (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt()
 }
 

@@ -1,5 +1,6 @@
 //! Materials and contact law of a case, translated to ours.
 
+use super::bond;
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
@@ -63,7 +64,8 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
 pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
     let count = case.materials.len();
     let mut pairs = vec![PairProperties::default(); count * count];
-    for (name, value) in &case.pair_properties {
+    let own = case.pair_properties.iter().filter(|(name, _)| !bond::has_property(case, name));
+    for (name, value) in own {
         let Some((_, ours)) = PROPERTIES.iter().find(|(theirs, _)| theirs == name) else {
             return Err(Mistake::new(format!("pair_properties.{name}"), "not known here"));
         };
@@ -124,7 +126,7 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     let unknown = |field: &str, found: &str, right: &str| {
         Mistake::new(format!("model.{field}"), format!("\"{found}\" found; {right} is right"))
     };
-    for (flag, value) in &model.others {
+    for (flag, value) in model.others.iter().filter(|(flag, _)| !bond::has_flag(case, flag)) {
         let off = value.is_null() || *value == serde_json::json!(false) || *value == serde_json::json!("off");
         if !off {
             return Err(Mistake::new(format!("model.{flag}"), format!("{value} found; this flag is not known here")));
@@ -162,11 +164,10 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
             other => return Err(unknown("rolling_friction", other, "cdt or off")),
         },
         cohesion: match model.cohesion.as_str() {
-            "off" => CohesionChoice::None(NoKeys {}),
+            "off" | "bond" => CohesionChoice::None(NoKeys {}),
             "sjkr" => CohesionChoice::Sjkr(keys),
             "sjkr2" => CohesionChoice::Sjkr2(keys),
-            "bond" => return Err(unknown("cohesion", "bond", "cases of bonds are not replayed; sjkr, sjkr2 or off")),
-            other => return Err(unknown("cohesion", other, "sjkr, sjkr2 or off")),
+            other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
         },
         switches: Switches::of(model.limit_force, model.tangential_damping),
     })

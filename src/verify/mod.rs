@@ -1,21 +1,30 @@
 //! Reference cases of other engines, replayed: no physics here, a case becomes a [`Scene`] that is stepped.
 //!
-//! A case is a folder with `case.json` and perhaps `samples.csv`, the other engine's trajectory.
+//! A case is a folder with `case.json` and perhaps `samples.csv`, the other engine's trajectory, and `bonds.csv`, its bonds.
+//!
+//! Cases of contacts run from their start. So do those of bonds, if asked; otherwise they run from each sample to the
+//! next, since the other engine's bonds let rounding grow.
 
+mod bond;
 mod build;
 mod case;
 mod compare;
 mod error;
+mod history;
 mod law;
+mod linked;
 mod samples;
+mod trajectory;
 
 pub use compare::{Errors, Report};
 pub use error::VerifyError;
+pub use linked::LinkErrors;
 
-use crate::scene::Scene;
-use crate::step::Simulation;
+use crate::bond::keys::FormulationChoice;
 use case::Case;
-use samples::{Row, Samples};
+use compare::Measure;
+use history::History;
+use samples::Samples;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,13 +34,17 @@ use std::sync::Arc;
 pub struct Options {
     /// Largest relative error that passes, unless the case itself is more sensitive.
     pub tolerance: f64,
-    /// Folder that gets the trajectories, as `<case>.csv`.
+    /// Folder that gets the trajectories of runs from the start, as `<case>.csv`.
     pub write: Option<PathBuf>,
+    /// Whether cases of bonds run from their start alone, not from each sample to the next.
+    pub free: bool,
+    /// The formulation of bonds; every other than `engine_exact` runs from the start, as samples hold no attitudes.
+    pub formulation: FormulationChoice,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: 1e-9, write: None }
+        Self { tolerance: 1e-9, write: None, free: false, formulation: FormulationChoice::EngineExact }
     }
 }
 
@@ -63,75 +76,36 @@ pub fn find(folders: &[PathBuf]) -> Result<Vec<PathBuf>, VerifyError> {
 pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let name = name_of(folder)?;
     let case = Case::read(&folder.join("case.json"))?;
-    let scene = build::scene(&case).map_err(|mistake| mistake.at(&folder.join("case.json")))?;
+    let scene = build::scene(&case, options.formulation).map_err(|mistake| mistake.at(&folder.join("case.json")))?;
+    let scene = Arc::new(scene);
     let theirs = Samples::read(&folder.join("samples.csv"), &case)?;
-    let steps = match &theirs {
-        Some(samples) => samples.steps(),
-        None => (0..=case.steps).step_by(case.sample_every as usize).collect(),
+    let history = History::read(&folder.join("bonds.csv"), &case)?;
+    let in_windows = !options.free && options.formulation == FormulationChoice::EngineExact && case.walls.is_empty();
+    let windows = match (&theirs, &history) {
+        (Some(samples), Some(history)) if in_windows => Some(trajectory::windows(&case, &scene, samples, history)),
+        _ => None,
     };
-    let run = trajectory(&case, scene, &steps);
-    if let Some(out) = &options.write {
+    let free = (windows.is_none() || options.write.is_some()).then(|| {
+        let steps = match &theirs {
+            Some(samples) => samples.steps(),
+            None => (0..=case.steps).step_by(case.sample_every as usize).collect(),
+        };
+        trajectory::free(&case, &scene, &steps)
+    });
+    if let (Some(out), Some(run)) = (&options.write, &free) {
         fs::create_dir_all(out).map_err(|cause| VerifyError::file(out, &cause))?;
-        samples::write(&out.join(format!("{name}.csv")), &case, &run.rows)?;
+        samples::write(&out.join(format!("{name}.csv")), &case, &run.samples)?;
     }
-    let errors = theirs.map(|theirs| Errors::between(&case, &theirs, &run.rows, options.tolerance));
-    Ok(Report { name, errors, stopped: run.stopped })
+    let measure = Measure::of(&case, options.tolerance, windows.is_some());
+    let run = windows.or(free).unwrap_or_default();
+    let errors = theirs.as_ref().map(|theirs| Errors::between(&case, theirs, &run.samples, &measure));
+    let links = theirs.as_ref().zip(history.as_ref());
+    let links = links.map(|(theirs, history)| LinkErrors::between(theirs, history, &run.samples, &measure));
+    Ok(Report { name, errors, links, stopped: run.stopped })
 }
 
 /// The name of a case: that of its folder.
 fn name_of(folder: &Path) -> Result<String, VerifyError> {
     let whole = folder.canonicalize().map_err(|cause| VerifyError::file(folder, &cause))?;
     Ok(whole.file_name().map_or_else(|| "case".into(), |name| name.to_string_lossy().into_owned()))
-}
-
-/// What a run left.
-struct Run {
-    /// The particles at each step, in the case's order.
-    rows: Vec<(u64, Vec<Row>)>,
-    /// Why it stopped before its end.
-    stopped: Option<String>,
-}
-
-/// Runs the scene and keeps these steps, in ascending order.
-fn trajectory(case: &Case, scene: Scene, steps: &[u64]) -> Run {
-    let mut rows = Vec::with_capacity(steps.len());
-    let mut simulation = match Simulation::new(Arc::new(scene)) {
-        Ok(simulation) => simulation,
-        Err(cause) => return Run { rows, stopped: Some(cause.to_string()) },
-    };
-    let mut now = 0;
-    for step in steps {
-        if *step > now {
-            if let Err(cause) = simulation.advance((step - now) as f64 * case.dt) {
-                return Run { rows, stopped: Some(cause.to_string()) };
-            }
-            now = *step;
-        }
-        rows.push((now, observe(case, &simulation)));
-    }
-    Run { rows, stopped: None }
-}
-
-/// The particles as they are, in the case's order.
-fn observe(case: &Case, simulation: &Simulation) -> Vec<Row> {
-    let particles = &simulation.state().particles;
-    let three = |row: &[f64; 4]| [row[0], row[1], row[2]];
-    case.by_id()
-        .into_iter()
-        .enumerate()
-        .map(|(in_scene, in_case)| (in_case, particles.slot[in_scene] as usize))
-        .map(|(in_case, slot)| {
-            let row = [
-                three(&particles.position[slot]),
-                three(&particles.velocity[slot]),
-                three(&particles.angular_velocity[slot]),
-                three(&particles.force[slot]),
-                three(&particles.torque[slot]),
-            ];
-            (in_case, row)
-        })
-        .fold(vec![Row::default(); case.particles.len()], |mut rows, (in_case, row)| {
-            rows[in_case] = row;
-            rows
-        })
 }

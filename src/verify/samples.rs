@@ -2,6 +2,7 @@
 
 use super::case::Case;
 use super::error::VerifyError;
+use super::trajectory::Sample;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -111,10 +112,10 @@ fn parse(line: &str, places: &[usize]) -> Result<(u64, u32, Row), String> {
 }
 
 /// Writes a trajectory in the same columns, 17 digits.
-pub(super) fn write(path: &Path, case: &Case, rows: &[(u64, Vec<Row>)]) -> Result<(), VerifyError> {
+pub(super) fn write(path: &Path, case: &Case, samples: &[Sample]) -> Result<(), VerifyError> {
     let mut text = COLUMNS.join(",");
     text.push('\n');
-    for (step, rows) in rows {
+    for Sample { step, rows, .. } in samples {
         for (particle, row) in case.particles.iter().zip(rows) {
             let time = *step as f64 * case.dt;
             // writing to a string cannot fail

@@ -27,6 +27,18 @@ pub enum FormulationChoice {
     EngineExact,
 }
 
+impl FormulationChoice {
+    /// The formulation that the scene file calls this.
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "finite_rotation" => Some(Self::FiniteRotation),
+            "incremental" => Some(Self::Incremental),
+            "engine_exact" => Some(Self::EngineExact),
+            _ => None,
+        }
+    }
+}
+
 /// One number for each part of a bond; what is absent is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

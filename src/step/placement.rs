@@ -1,0 +1,141 @@
+//! Bodies put where another program had them, in the middle of their way.
+
+use super::{RunError, Simulation, assemble};
+use crate::bond::Rows;
+use crate::number::Vector;
+use crate::scene::{Scene, Step};
+use crate::state::contacts::TOUCHING;
+use crate::state::{Row, State};
+use std::sync::Arc;
+
+/// A sphere as it is at the end of a time step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlacedParticle {
+    /// Position \[m\].
+    pub position: [f64; 3],
+    /// Velocity \[m/s\].
+    pub velocity: [f64; 3],
+    /// Angular velocity \[rad/s\].
+    pub angular_velocity: [f64; 3],
+    /// Force \[N\].
+    pub force: [f64; 3],
+    /// Torque \[N m\].
+    pub torque: [f64; 3],
+}
+
+/// A bond with its history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedBond {
+    /// Bond law: index in the scene.
+    pub law: usize,
+    /// The bodies i and j: indices into the scene's particles, ascending.
+    pub bodies: [u32; 2],
+    /// Its state, as the law keeps it.
+    pub rows: Rows,
+}
+
+/// The spring of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedSpring {
+    /// The bodies: indices into the scene's particles.
+    pub bodies: [u32; 2],
+    /// Tangential spring, as the first sees the second \[m\].
+    pub spring: [f64; 3],
+}
+
+/// Everything that a scene without planes remembers from one time step to the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// Time steps made so far.
+    pub steps: u64,
+    /// The particles, in the scene's order.
+    pub particles: Vec<PlacedParticle>,
+    /// Springs of contacts at work.
+    pub springs: Vec<PlacedSpring>,
+    /// Living bonds.
+    pub bonds: Vec<PlacedBond>,
+}
+
+impl Simulation {
+    /// The scene as it stands after some of its time steps, which have a given length. Attitudes are those of time 0.
+    ///
+    /// What the placement does not name stays as at time 0; what is not in the scene is passed over.
+    pub fn placed(scene: Arc<Scene>, placement: &Placement) -> Result<Self, RunError> {
+        let mut state = assemble::state(&scene);
+        if let Step::Given(step) = scene.run.step {
+            state.clock.step = step;
+            state.clock.last_step = step;
+            state.clock.time = placement.steps as f64 * step;
+        }
+        state.clock.steps = placement.steps;
+        let time = state.clock.time;
+        for boundary in &mut state.boundaries {
+            boundary.displacement = boundary.velocity.map(|velocity| velocity * time);
+        }
+        put_particles(&mut state, &placement.particles);
+        for bond in &placement.bonds {
+            put_bond(&mut state, bond);
+        }
+        let mut simulation = Self::resume(scene, state);
+        simulation.give_attitudes();
+        simulation.rebuild();
+        for spring in &placement.springs {
+            put_spring(&mut simulation.state, spring);
+        }
+        simulation.state.clock.stable = simulation.limit().safe;
+        Ok(simulation)
+    }
+}
+
+/// Puts particles where they are; slots are still those of the scene.
+fn put_particles(state: &mut State, placed: &[PlacedParticle]) {
+    let particles = &mut state.particles;
+    for (slot, placed) in placed.iter().enumerate().take(particles.len()) {
+        put(&mut particles.position[slot], placed.position);
+        put(&mut particles.velocity[slot], placed.velocity);
+        put(&mut particles.angular_velocity[slot], placed.angular_velocity);
+        put(&mut particles.force[slot], placed.force);
+        put(&mut particles.torque[slot], placed.torque);
+    }
+}
+
+/// Sets the vector of a row.
+fn put(row: &mut Row, vector: [f64; 3]) {
+    row[..3].copy_from_slice(&vector);
+}
+
+/// Appends a bond to its list; slots are still those of the scene.
+fn put_bond(state: &mut State, bond: &PlacedBond) {
+    let Some(list) = state.bonds.get_mut(bond.law) else { return };
+    list.rows.resize(bond.rows.len(), Vec::new());
+    list.first.push(bond.bodies[0]);
+    list.second.push(bond.bodies[1]);
+    for (column, row) in list.rows.iter_mut().zip(bond.rows) {
+        column.push(row);
+    }
+    list.made += 1;
+}
+
+/// Gives a listed pair its spring, if it touches.
+fn put_spring(state: &mut State, placed: &PlacedSpring) {
+    let particles = &state.particles;
+    let [a, b] = placed.bodies.map(|body| particles.slot[body as usize]);
+    let [one, other] = [a, b].map(|slot| particles.position[slot as usize]);
+    let distance = (Vector::from(one) - Vector::from(other)).length();
+    if distance >= one[3] + other[3] {
+        return;
+    }
+    for list in &mut state.contacts {
+        for pair in 0..list.first.len() {
+            let sign = match [list.first[pair], list.second[pair]] {
+                found if found == [a, b] => 1.0,
+                found if found == [b, a] => -1.0,
+                _ => continue,
+            };
+            list.flags[pair] |= TOUCHING;
+            if let Some(spring) = list.spring.get_mut(pair) {
+                put(spring, placed.spring.map(|part| sign * part));
+            }
+        }
+    }
+}

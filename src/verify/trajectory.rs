@@ -1,0 +1,122 @@
+//! Runs of a case: from its start, or from each of its samples to the next.
+
+use super::case::Case;
+use super::history::{History, PairRow};
+use super::samples::{Row, Samples};
+use crate::quantity::SetIndex;
+use crate::scene::Scene;
+use crate::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
+use std::sync::Arc;
+
+/// What a run left at one step.
+pub(super) struct Sample {
+    /// The step.
+    pub(super) step: u64,
+    /// The particles, in the case's order.
+    pub(super) rows: Vec<Row>,
+    /// Living bonds between particles.
+    pub(super) bonds: Vec<BondRecord>,
+}
+
+/// What a run left.
+#[derive(Default)]
+pub(super) struct Run {
+    /// Each step that was asked for, in order.
+    pub(super) samples: Vec<Sample>,
+    /// Why it stopped before its end.
+    pub(super) stopped: Option<String>,
+}
+
+/// Runs the scene from its start and keeps these steps, in ascending order.
+pub(super) fn free(case: &Case, scene: &Arc<Scene>, steps: &[u64]) -> Run {
+    let mut run = Run::default();
+    let mut go = || -> Result<(), RunError> {
+        let mut simulation = Simulation::new(scene.clone())?;
+        let mut now = 0;
+        for &step in steps {
+            advance(&mut simulation, case, now, step)?;
+            now = step;
+            run.samples.push(observe(case, &simulation, step));
+        }
+        Ok(())
+    };
+    let result = go();
+    run.stopped = result.err().map(|cause| cause.to_string());
+    run
+}
+
+/// Runs the scene from each sample to the next; the first window has the other engine's start, as the first sample.
+pub(super) fn windows(case: &Case, scene: &Arc<Scene>, samples: &Samples, history: &History) -> Run {
+    let mut run = Run::default();
+    let mut go = || -> Result<(), RunError> {
+        for (at, (step, rows)) in samples.rows.iter().enumerate() {
+            let mut simulation = if *step == 0 {
+                Simulation::new(scene.clone())?
+            } else {
+                Simulation::placed(scene.clone(), &placement(case, scene, *step, rows, history.at(*step)))?
+            };
+            if at == 0 {
+                run.samples.push(observe(case, &simulation, *step));
+            }
+            let Some((next, _)) = samples.rows.get(at + 1) else { break };
+            advance(&mut simulation, case, *step, *next)?;
+            run.samples.push(observe(case, &simulation, *next));
+        }
+        Ok(())
+    };
+    let result = go();
+    run.stopped = result.err().map(|cause| cause.to_string());
+    run
+}
+
+/// Makes the steps between two numbers.
+fn advance(simulation: &mut Simulation, case: &Case, from: u64, to: u64) -> Result<(), RunError> {
+    if to > from { simulation.advance((to - from) as f64 * case.dt) } else { Ok(()) }
+}
+
+/// A stored sample as a simulation takes it.
+fn placement(case: &Case, scene: &Scene, step: u64, rows: &[Row], pairs: &[PairRow]) -> Placement {
+    let particle = |in_case: usize| {
+        let [position, velocity, angular_velocity, force, torque] = rows[in_case];
+        PlacedParticle { position, velocity, angular_velocity, force, torque }
+    };
+    let spring = |pair: &PairRow| PlacedSpring { bodies: pair.bodies, spring: pair.spring };
+    Placement {
+        steps: step,
+        particles: case.by_id().into_iter().map(particle).collect(),
+        springs: pairs.iter().map(spring).collect(),
+        bonds: pairs.iter().filter(|pair| pair.bonded).filter_map(|pair| placed_bond(scene, pair)).collect(),
+    }
+}
+
+/// A stored bond, in the rows of `engine_exact`.
+fn placed_bond(scene: &Scene, pair: &PairRow) -> Option<PlacedBond> {
+    let set = |body: u32| scene.particles[body as usize].set;
+    let mut between: [SetIndex; 2] = pair.bodies.map(set);
+    between.sort_by_key(|set| set.0);
+    let law = scene.bonds.iter().position(|bond| bond.between == between)?;
+    let row = |[x, y, z]: [f64; 3], last: f64| [x, y, z, last];
+    Some(PlacedBond {
+        law,
+        bodies: pair.bodies,
+        rows: [row(pair.shear, pair.rest), row(pair.torsion, 0.0), row(pair.bending, 0.0)],
+    })
+}
+
+/// The case as it is now.
+fn observe(case: &Case, simulation: &Simulation, step: u64) -> Sample {
+    let particles = &simulation.state().particles;
+    let three = |row: &[f64; 4]| [row[0], row[1], row[2]];
+    let mut rows = vec![Row::default(); case.particles.len()];
+    for (in_scene, in_case) in case.by_id().into_iter().enumerate() {
+        let slot = particles.slot[in_scene] as usize;
+        rows[in_case] = [
+            three(&particles.position[slot]),
+            three(&particles.velocity[slot]),
+            three(&particles.angular_velocity[slot]),
+            three(&particles.force[slot]),
+            three(&particles.torque[slot]),
+        ];
+    }
+    Sample { step, rows, bonds: simulation.bonds() }
+}
