@@ -1,7 +1,8 @@
 //! Gravity, applied forces and Cundall's global damping.
 
 use super::integrate::Rows;
-use super::pass::Context;
+use super::lanes::Shared;
+use super::pass::{CHUNK, Context};
 use crate::scene::Scene;
 use crate::state::{Row, State};
 
@@ -73,6 +74,10 @@ impl Fields {
 
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
     pub(super) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
+        if self.damping.is_empty() && self.applied.is_empty() {
+            self.weigh(state, context);
+            return [0.0; 3];
+        }
         for (slot, force) in state.particles.force.iter_mut().enumerate() {
             if state.particles.owner[slot] != 0 {
                 let load = self.loads(state.particles.velocity[slot][3], state.particles.id[slot]);
@@ -104,6 +109,22 @@ impl Fields {
         });
         state.particles.id = ids;
         sums.into_iter().fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
+    }
+
+    /// Adds gravity, where nothing else acts.
+    fn weigh(&self, state: &mut State, context: &Context) {
+        if self.gravity == [0.0; 3] {
+            return;
+        }
+        let (force, velocity) = (Shared::new(&mut state.particles.force), &state.particles.velocity);
+        context.each(velocity.len().div_ceil(CHUNK), |piece| {
+            let slots = piece * CHUNK..((piece + 1) * CHUNK).min(velocity.len());
+            // SAFETY: pieces do not overlap.
+            let forces = unsafe { force.part(slots.start, slots.end) };
+            for (force, velocity) in forces.iter_mut().zip(&velocity[slots]) {
+                add(force, self.weight(velocity[3]));
+            }
+        });
     }
 
     /// Applied force on a particle of the scene \[N\].

@@ -1,6 +1,6 @@
 //! Velocity Verlet: half a kick, a drift, forces, half a kick.
 
-use super::lanes::Shared;
+use super::lanes::{self, Kernel, Lane, Shared};
 use super::pass::{CHUNK, Context};
 use crate::bond::Quaternion;
 use crate::state::{Particles, Row};
@@ -8,23 +8,48 @@ use crate::state::{Particles, Row};
 /// Moves free particles by half a kick and a drift of `step` \[s\]. Returns the largest speed \[m/s\].
 pub(super) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
     let rows = Rows::of(particles);
-    let speeds = context.collect(rows.pieces(), |piece| {
-        let mut fastest = 0.0_f64;
-        rows.each_free(piece, |body| {
-            kick(body.velocity, body.force, 0.5 * step / body.velocity[3]);
-            let mut square = 0.0;
-            for axis in 0..3 {
-                body.position[axis] += step * body.velocity[axis];
-                square += body.velocity[axis] * body.velocity[axis];
+    let squares = context.collect(rows.pieces(), |piece| {
+        let mut fastest = 0.0;
+        lanes::run(context.width, First { rows, piece, step, turning, fastest: &mut fastest });
+        fastest
+    });
+    squares.into_iter().fold(0.0_f64, f64::max).sqrt()
+}
+
+/// The first half of a kick and the drift, on one piece.
+struct First<'a, 'b> {
+    /// The particles.
+    rows: Rows<'a>,
+    /// Which piece.
+    piece: usize,
+    /// The time step \[s\].
+    step: f64,
+    /// Whether particles turn.
+    turning: bool,
+    /// Largest squared speed \[m²/s²\].
+    fastest: &'b mut f64,
+}
+
+impl Kernel for First<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { rows, piece, step, turning, fastest } = self;
+        for slot in rows.slots(piece) {
+            if rows.owner[slot] != 0 {
+                continue;
             }
+            // SAFETY: pieces do not overlap, and each is worked on by one thread.
+            let body = unsafe { rows.body(slot) };
+            kick(body.velocity, body.force, 0.5 * step / body.velocity[3]);
+            let (v, x) = (*body.velocity, *body.position);
+            *body.position = [x[0] + step * v[0], x[1] + step * v[1], x[2] + step * v[2], x[3]];
             if turning {
                 kick(body.spin, body.torque, 0.5 * step / body.spin[3]);
             }
-            fastest = if square > fastest { square } else { fastest };
-        });
-        fastest
-    });
-    speeds.into_iter().fold(0.0_f64, f64::max).sqrt()
+            let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+            *fastest = if square > *fastest { square } else { *fastest };
+        }
+    }
 }
 
 /// Turns the attitudes by a drift of `step` \[s\], where particles have one.
@@ -44,34 +69,62 @@ pub(super) fn turn(particles: &mut Particles, step: f64, context: &Context) {
 /// or something that is not finite where a force or velocity is not \[m/s\].
 pub(super) fn kick_again(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
     let rows = Rows::of(particles);
-    let speeds = context.collect(rows.pieces(), |piece| {
-        let mut fastest = 0.0_f64;
-        let mut sum = 0.0;
-        rows.each_free(piece, |body| {
-            let factor = 0.5 * step / body.velocity[3];
-            kick(body.velocity, body.force, factor);
-            let mut square = 0.0;
-            for axis in 0..3 {
-                let next = body.velocity[axis] + factor * body.force[axis];
-                square += next * next;
-            }
-            if turning {
-                kick(body.spin, body.torque, 0.5 * step / body.spin[3]);
-                sum += body.spin[0] * 0.0 + body.spin[1] * 0.0 + body.spin[2] * 0.0;
-            }
-            sum += square * 0.0;
-            fastest = if square > fastest { square } else { fastest };
-        });
-        fastest + sum
+    let squares = context.collect(rows.pieces(), |piece| {
+        let mut fastest = 0.0;
+        lanes::run(context.width, Second { rows, piece, step, turning, fastest: &mut fastest });
+        fastest
     });
-    speeds.into_iter().fold(0.0_f64, |most, speed| if speed > most || speed.is_nan() { speed } else { most }).sqrt()
+    squares.into_iter().fold(0.0_f64, |most, one| if one > most || one.is_nan() { one } else { most }).sqrt()
 }
 
-/// Adds a multiple of a load to a velocity.
+/// The second half of a kick, on one piece.
+struct Second<'a, 'b> {
+    /// The particles.
+    rows: Rows<'a>,
+    /// Which piece.
+    piece: usize,
+    /// The time step \[s\].
+    step: f64,
+    /// Whether particles turn.
+    turning: bool,
+    /// Largest squared speed at the middle of the next step; not a number where anything is none \[m²/s²\].
+    fastest: &'b mut f64,
+}
+
+impl Kernel for Second<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { rows, piece, step, turning, fastest } = self;
+        let mut most = 0.0;
+        // Zero times what is finite is zero; times anything else it is not a number.
+        let mut sum = 0.0;
+        for slot in rows.slots(piece) {
+            if rows.owner[slot] != 0 {
+                continue;
+            }
+            // SAFETY: pieces do not overlap, and each is worked on by one thread.
+            let body = unsafe { rows.body(slot) };
+            let factor = 0.5 * step / body.velocity[3];
+            kick(body.velocity, body.force, factor);
+            let mut next = *body.velocity;
+            kick(&mut next, body.force, factor);
+            let square = next[0] * next[0] + next[1] * next[1] + next[2] * next[2];
+            if turning {
+                kick(body.spin, body.torque, 0.5 * step / body.spin[3]);
+                sum += (body.spin[0] + body.spin[1] + body.spin[2]) * 0.0;
+            }
+            sum += square * 0.0;
+            most = if square > most { square } else { most };
+        }
+        *fastest = most + sum;
+    }
+}
+
+/// Adds a multiple of a load to a velocity. The fourth number of a load is 0, that of a velocity stays.
 #[inline(always)]
 fn kick(velocity: &mut Row, load: &Row, factor: f64) {
-    for axis in 0..3 {
-        velocity[axis] += factor * load[axis];
+    for k in 0..4 {
+        velocity[k] += factor * load[k];
     }
 }
 
@@ -126,25 +179,39 @@ impl<'a> Rows<'a> {
         self.owner.len().div_ceil(CHUNK)
     }
 
+    /// The slots of one piece.
+    #[inline(always)]
+    pub(super) fn slots(&self, piece: usize) -> std::ops::Range<usize> {
+        piece * CHUNK..((piece + 1) * CHUNK).min(self.owner.len())
+    }
+
+    /// One particle's rows.
+    ///
+    /// # Safety
+    /// `slot` is a particle, and nobody else reads or writes its rows meanwhile.
+    #[inline(always)]
+    pub(super) unsafe fn body(&self, slot: usize) -> Body<'a> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            Body {
+                position: self.position.at(slot),
+                velocity: self.velocity.at(slot),
+                spin: self.spin.at(slot),
+                force: self.force.at(slot),
+                torque: self.torque.at(slot),
+                slot,
+            }
+        }
+    }
+
     /// Hands out the particles of one piece that move by the forces on them. Each piece is for one thread only.
     #[inline(always)]
     pub(super) fn each_free(&self, piece: usize, mut hand: impl FnMut(Body)) {
-        let to = ((piece + 1) * CHUNK).min(self.owner.len());
-        for slot in piece * CHUNK..to {
-            if self.owner[slot] != 0 {
-                continue;
+        for slot in self.slots(piece) {
+            if self.owner[slot] == 0 {
+                // SAFETY: pieces do not overlap, and each is worked on by one thread.
+                hand(unsafe { self.body(slot) });
             }
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            hand(unsafe {
-                Body {
-                    position: self.position.at(slot),
-                    velocity: self.velocity.at(slot),
-                    spin: self.spin.at(slot),
-                    force: self.force.at(slot),
-                    torque: self.torque.at(slot),
-                    slot,
-                }
-            });
         }
     }
 }
