@@ -20,6 +20,8 @@ pub(super) struct Meter {
     steps_before: u64,
     /// Contacts summed over the time steps of the session.
     contact_steps: f64,
+    /// Bonds summed over the time steps of the session.
+    bond_steps: f64,
     /// Contacts at the last look.
     contacts: usize,
     /// Largest overlap over radius at any look.
@@ -34,6 +36,7 @@ impl Meter {
             stepping: Duration::ZERO,
             steps_before: simulation.state().clock.steps,
             contact_steps: 0.0,
+            bond_steps: 0.0,
             contacts: simulation.contact_count(),
             largest_overlap: simulation.largest_overlap(),
         }
@@ -48,6 +51,7 @@ impl Meter {
         let steps = (simulation.state().clock.steps - before) as f64;
         self.contact_steps += 0.5 * steps * (self.contacts + contacts) as f64;
         self.contacts = contacts;
+        self.bond_steps += steps * intact_bonds(simulation) as f64;
         result
     }
 
@@ -145,6 +149,8 @@ pub struct Summary {
     pub stepping_time: f64,
     /// Of the time steps, for each contact and step \[ns\]; none without contacts.
     pub ns_per_contact_and_step: Option<f64>,
+    /// Of the time steps, for each bond that lives and step \[ns\]; none without bonds, or with contacts beside them.
+    pub ns_per_bond_and_step: Option<f64>,
     /// Of the time steps, for each particle and step \[ns\]; none without steps.
     pub ns_per_particle_and_step: Option<f64>,
     /// The algorithmic energy book, where the scene keeps one.
@@ -193,7 +199,7 @@ impl Summary {
                 boundaries: state.boundaries.len(),
                 contacts: meter.contacts,
                 mean_contacts: if session_steps > 0 { meter.contact_steps / session_steps as f64 } else { 0.0 },
-                bonds_intact: state.bonds.iter().map(|list| list.first.len()).sum(),
+                bonds_intact: intact_bonds(simulation),
                 bonds_broken: state.bonds.iter().map(|list| list.broken).sum(),
                 neighbour_rebuilds: state.clock.rebuilds,
             },
@@ -201,6 +207,7 @@ impl Summary {
             wall_time: meter.begun.elapsed().as_secs_f64(),
             stepping_time: meter.stepping.as_secs_f64(),
             ns_per_contact_and_step: share(meter.contact_steps),
+            ns_per_bond_and_step: share(if meter.contact_steps > 0.0 { 0.0 } else { meter.bond_steps }),
             ns_per_particle_and_step: share(session_steps as f64 * particles as f64),
             energy: energy_book(simulation),
             momentum,
@@ -224,13 +231,21 @@ impl std::fmt::Display for Summary {
             "{} steps to t = {} s, {} particles, {:.0} contacts on average, {:.3} s wall",
             self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
         )?;
-        match (self.ns_per_contact_and_step, self.ns_per_particle_and_step) {
-            (Some(cost), _) => write!(formatter, ", {cost:.1} ns per contact and step"),
-            (None, Some(cost)) => write!(formatter, ", {cost:.1} ns per particle and step"),
-            (None, None) => Ok(()),
-        }?;
+        let costs = [
+            (self.ns_per_contact_and_step, "contact"),
+            (self.ns_per_bond_and_step, "bond"),
+            (self.ns_per_particle_and_step, "particle"),
+        ];
+        if let Some((cost, of)) = costs.into_iter().find_map(|(cost, of)| Some((cost?, of))) {
+            write!(formatter, ", {cost:.1} ns per {of} and step")?;
+        }
         write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })
     }
+}
+
+/// Bonds that live.
+fn intact_bonds(simulation: &Simulation) -> usize {
+    simulation.state().bonds.iter().map(|list| list.first.len()).sum()
 }
 
 /// The energy book at the present time, where the scene keeps one.

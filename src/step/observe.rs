@@ -5,6 +5,7 @@ use super::{Simulation, energy};
 use crate::bond::Carried;
 use crate::contact::{Contact, Law, Reaction, Response};
 use crate::number::Vector;
+use crate::scene::Shape;
 use crate::state::contacts::{SLIDING, TOUCHING};
 use crate::state::{Particles, Row};
 
@@ -148,12 +149,29 @@ impl Simulation {
         records
     }
 
-    /// Largest overlap over the smaller radius of the two (the particle's, at a plane).
+    /// Largest overlap over the smaller radius of the two (the particle's, at a plane). From positions alone: rows of
+    /// a history ask for it often.
     pub fn largest_overlap(&self) -> f64 {
-        let radius = |index: u32| self.scene.particles[index as usize].radius;
-        let records = self.contacts().into_iter();
-        let shares = records.map(|c| c.overlap / c.second.map_or(f64::INFINITY, radius).min(radius(c.first)));
-        shares.fold(0.0, f64::max)
+        let position = &self.state.particles.position;
+        let mut largest: f64 = 0.0;
+        for list in &self.state.contacts {
+            for (place, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
+                let [a, b] = [list.first[place], list.second[place]].map(|slot| position[slot as usize]);
+                let distance = (Vector::from(a) - Vector::from(b)).length();
+                largest = largest.max((a[3] + b[3] - distance) / a[3].min(b[3]));
+            }
+        }
+        for list in &self.state.walls {
+            let boundary = list.boundary as usize;
+            let Shape::Plane { point, normal, .. } = self.scene.boundaries[boundary].shape else { continue };
+            let point = Vector::from(point) + Vector::from(self.state.boundaries[boundary].displacement);
+            for (place, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
+                let particle = position[list.particle[place] as usize];
+                let distance = (Vector::from(particle) - point).dot(normal.into());
+                largest = largest.max((particle[3] - distance) / particle[3]);
+            }
+        }
+        largest
     }
 
     /// Mean unbalanced force of the free particles over the mean normal force of the contacts; infinite without
