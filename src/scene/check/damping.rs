@@ -22,7 +22,7 @@ pub(super) fn damping(written: &Written, materials: &[Material], born: &Born, fa
         };
         owners.claim(&members, &table, born, faults);
         let scales = scales(damping, &members, &table, materials, born, faults);
-        let mut all = [damping.linear.get(), damping.angular.get()].map(|coefficient| {
+        let [linear, angular] = [damping.linear.get(), damping.angular.get()].map(|coefficient| {
             let mut each = vec![0.0; born.particles.len()];
             for (member, scale) in members.iter().zip(&scales) {
                 each[*member as usize] = coefficient * scale;
@@ -33,7 +33,6 @@ pub(super) fn damping(written: &Written, materials: &[Material], born: &Born, fa
         let gravity_damped = said(damping.gravity_damped, gravity, &table, "gravity_damped", faults);
         let applied = !written.forces.is_empty();
         let forces_damped = said(damping.applied_forces_damped, applied, &table, "applied_forces_damped", faults);
-        let (linear, angular) = (std::mem::take(&mut all[0]), std::mem::take(&mut all[1]));
         let name = name.clone();
         list.push(Damping { name, linear, angular, gravity_damped, applied_forces_damped: forces_damped });
     }
