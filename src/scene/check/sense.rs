@@ -231,17 +231,23 @@ fn governed(scene: &Scene, a: usize, b: usize) -> bool {
     scene.contacts.iter().any(|law| law.between[a * scene.materials.len() + b])
 }
 
-/// Particles too deep in one another.
-fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
-    if scene.contacts.is_empty() {
-        return;
-    }
-    let mut group = vec![0_u32; scene.particles.len()];
+/// The rigid group of each particle, counted from 1; 0 for free ones.
+fn rigid_groups(scene: &Scene) -> Vec<u32> {
+    let mut group = vec![0; scene.particles.len()];
     for (number, boundary) in (1..).zip(&scene.boundaries) {
         if let Shape::Particles { members } = &boundary.shape {
             members.iter().for_each(|member| group[*member as usize] = number);
         }
     }
+    group
+}
+
+/// Particles too deep in one another.
+fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
+    if scene.contacts.is_empty() {
+        return;
+    }
+    let group = rigid_groups(scene);
     let spheres: Vec<([f64; 3], f64)> =
         scene.particles.iter().map(|particle| (particle.position, particle.radius)).collect();
     let permitted = scene.run.max_overlap;
@@ -267,11 +273,13 @@ fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
         }
     });
     if let Some((overlap, a, b)) = worst {
-        let set = |id: u32| {
-            let index = scene.particles.binary_search_by_key(&id, |particle| particle.id.0).unwrap_or(0);
-            &scene.sets[scene.particles[index].set.index()]
-        };
+        let set = scene
+            .particles
+            .iter()
+            .find(|particle| particle.id.0 == b)
+            .and_then(|particle| scene.sets.get(particle.set.index()));
+        let table = set.map_or("particles".to_owned(), |set| format!("particles.{set}"));
         let mistake = Mistake::Overlap { a, b, overlap, permitted, more: count - 1 };
-        findings.push(Finding::at(format!("particles.{}", set(b)), "", mistake));
+        findings.push(Finding::at(table, "", mistake));
     }
 }
