@@ -158,3 +158,15 @@ fn keeping_the_book_changes_no_bit() {
     }
     assert_eq!(bare.state().particles, booked.state().particles);
 }
+
+#[test]
+fn a_particle_too_fast_for_the_step_is_refused_before_it_moves() {
+    let text = SCENE.replace("velocity = [0.1, 0.05, -0.5]", "velocity = [0.1, 0.05, -500.0]");
+    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut simulation = Simulation::new(Arc::new(scene)).expect("the scene starts");
+    let before = simulation.state().particles.position.clone();
+    let message = simulation.advance(1e-5).expect_err("half a radius in a step is too much").to_string();
+    assert!(message.contains("of its radius in one step at t = 0 s"), "{message}");
+    assert_eq!(simulation.state().particles.position, before);
+}

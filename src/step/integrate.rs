@@ -120,6 +120,17 @@ impl Kernel for Second<'_, '_> {
     }
 }
 
+/// Largest speed of a free particle at the middle of a step of this length \[s\], from rest or not \[m/s\].
+pub(super) fn coming_speed(particles: &Particles, step: f64) -> f64 {
+    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+    let squares = free.map(|slot| {
+        let mut next = particles.velocity[slot];
+        kick(&mut next, &particles.force[slot], 0.5 * step / particles.velocity[slot][3]);
+        next[0] * next[0] + next[1] * next[1] + next[2] * next[2]
+    });
+    squares.fold(0.0, f64::max).sqrt()
+}
+
 /// Adds a multiple of a load to a velocity. The fourth number of a load is 0, that of a velocity stays.
 #[inline(always)]
 fn kick(velocity: &mut Row, load: &Row, factor: f64) {

@@ -324,6 +324,7 @@ impl Simulation {
                 self.state.clock.step = (safety * limit.safe).min(LONGEST_AUTOMATIC_STEP);
             }
         }
+        self.state.clock.speed = integrate::coming_speed(&self.state.particles, self.state.clock.step);
         Ok(())
     }
 
