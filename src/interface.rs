@@ -136,7 +136,11 @@ impl Interface {
         if scene.output.energy {
             whole.push(Meaning::EnergyResidual);
         }
-        whole.extend([Meaning::ContactCount, Meaning::LargestOverlap, Meaning::TimeStep, Meaning::StableStep]);
+        whole.extend([Meaning::ContactCount, Meaning::LargestOverlap]);
+        if !scene.bonds.is_empty() {
+            whole.extend([Meaning::IntactBonds, Meaning::BrokenBonds]);
+        }
+        whole.extend([Meaning::TimeStep, Meaning::StableStep]);
         variables.extend(whole.into_iter().map(|meaning| meaning.variable(scene)));
         Self { variables }
     }

@@ -33,6 +33,10 @@ pub(super) enum Meaning {
     ContactCount,
     /// Largest overlap over radius.
     LargestOverlap,
+    /// Number of living bonds.
+    IntactBonds,
+    /// Number of bonds that broke.
+    BrokenBonds,
     /// The time step \[s\].
     TimeStep,
     /// The largest stable time step \[s\].
@@ -57,9 +61,9 @@ impl Meaning {
             Self::Mass(boundary) => mass(simulation.scene(), boundary),
             Self::KineticEnergy => simulation.kinetic_energy(),
             Self::EnergyResidual => simulation.energy_residual().unwrap_or(0.0),
-            Self::ContactCount => {
-                return Value::Integer(i32::try_from(simulation.contact_count()).unwrap_or(i32::MAX));
-            }
+            Self::ContactCount => return count(simulation.contact_count() as u64),
+            Self::IntactBonds => return count(state.bonds.iter().map(|list| list.first.len() as u64).sum()),
+            Self::BrokenBonds => return count(state.bonds.iter().map(|list| list.broken).sum()),
             Self::LargestOverlap => simulation.largest_overlap(),
             Self::TimeStep => state.clock.step,
             // where nothing is stiff there is no bound, and infinity is no value of a variable
@@ -78,7 +82,9 @@ impl Meaning {
         };
         let variability = match self {
             Self::Mass(_) => Variability::Constant,
-            Self::ContactCount | Self::TimeStep | Self::StableStep => Variability::Discrete,
+            Self::ContactCount | Self::IntactBonds | Self::BrokenBonds | Self::TimeStep | Self::StableStep => {
+                Variability::Discrete
+            }
             _ => Variability::Continuous,
         };
         let starts_at_rest = matches!(
@@ -106,7 +112,7 @@ impl Meaning {
             Self::Moment(..) | Self::MeanMoment(..) => Quantity::Torque,
             Self::Work(_) | Self::KineticEnergy | Self::EnergyResidual => Quantity::Energy,
             Self::Mass(_) => Quantity::Mass,
-            Self::ContactCount => Quantity::Count,
+            Self::ContactCount | Self::IntactBonds | Self::BrokenBonds => Quantity::Count,
             Self::LargestOverlap => Quantity::Ratio,
             Self::TimeStep | Self::StableStep => Quantity::Time,
         }
@@ -118,6 +124,8 @@ impl Meaning {
             Self::Mass(_)
             | Self::KineticEnergy
             | Self::ContactCount
+            | Self::IntactBonds
+            | Self::BrokenBonds
             | Self::LargestOverlap
             | Self::TimeStep
             | Self::StableStep => Some(0.0),
@@ -139,6 +147,8 @@ impl Meaning {
             Self::KineticEnergy => "energy.kinetic".to_owned(),
             Self::EnergyResidual => "energy.residual".to_owned(),
             Self::ContactCount => "contacts.count".to_owned(),
+            Self::IntactBonds => "bonds.intact".to_owned(),
+            Self::BrokenBonds => "bonds.broken".to_owned(),
             Self::LargestOverlap => "overlap.max".to_owned(),
             Self::TimeStep => "time_step.current".to_owned(),
             Self::StableStep => "time_step.stable".to_owned(),
@@ -189,11 +199,18 @@ impl Meaning {
                 "change of the kinetic energy less the work of every force, as the time steps do it".to_owned()
             }
             Self::ContactCount => "number of contacts, those with boundaries included".to_owned(),
+            Self::IntactBonds => "number of living bonds".to_owned(),
+            Self::BrokenBonds => "number of bonds that broke since the scene's time 0".to_owned(),
             Self::LargestOverlap => "largest overlap over the smaller radius".to_owned(),
             Self::TimeStep => "the time step".to_owned(),
             Self::StableStep => "the largest stable time step, as last computed".to_owned(),
         }
     }
+}
+
+/// A number of things.
+fn count(number: u64) -> Value {
+    Value::Integer(i32::try_from(number).unwrap_or(i32::MAX))
 }
 
 /// Mass of the particles of a boundary; 0 for one that has none \[kg\].

@@ -196,13 +196,14 @@ impl Folder {
     /// Writes a row for each bond that broke.
     fn breaks(&mut self, breaks: &[Break]) -> Result<(), OutputError> {
         let Some(table) = &mut self.breakage else { return Ok(()) };
+        let scene = &self.scene;
         let id = |index: u32| self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
         for broken in breaks {
             let cause = Cause::from_code(broken.cause).map_or("unknown", Cause::name);
             table.add(&[
                 format!("{:?}", broken.time),
                 id(broken.first).to_string(),
-                id(broken.second).to_string(),
+                broken.second.map_or_else(|| plane(scene, broken.law).to_owned(), |second| id(second).to_string()),
                 cause.to_owned(),
                 format!("{:?}", broken.energy),
             ])?;
@@ -277,6 +278,12 @@ fn is_stale(name: &str, kept: &Kept) -> bool {
                 || FRAMES.iter().any(|kind| name == format!("{kind}.pvd"))
         }
     }
+}
+
+/// Name of the plane to which a bond law bonds.
+fn plane(scene: &Scene, law: u32) -> &str {
+    let plane = scene.bonds.get(law as usize).and_then(|bond| bond.plane);
+    plane.and_then(|plane| scene.boundaries.get(plane.index())).map_or("", |plane| &plane.name)
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ use crate::contact::normal::NormalChoice;
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
 use crate::contact::{LawChoice, Material, PairProperties, Switches};
-use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 use serde::Deserialize;
 
 /// A scene that can be run: everything the file says, checked, in SI units.
@@ -150,8 +150,10 @@ pub struct Bond {
     pub keys: crate::bond::keys::Keys,
     /// The law in numbers.
     pub law: crate::bond::Law,
-    /// Between which sets of particles (one twice: inside it).
+    /// Between which sets of particles (one twice: inside it, or at a plane).
     pub between: [SetIndex; 2],
+    /// The plane to which the set is bonded; none where particles are bonded to each other.
+    pub plane: Option<BoundaryIndex>,
     /// When bonds are made.
     pub create: crate::bond::creation::Creation,
     /// Centres nearer than this are bonded \[m\].

@@ -3,7 +3,7 @@
 use super::Row;
 use serde::{Deserialize, Serialize};
 
-/// Living bonds of one law, ordered by slab and first particle.
+/// Living bonds of one law: between particles ordered by slab and first particle, at a plane by particle.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BondList {
     /// First bond of each slab, and behind the last one the number of bonds. A bond belongs to the slab of the
@@ -11,8 +11,10 @@ pub struct BondList {
     pub slabs: Vec<u32>,
     /// Body i of each bond (slot).
     pub first: Vec<u32>,
-    /// Body j of each bond (slot).
+    /// Body j of each bond (slot); empty at a plane.
     pub second: Vec<u32>,
+    /// At a plane: foot of each bond, where it was when the plane stood as at time 0 \[m\]; otherwise empty.
+    pub foot: Vec<Row>,
     /// State of the bonds: the rows of the law, each a column here.
     pub rows: Vec<Vec<Row>>,
     /// Bonds made so far.
@@ -36,8 +38,8 @@ pub struct Break {
     pub law: u32,
     /// Body i: index into the scene's particles.
     pub first: u32,
-    /// Body j: index into the scene's particles.
-    pub second: u32,
+    /// Body j: index into the scene's particles; none where it is the law's plane.
+    pub second: Option<u32>,
     /// Why: code of the cause.
     pub cause: f64,
     /// Elastic energy released \[J\].

@@ -3,6 +3,7 @@
 use super::bonds::BondPass;
 use super::contacts::{ContactPass, MOST_COEFFICIENTS, Table};
 use super::pass::Pass;
+use super::wall_bonds::WallBondPass;
 use super::walls::{Plane, WallPass};
 use crate::bond::{BondLaw, keys};
 use crate::contact::{Law, LawChoice, TakeLaw};
@@ -101,7 +102,7 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
         passes.push(choice(law).visit(BetweenParticles { scene, index }));
     }
     for (index, bond) in scene.bonds.iter().enumerate() {
-        passes.push(bond.keys.visit(Bonded { scene, index }));
+        passes.extend(bond.keys.visit(Bonded { scene, index }));
     }
     for (list, (boundary, law)) in meetings(scene).into_iter().enumerate() {
         let maker = AtPlane { scene, list, boundary: boundary as usize, law: law as usize };
@@ -147,9 +148,12 @@ struct Bonded<'a> {
 }
 
 impl keys::TakeLaw for Bonded<'_> {
-    type Output = Box<dyn Pass>;
-    fn take<L: BondLaw>(self) -> Box<dyn Pass> {
-        Box::new(BondPass::<L>::of(self.scene, self.index))
+    type Output = Option<Box<dyn Pass>>;
+    fn take<L: BondLaw>(self) -> Self::Output {
+        match self.scene.bonds[self.index].plane {
+            None => Some(Box::new(BondPass::<L>::of(self.scene, self.index))),
+            Some(plane) => WallBondPass::<L>::of(self.scene, self.index, plane).map(|pass| Box::new(pass) as _),
+        }
     }
 }
 

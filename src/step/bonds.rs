@@ -9,7 +9,7 @@ use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
 use super::observe::{BondRecord, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use crate::bond::creation::{Creation, Moment, near_pair};
-use crate::bond::{Body, BondLaw, Law, MOST_ROWS, Pair, Quaternion, Rows};
+use crate::bond::{Body, BondLaw, Law, MOST_ROWS, Pair, Quaternion, Reaction, Rows};
 use crate::contact::Response;
 use crate::number::Vector;
 use crate::quantity::SetIndex;
@@ -124,8 +124,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
                 results[2 * piece + parity] = done;
             }
         }
-        let time = state.clock.time;
-        self.book(state, results, time)
+        book(state, self.index, results)
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
@@ -205,35 +204,32 @@ impl<L: BondLaw> Pass for BondPass<L> {
     }
 }
 
-impl<L: BondLaw> BondPass<L> {
-    /// Sums energies, takes out what broke and tells of it.
-    fn book(&self, state: &mut State, results: Vec<Done>, time: f64) -> Result<(), RunError> {
-        let list = &mut state.bonds[self.index];
-        list.elastic = 0.0;
-        let mut outcome = Ok(());
-        let mut gone = Vec::new();
-        for done in results {
-            list.elastic += done.elastic;
-            list.relaxed += done.relaxed;
-            gone.extend(done.broken);
-            if let Some(bond) = done.overbent {
-                let id = |slot: u32| state.particles.id[slot as usize];
-                let (first, second) = (id(list.first[bond as usize]), id(list.second[bond as usize]));
-                outcome = outcome.and(Err(RunError::Overbent { first, second, time }));
-            }
+/// Sums energies of the bonds of a law, takes out what broke and tells of it.
+pub(super) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<(), RunError> {
+    let (list, particles, time) = (&mut state.bonds[law], &state.particles, state.clock.time);
+    list.elastic = 0.0;
+    let mut outcome = Ok(());
+    let mut gone = Vec::new();
+    let id = |slot: u32| particles.id[slot as usize];
+    for done in results {
+        list.elastic += done.elastic;
+        list.relaxed += done.relaxed;
+        gone.extend(done.broken);
+        if let Some(bond) = done.overbent {
+            let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
+            outcome = outcome.and(Err(RunError::Overbent { first, second, time }));
         }
-        for &(bond, cause, energy) in &gone {
-            let id = |slot: u32| state.particles.id[slot as usize];
-            let (first, second) = (id(list.first[bond as usize]), id(list.second[bond as usize]));
-            state.breaks.push(Break { time, law: self.index as u32, first, second, cause, energy });
-            list.released += energy;
-            list.broken += 1;
-        }
-        if !gone.is_empty() {
-            remove(list, &gone);
-        }
-        outcome
     }
+    for &(bond, cause, energy) in &gone {
+        let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
+        state.breaks.push(Break { time, law: law as u32, first, second, cause, energy });
+        list.released += energy;
+        list.broken += 1;
+    }
+    if !gone.is_empty() {
+        remove(list, &gone);
+    }
+    outcome
 }
 
 /// Takes bonds out of a list, keeping the order of the others.
@@ -249,14 +245,18 @@ fn remove(list: &mut BondList, gone: &[(u32, f64, f64)]) {
         slabs[slab] = slabs[slab - 1] + living;
     }
     list.slabs = slabs;
-    let mut living = dead.iter().map(|dead| !dead);
-    list.first.retain(|_| living.next().unwrap_or(true));
-    let mut living = dead.iter().map(|dead| !dead);
-    list.second.retain(|_| living.next().unwrap_or(true));
-    for column in &mut list.rows {
-        let mut living = dead.iter().map(|dead| !dead);
-        column.retain(|_| living.next().unwrap_or(true));
+    for slots in [&mut list.first, &mut list.second] {
+        keep(slots, &dead);
     }
+    for column in list.rows.iter_mut().chain([&mut list.foot]) {
+        keep(column, &dead);
+    }
+}
+
+/// Keeps the entries of living bonds, in their order.
+fn keep<T>(entries: &mut Vec<T>, dead: &[bool]) {
+    let mut dead = dead.iter();
+    entries.retain(|_| !dead.next().copied().unwrap_or(false));
 }
 
 /// Two particles as bodies of a bond.
@@ -265,7 +265,7 @@ pub(super) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 }
 
 /// A particle as a body of a bond.
-fn body_of(particles: &Particles, slot: usize) -> Body {
+pub(super) fn body_of(particles: &Particles, slot: usize) -> Body {
     let attitude = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
     Body {
         position: particles.position[slot].into(),
@@ -278,9 +278,9 @@ fn body_of(particles: &Particles, slot: usize) -> Body {
     }
 }
 
-/// What a slab came to.
+/// What a part of a list came to.
 #[derive(Clone, Debug, Default)]
-struct Done {
+pub(super) struct Done {
     /// Elastic energy \[J\].
     elastic: f64,
     /// Elastic energy that relaxation took \[J\].
@@ -289,6 +289,21 @@ struct Done {
     broken: Vec<(u32, f64, f64)>,
     /// A bond bent beyond what can be followed.
     overbent: Option<u32>,
+}
+
+impl Done {
+    /// Adds what one bond did.
+    pub(super) fn add(&mut self, bond: u32, reaction: &Reaction<f64>) {
+        self.relaxed += reaction.relaxed;
+        if reaction.cause == 0.0 {
+            self.elastic += reaction.elastic;
+        } else {
+            self.broken.push((bond, reaction.cause, reaction.elastic));
+        }
+        if reaction.overbent && self.overbent.is_none() {
+            self.overbent = Some(bond);
+        }
+    }
 }
 
 /// What all slabs share.
@@ -482,20 +497,25 @@ fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: &[u32; 8]) -> Body<N> {
 
 /// Brings the bonds of a list into the order of newly sorted particles.
 pub(super) fn sort(list: &mut BondList, new_slot: &[u32], slabs: &[u32]) {
+    let at_plane = list.second.is_empty();
     for slot in list.first.iter_mut().chain(&mut list.second) {
         *slot = new_slot[*slot as usize];
     }
     let mut order: Vec<u32> = (0..list.first.len() as u32).collect();
     let key = |&bond: &u32| {
-        let (i, j) = (list.first[bond as usize], list.second[bond as usize]);
+        let i = list.first[bond as usize];
+        let j = list.second.get(bond as usize).copied().unwrap_or(i);
         (i.min(j), i.max(j))
     };
     order.sort_unstable_by_key(key);
     let leading: Vec<u32> = order.iter().map(|bond| key(bond).0).collect();
-    list.slabs = slabs.iter().map(|&slot| leading.partition_point(|&first| first < slot) as u32).collect();
+    list.slabs = if at_plane { &[][..] } else { slabs }
+        .iter()
+        .map(|&slot| leading.partition_point(|&first| first < slot) as u32)
+        .collect();
     list.first = order.iter().map(|&bond| list.first[bond as usize]).collect();
-    list.second = order.iter().map(|&bond| list.second[bond as usize]).collect();
-    for column in &mut list.rows {
+    list.second = order.iter().filter_map(|&bond| list.second.get(bond as usize).copied()).collect();
+    for column in list.rows.iter_mut().chain([&mut list.foot]).filter(|column| !column.is_empty()) {
         *column = order.iter().map(|&bond| column[bond as usize]).collect();
     }
 }

@@ -60,13 +60,14 @@ pub enum RunError {
     },
     /// A bond is bent further than its formulation can follow.
     #[error(
-        "the bond of particles {first} and {second} is bent beyond half a turn at t = {time} s; likely a missing breakage limit"
+        "the bond of particle {first} and {} is bent beyond half a turn at t = {time} s; likely a missing breakage limit",
+        second.map_or_else(|| "a plane".to_owned(), |second| format!("particle {second}"))
     )]
     Overbent {
         /// One particle.
         first: u32,
-        /// The other.
-        second: u32,
+        /// The other; none where it is a plane.
+        second: Option<u32>,
         /// Time \[s\].
         time: f64,
     },

@@ -15,6 +15,7 @@ mod pass;
 mod placement;
 mod settled;
 mod stable;
+mod wall_bonds;
 mod walls;
 mod workers;
 
@@ -434,7 +435,7 @@ impl Simulation {
             | RunError::Behind { id, .. }
             | RunError::Escaped { id, .. } => *id = self.number(*id),
             RunError::Overbent { first, second, .. } => {
-                (*first, *second) = (self.number(*first), self.number(*second));
+                (*first, *second) = (self.number(*first), second.map(|second| self.number(second)));
             }
             RunError::StepTooLong { .. } | RunError::Interval { .. } => {}
         }

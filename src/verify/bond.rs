@@ -5,7 +5,7 @@ use super::case::Case;
 use super::error::Mistake;
 use crate::bond::creation::{ContactPolicy, Creation};
 use crate::bond::keys::{BreakageKeys, DampingChoice, FormulationChoice, Keys, PartKeys};
-use crate::quantity::{Fraction, NonNegative, Positive, SetIndex};
+use crate::quantity::{BoundaryIndex, Fraction, NonNegative, Positive, SetIndex};
 use crate::scene::Bond;
 
 /// λ below which the other engine makes no bond.
@@ -84,6 +84,14 @@ pub(super) fn laws(case: &Case, formulation: FormulationChoice) -> Result<Vec<Bo
                 continue;
             }
             laws.push(types.law(formulation, &create)?);
+        }
+    }
+    for (index, wall) in case.walls.iter().enumerate() {
+        for a in 0..case.materials.len() {
+            let types = Types { case, a, b: wall.material - 1 };
+            if types.given("radiusMultiplierBond")?.is_none_or(|multiplier| multiplier >= LEAST_MULTIPLIER) {
+                laws.push(types.law(formulation, &create)?.at_plane(index));
+            }
         }
     }
     Ok(laws)
@@ -251,8 +259,21 @@ impl Types<'_> {
             create: keys.create.clone(),
             create_distance: keys.create_distance.map(Positive::get),
             pairs: Vec::new(),
+            plane: None,
             keys,
         })
+    }
+}
+
+impl Bond {
+    /// The same law between the particles of its first set and a plane.
+    fn at_plane(self, boundary: usize) -> Self {
+        Self {
+            name: format!("{}wall{boundary}", self.name),
+            between: [self.between[0]; 2],
+            plane: Some(BoundaryIndex(boundary as u32)),
+            ..self
+        }
     }
 }
 

@@ -94,7 +94,7 @@ fn placed_bond(scene: &Scene, pair: &PairRow) -> Option<PlacedBond> {
     let set = |body: u32| scene.particles[body as usize].set;
     let mut between: [SetIndex; 2] = pair.bodies.map(set);
     between.sort_by_key(|set| set.0);
-    let law = scene.bonds.iter().position(|bond| bond.between == between)?;
+    let law = scene.bonds.iter().position(|bond| bond.plane.is_none() && bond.between == between)?;
     let row = |[x, y, z]: [f64; 3], last: f64| [x, y, z, last];
     Some(PlacedBond {
         law,

@@ -6,12 +6,12 @@ use super::sense::Finding;
 use super::written::Written;
 use crate::bond::creation::{ContactPolicy, Creation};
 use crate::bond::keys::Keys;
-use crate::quantity::SetIndex;
+use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::document::{Document, Faults};
 use crate::scene::import::REPORTED;
 use crate::scene::mistake::Mistake;
 use crate::scene::source::Source;
-use crate::scene::{Bond, Scene, Step};
+use crate::scene::{Bond, Particle, Scene, Shape, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -32,6 +32,11 @@ pub(super) fn bonds(
             faults.add(&table, "contact", Mistake::NotThere { what, instead });
         }
         let between = between(keys, document, &table, written, born, faults);
+        if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
+            let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
+            faults.add(&table, "create", Mistake::Wrong { found, right });
+            continue;
+        }
         let pairs = listed(keys, document, source, &table, born, faults);
         let law = match keys.law() {
             Ok(law) => Some(law),
@@ -42,12 +47,13 @@ pub(super) fn bonds(
                 None
             }
         };
-        if let (Some(between), Some(pairs), Some(law)) = (between, pairs, law) {
+        if let (Some((between, plane)), Some(pairs), Some(law)) = (between, pairs, law) {
             let bond = Bond {
                 name: name.clone(),
                 keys: keys.clone(),
                 law,
                 between,
+                plane,
                 create: keys.create.clone(),
                 create_distance: keys.create_distance.map(crate::quantity::Positive::get),
                 pairs,
@@ -74,7 +80,7 @@ fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
     }
 }
 
-/// The two particle sets that are bonded.
+/// The two particle sets that are bonded; at a plane, the same set twice and the plane.
 fn between(
     keys: &Keys,
     document: &Document,
@@ -82,7 +88,7 @@ fn between(
     written: &Written,
     born: &Born,
     faults: &mut Faults,
-) -> Option<[SetIndex; 2]> {
+) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {
     // An array of two takes no notice of a third.
     if document.has(&format!("{table}.between.3")) {
         let (found, right) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
@@ -90,22 +96,34 @@ fn between(
         return None;
     }
     let mut sets = [None; 2];
+    let mut plane = None;
     for (name, place) in keys.between.iter().zip(&mut sets) {
         *place = born.sets.iter().position(|set| set == name).map(|index| SetIndex(index as u32));
         if place.is_some() {
             continue;
         }
-        let mistake = if written.boundaries.iter().any(|(boundary, _)| boundary == name) {
-            Mistake::NotThere { what: "bonds to boundaries", instead: "bonds between particle sets are" }
-        } else {
-            Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() }
+        let boundary = written.boundaries.iter().position(|(boundary, _)| boundary == name);
+        let mistake = match boundary.map(|index| (index, &written.boundaries[index].1)) {
+            Some((index, boundary)) if boundary.plane.is_some() && plane.is_none() => {
+                plane = Some(BoundaryIndex(index as u32));
+                continue;
+            }
+            Some(_) => Mistake::Wrong {
+                found: format!("\"{name}\""),
+                right: "two particle sets, or a particle set and a plane,".to_owned(),
+            },
+            None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
         };
         faults.add(table, "between", mistake);
         if keys.between[0] == keys.between[1] {
             break;
         }
     }
-    Some([sets[0]?, sets[1]?])
+    match (sets, plane) {
+        ([Some(a), Some(b)], _) => Some(([a, b], None)),
+        ([Some(set), None] | [None, Some(set)], Some(_)) => Some(([set; 2], plane)),
+        _ => None,
+    }
 }
 
 /// The listed pairs, as indices of particles.
@@ -197,7 +215,7 @@ fn distance(born: &Born, [a, b]: [u32; 2]) -> f64 {
 impl Bond {
     /// Whether the law is for particles of these two sets.
     fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
-        self.between == [a, b] || self.between == [b, a]
+        self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
     }
 
     /// Whether near pairs are bonded before they move.
@@ -245,9 +263,29 @@ pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
     scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
 }
 
+/// Whether this law bonds nobody to its plane.
+fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
+    let Shape::Plane { point, normal, .. } = &scene.boundaries.get(plane.index())?.shape else { return None };
+    let members = scene.particles.iter().filter(|particle| bond.between.contains(&particle.set));
+    let away = |particle: &Particle| -> f64 {
+        2.0 * (0..3).map(|axis| (particle.position[axis] - point[axis]) * normal[axis]).sum::<f64>()
+    };
+    let closest = members.map(away).filter(|away| *away > 0.0).reduce(f64::min);
+    if closest.is_some_and(|closest| closest < distance) {
+        return None;
+    }
+    let found = closest.map_or_else(|| "no centre".to_owned(), |closest| format!("{closest:.3e}"));
+    let what = format!("bonds nobody to the plane; {found} is the closest, twice the distance of its centre");
+    let mistake = Mistake::Senseless { what, right: "more than that is right".to_owned() };
+    Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
+}
+
 /// Whether this law bonds nobody.
 fn idle_law(scene: &Scene, bond: &Bond) -> Option<Finding> {
     let distance = bond.create_distance?;
+    if let Some(plane) = bond.plane {
+        return idle_at_plane(scene, bond, distance, plane);
+    }
     let members: Vec<usize> =
         (0..scene.particles.len()).filter(|index| bond.between.contains(&scene.particles[*index].set)).collect();
     let closest = |reach: f64| {

@@ -1,0 +1,104 @@
+//! Bonds in whole scenes: to planes, and what the outside sees of them.
+
+use cograin::interface::Interface;
+use cograin::scene::{Scene, Source};
+use cograin::step::Simulation;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A sphere over a plane that moves, bonded to it.
+const BONDED: &str = r#"
+[run]
+step = 1e-6
+
+[material.glass]
+density = 2500.0
+
+[particles.grain]
+material = "glass"
+list = [{ id = 3, position = [0.0, 0.0, 1.2e-3], radius = 1e-3, velocity = VELOCITY }]
+
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+motion = { prescribed = { x = 0.3, z = -0.2 } }
+
+[bond.glue]
+formulation = "FORMULATION"
+between = ["grain", "floor"]
+create_distance = 2.5e-3
+normal_stiffness = 1e10
+tangential_stiffness = 4e9
+breakage = { max_distance = 1.21e-3 }
+"#;
+
+/// The simulation of a scene as text.
+fn simulation(text: &str) -> Simulation {
+    let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(scene)).unwrap()
+}
+
+/// That scene with a velocity of the sphere and a formulation.
+fn bonded(velocity: &str, formulation: &str) -> Simulation {
+    simulation(&BONDED.replace("VELOCITY", velocity).replace("FORMULATION", formulation))
+}
+
+/// The value of a variable.
+fn value(simulation: &Simulation, name: &str) -> f64 {
+    let interface = Interface::of(simulation.scene());
+    interface.value(simulation, interface.find(name).unwrap()).number()
+}
+
+/// The formulations whose bond depends on the step only by a truncation error.
+const FORMULATIONS: [&str; 3] = ["finite_rotation", "incremental", "engine_exact"];
+
+#[test]
+fn the_foot_of_a_bond_moves_with_its_plane() {
+    for formulation in FORMULATIONS {
+        let mut simulation = bonded("[0.3, 0.0, -0.2]", formulation);
+        simulation.advance(1e-3).unwrap();
+        let force = simulation.state().particles.force[0];
+        assert!(force.iter().all(|part| part.abs() < 1e-9), "{formulation}: {force:?}");
+        assert_eq!(value(&simulation, "bonds.intact"), 1.0);
+    }
+}
+
+#[test]
+fn plane_and_sphere_feel_opposite_forces() {
+    for formulation in FORMULATIONS {
+        let mut simulation = bonded("[0.31, 0.01, -0.22]", formulation);
+        simulation.advance(2e-5).unwrap();
+        let (force, torque) = (simulation.state().particles.force[0], simulation.state().particles.torque[0]);
+        let position = simulation.state().particles.position[0];
+        let plane = &simulation.state().boundaries[0];
+        assert!(force[0].abs() > 1e-3 && force[2].abs() > 1e-3, "{formulation}: {force:?}");
+        for axis in 0..3 {
+            assert!((force[axis] + plane.force[axis]).abs() < 1e-12, "{formulation}");
+        }
+        // The moments of both about the plane's moved reference point vanish together.
+        let arm: Vec<f64> = (0..3).map(|axis| position[axis] - plane.displacement[axis]).collect();
+        for axis in 0..3 {
+            let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+            let sum = torque[axis] + arm[j] * force[k] - arm[k] * force[j] + plane.moment[axis];
+            assert!(sum.abs() < 1e-15, "{formulation}: {sum}");
+        }
+        assert!(torque[1].abs() > 1e-9);
+    }
+}
+
+#[test]
+fn a_bond_to_a_plane_breaks_once_and_is_told() {
+    let mut simulation = bonded("[0.3, 0.0, 0.8]", "finite_rotation");
+    assert_eq!((value(&simulation, "bonds.intact"), value(&simulation, "bonds.broken")), (1.0, 0.0));
+    let mut breaks = Vec::new();
+    for _ in 0..5 {
+        simulation.advance(1e-4).unwrap();
+        breaks.extend(simulation.state().breaks.iter().copied());
+    }
+    assert_eq!((value(&simulation, "bonds.intact"), value(&simulation, "bonds.broken")), (0.0, 1.0));
+    assert_eq!(breaks.len(), 1);
+    assert_eq!((breaks[0].first, breaks[0].second), (0, None));
+    assert!(breaks[0].energy > 0.0);
+    assert!(simulation.state().particles.force[0][2] == 0.0);
+}
