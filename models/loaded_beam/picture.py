@@ -14,8 +14,9 @@ MAGNIFIED = 20.0
 def draw(path, design, packing, beam, rows, failed, reference, weight):
     """Writes the picture as PNG."""
     table = np.array(rows)
+    shown = ["sag", "force", "failure"] if failed else ["sag", "force"]
     figure, axes = plt.subplot_mosaic(
-        [["side", "sag"], ["side", "force"], ["side", "failure"]] if failed else [["side", "sag"], ["side", "force"]],
+        [["side", name] for name in shown],
         figsize=(12.0, 7.2 if failed else 6.0),
         width_ratios=[1.0, 1.35],
         layout="constrained",
@@ -27,6 +28,8 @@ def draw(path, design, packing, beam, rows, failed, reference, weight):
     axes["sag"].tick_params(labelbottom=False)
     if failed:
         failure_curve(axes["failure"], np.array(failed), table)
+    for name in shown:
+        axes[name].spines[["top", "right"]].set_visible(False)
     figure.savefig(path, dpi=150)
     plt.close(figure)
 
@@ -68,7 +71,8 @@ def side_view(axes, design, packing, beam):
     axes.set_xlim(-0.56 * design.span, 0.56 * design.span)
     axes.set_ylim(level - design.height - 0.09, top)
     axes.set_title(f"{len(packing):,} grains on an elastic beam")
-    axes.text(0, axes.get_ylim()[0] + 0.008, f"a slice; sag drawn {MAGNIFIED:.0f} times as large", ha="center", color="0.35")
+    note = f"a slice; sag drawn {MAGNIFIED:.0f} times as large"
+    axes.text(0, level - design.height - 0.06, note, ha="center", color="0.35")
     axes.axis("off")
 
 
@@ -100,8 +104,9 @@ def force_curve(axes, table, weight, walls):
 def failure_curve(axes, failed, table):
     """The exchange that grows, beside the one that holds."""
     shown = table[:, 0] <= failed[-1, 0] * 1.15
-    axes.plot(failed[:, 0] * 1e3, -failed[:, 3], color=FAILURE, marker=".", label="explicit, same plate and interval")
-    axes.plot(table[shown, 0] * 1e3, -table[shown, 3], color=FORCE, label="implicit")
+    label = "explicit exchange, same plate and interval"
+    axes.plot(failed[:, 0] * 1e3, -failed[:, 3], color=FAILURE, marker=".", label=label)
+    axes.plot(table[shown, 0] * 1e3, -table[shown, 3], color=FORCE, label="implicit exchange")
     axes.set_ylabel("force on the floor [N]")
     axes.set_xlabel("time [ms]")
     axes.legend(loc="upper left", frameon=False)

@@ -28,8 +28,9 @@ def cograin(request):
 
     def run(*arguments, status=0):
         done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=False)
-        assert done.returncode == status, f"cograin {arguments} ended with {done.returncode}: {done.stdout}{done.stderr}"
-        return done.stdout + done.stderr
+        said = done.stdout + done.stderr
+        assert done.returncode == status, f"cograin {arguments} ended with {done.returncode}: {said}"
+        return said
 
     return run
 
@@ -58,7 +59,7 @@ class Course:
     amplitude: float = 2e-5  # [m]
 
     def displacement(self, step):
-        """A triangle of four steps up and four down, exact in binary but for one product."""
+        """A triangle of four steps up and four down [m]."""
         return self.amplitude * (4 - abs(step % 8 - 4)) / 4.0
 
 
