@@ -100,5 +100,40 @@ fn a_bond_to_a_plane_breaks_once_and_is_told() {
     assert_eq!(breaks.len(), 1);
     assert_eq!((breaks[0].first, breaks[0].second), (0, None));
     assert!(breaks[0].energy > 0.0);
+    assert_eq!(simulation.state().particles.damage(), [1.0]);
     assert!(simulation.state().particles.force[0][2] == 0.0);
+}
+
+#[test]
+fn damage_is_the_share_of_a_particles_bonds_that_broke() {
+    let text = r#"
+[run]
+step = 1e-6
+
+[material.glass]
+density = 2500.0
+
+[particles.chain]
+material = "glass"
+list = [
+    { id = 1, position = [0.0, 0.0, 0.0], radius = 1e-3 },
+    { id = 2, position = [2.1e-3, 0.0, 0.0], radius = 1e-3 },
+    { id = 3, position = [4.2e-3, 0.0, 0.0], radius = 1e-3, velocity = [9.0, 0.0, 0.0] },
+]
+
+[bond.chain]
+between = ["chain", "chain"]
+create_distance = 2.5e-3
+normal_stiffness = 1e9
+tangential_stiffness = 4e8
+breakage = { max_distance = 2.3e-3 }
+"#;
+    let mut simulation = simulation(text);
+    assert_eq!(simulation.state().particles.damage(), [0.0; 3]);
+    simulation.advance(1e-4).unwrap();
+    assert_eq!(value(&simulation, "bonds.broken"), 1.0);
+    assert_eq!(simulation.state().particles.damage(), [0.0, 0.5, 1.0]);
+    let intact = simulation.bonds();
+    assert_eq!(intact.len(), 1);
+    assert_eq!((intact[0].first.min(intact[0].second), intact[0].first.max(intact[0].second)), (0, 1));
 }

@@ -10,20 +10,18 @@ pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
     let slots = || particles.slot.iter().map(|&slot| slot as usize);
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
-    Cloud {
-        points: three(&particles.position),
-        fields: vec![
-            ("radius", Values::Scalars(fourth(&particles.position))),
-            ("id", Values::Integers(scene.particles.iter().map(|particle| i64::from(particle.id.0)).collect())),
-            ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
-            ("velocity", Values::Vectors(three(&particles.velocity))),
-            ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
-            ("force", Values::Vectors(three(&particles.force))),
-            ("torque", Values::Vectors(three(&particles.torque))),
-            ("mass", Values::Scalars(fourth(&particles.velocity))),
-        ],
-        ..Cloud::default()
-    }
+    let damage = (!particles.bonds.is_empty()).then(|| ("damage", Values::Scalars(particles.damage())));
+    let fields = vec![
+        ("radius", Values::Scalars(fourth(&particles.position))),
+        ("id", Values::Integers(scene.particles.iter().map(|particle| i64::from(particle.id.0)).collect())),
+        ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
+        ("velocity", Values::Vectors(three(&particles.velocity))),
+        ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
+        ("force", Values::Vectors(three(&particles.force))),
+        ("torque", Values::Vectors(three(&particles.torque))),
+        ("mass", Values::Scalars(fourth(&particles.velocity))),
+    ];
+    Cloud { points: three(&particles.position), fields: fields.into_iter().chain(damage).collect(), ..Cloud::default() }
 }
 
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.

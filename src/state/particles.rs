@@ -26,9 +26,35 @@ pub struct Particles {
     pub id: Vec<u32>,
     /// Slot here, of each of the scene's particles.
     pub slot: Vec<u32>,
+    /// Bonds made and bonds broken so far, of each of the scene's particles; empty in a scene without bonds.
+    pub bonds: Vec<[u32; 2]>,
 }
 
 impl Particles {
+    /// Counts a bond of these of the scene's particles as made.
+    pub fn count_bond(&mut self, bodies: impl IntoIterator<Item = u32>) {
+        self.count(0, bodies);
+    }
+
+    /// Counts a bond of these of the scene's particles as broken.
+    pub fn count_break(&mut self, bodies: impl IntoIterator<Item = u32>) {
+        self.count(1, bodies);
+    }
+
+    /// Adds one to a count of these of the scene's particles.
+    fn count(&mut self, which: usize, bodies: impl IntoIterator<Item = u32>) {
+        for body in bodies {
+            if let Some(counts) = self.bonds.get_mut(body as usize) {
+                counts[which] = counts[which].saturating_add(1);
+            }
+        }
+    }
+
+    /// Bonds broken over bonds made, of each of the scene's particles; 0 where none was made.
+    pub fn damage(&self) -> Vec<f64> {
+        self.bonds.iter().map(|&[made, broken]| f64::from(broken) / f64::from(made.max(1))).collect()
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.position.len()

@@ -37,7 +37,8 @@ pub(super) fn state(scene: &Scene) -> State {
 
 /// The particles in the scene's order.
 fn particles(scene: &Scene) -> Particles {
-    let mut particles = Particles::default();
+    let bonds = if scene.bonds.is_empty() { Vec::new() } else { vec![[0; 2]; scene.particles.len()] };
+    let mut particles = Particles { bonds, ..Particles::default() };
     for (index, particle) in scene.particles.iter().enumerate() {
         let [x, y, z] = particle.position;
         let [u, v, w] = particle.velocity;

@@ -140,6 +140,8 @@ impl<L: BondLaw> Pass for BondPass<L> {
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
             }
+            let bodies = [i, j].map(|slot| state.particles.id[slot as usize]);
+            state.particles.count_bond(bodies);
         }
         list.made += wanted.len() as u64;
         !wanted.is_empty()
@@ -210,6 +212,7 @@ pub(super) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<
     list.elastic = 0.0;
     let mut outcome = Ok(());
     let mut gone = Vec::new();
+    let told = state.breaks.len();
     let id = |slot: u32| particles.id[slot as usize];
     for done in results {
         list.elastic += done.elastic;
@@ -225,6 +228,9 @@ pub(super) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<
         state.breaks.push(Break { time, law: law as u32, first, second, cause, energy });
         list.released += energy;
         list.broken += 1;
+    }
+    for broken in &state.breaks[told..] {
+        state.particles.count_break([broken.first].into_iter().chain(broken.second));
     }
     if !gone.is_empty() {
         remove(list, &gone);

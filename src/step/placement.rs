@@ -114,6 +114,7 @@ fn put_bond(state: &mut State, bond: &PlacedBond) {
         column.push(row);
     }
     list.made += 1;
+    state.particles.count_bond(bond.bodies);
 }
 
 /// Gives a listed pair its spring, if it touches.

@@ -211,6 +211,7 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
             list.rows.resize(L::ROWS, Vec::new());
             list.first.push(slot);
             list.foot.push(foot);
+            state.particles.count_bond([state.particles.id[slot as usize]]);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
             }
