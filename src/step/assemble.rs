@@ -6,9 +6,9 @@ use super::pass::Pass;
 use super::wall_bonds::WallBondPass;
 use super::walls::{Plane, WallPass};
 use crate::bond::{BondLaw, keys};
-use crate::contact::{Law, LawChoice, TakeLaw};
+use crate::contact::{Law, TakeLaw};
 use crate::number::Vector;
-use crate::scene::{AxisMotion, ContactLaw, Scene, Shape};
+use crate::scene::{AxisMotion, Scene, Shape};
 use crate::state::{BondList, BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
 use std::marker::PhantomData;
 
@@ -100,27 +100,16 @@ fn wall_lists(scene: &Scene) -> Vec<WallContacts> {
 pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
     let mut passes = Vec::new();
     for (index, law) in scene.contacts.iter().enumerate() {
-        passes.push(choice(law).visit(BetweenParticles { scene, index }));
+        passes.push(law.choice().visit(BetweenParticles { scene, index }));
     }
     for (index, bond) in scene.bonds.iter().enumerate() {
         passes.extend(bond.keys.visit(Bonded { scene, index }));
     }
     for (list, (boundary, law)) in meetings(scene).into_iter().enumerate() {
         let maker = AtPlane { scene, list, boundary: boundary as usize, law: law as usize };
-        passes.push(choice(&scene.contacts[law as usize]).visit(maker));
+        passes.push(scene.contacts[law as usize].choice().visit(maker));
     }
     passes
-}
-
-/// The names of a law's sub-models.
-fn choice(law: &ContactLaw) -> LawChoice {
-    LawChoice {
-        normal: law.normal,
-        tangential: law.tangential,
-        rolling: law.rolling,
-        cohesion: law.cohesion,
-        switches: law.switches,
-    }
 }
 
 /// Makes the pass of a law between particles.
