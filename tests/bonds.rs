@@ -137,3 +137,66 @@ breakage = { max_distance = 2.3e-3 }
     assert_eq!(intact.len(), 1);
     assert_eq!((intact[0].first.min(intact[0].second), intact[0].first.max(intact[0].second)), (0, 1));
 }
+
+/// Radius of the spheres of a cantilever, half its bonds' length \[m\].
+const RADIUS: f64 = 1e-3;
+
+/// The deflection of the tip of a cantilever of this many bonds, at rest under a force across, over what springs in
+/// series give.
+fn cantilever(bonds: usize, formulation: &str) -> f64 {
+    let (normal, tangential, force) = (1e12, 4e11, -1e-3 / (bonds * bonds) as f64);
+    let text = format!(
+        r#"
+[run]
+step = 4e-7
+[material.glass]
+density = 2500.0
+[particles.beam]
+material = "glass"
+lattice = {{ kind = "simple_cubic", radius = {RADIUS}, counts = [{}, 1, 1] }}
+[boundary.clamp]
+particles = {{ set = "beam", ids = [1] }}
+[bond.beam]
+formulation = "{formulation}"
+between = ["beam", "beam"]
+create_distance = 2.1e-3
+normal_stiffness = {normal}
+tangential_stiffness = {tangential}
+[force.tip]
+particles = {{ set = "beam", ids = [{}] }}
+force = [0.0, 0.0, {force}]
+[damping.all]
+linear = 0.5
+angular = 0.5
+gravity_damped = false
+applied_forces_damped = true
+"#,
+        bonds + 1,
+        bonds + 1
+    );
+    let mut simulation = simulation(&text);
+    let tip = |simulation: &Simulation| {
+        let particles = &simulation.state().particles;
+        particles.position[particles.slot[bonds] as usize][2]
+    };
+    let start = tip(&simulation);
+    let mass = 4.0 / 3.0 * std::f64::consts::PI * RADIUS * RADIUS * RADIUS * 2500.0;
+    let area = std::f64::consts::PI * RADIUS * RADIUS;
+    let (bending, shear) = (normal * area * RADIUS * RADIUS / 4.0, tangential * area);
+    let (count, length) = (bonds as f64, 2.0 * RADIUS);
+    // A hundred periods of the lowest mode of an Euler beam, the spheres' own turning not counted.
+    let period = 1.787 * count * count * length * (mass / bending).sqrt();
+    simulation.advance(100.0 * period).unwrap();
+    let springs = force * (length * length * (4.0 * count * count * count - count) / (12.0 * bending) + count / shear);
+    (tip(&simulation) - start) / springs
+}
+
+#[test]
+fn a_cantilever_bends_as_its_springs_in_series() {
+    for formulation in ["finite_rotation", "incremental"] {
+        for bonds in [1, 3, 5, 10] {
+            let share = cantilever(bonds, formulation);
+            assert!((share - 1.0).abs() < 1e-9, "{formulation}, {bonds} bonds: {share:?}");
+        }
+    }
+}
