@@ -7,9 +7,7 @@ fn main() {
         println!("cargo:rustc-cdylib-link-arg=-Wl,-z,nodelete");
         // a host that loads several units with RTLD_GLOBAL must not mix their functions
         println!("cargo:rustc-cdylib-link-arg=-Wl,-Bsymbolic");
-        if std::env::var("PROFILE").is_ok_and(|profile| profile == "release") {
-            // units travel; debug information does not help those who receive them
-            println!("cargo:rustc-cdylib-link-arg=-Wl,--strip-all");
-        }
+        // units travel; debug information does not help those who receive them
+        println!("cargo:rustc-cdylib-link-arg=-Wl,--strip-all");
     }
 }

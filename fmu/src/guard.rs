@@ -9,6 +9,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use std::ffi::CStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, Once, PoisonError, RwLock, TryLockError};
 
 /// An instance and where it reports to.
@@ -19,15 +20,22 @@ pub(crate) struct Guarded {
     pub(crate) logger: Logger,
 }
 
-/// All instances, by the addresses that hosts know them by. A freed or foreign address is not in it.
+/// All instances, by the numbers that hosts know them by. Those of freed and foreign ones are not in it.
 static INSTANCES: RwLock<BTreeMap<usize, Arc<Guarded>>> = RwLock::new(BTreeMap::new());
+
+/// A number by which a host knows an instance or a state: none is given out twice, not even after it was freed,
+/// and other libraries in the process, those of other units included, give out others.
+pub(crate) fn fresh_address() -> usize {
+    /// Counts from its own address, which no other library has.
+    static COUNT: AtomicUsize = AtomicUsize::new(1);
+    (&raw const COUNT).addr().wrapping_add(COUNT.fetch_add(1, Ordering::Relaxed))
+}
 
 /// Enters an instance; yields what the host is to know it by.
 pub(crate) fn enter(guarded: Guarded) -> Component {
-    let guarded = Arc::new(guarded);
-    let address = Arc::as_ptr(&guarded);
-    INSTANCES.write().unwrap_or_else(PoisonError::into_inner).insert(address.addr(), guarded);
-    address.cast_mut().cast()
+    let address = fresh_address();
+    INSTANCES.write().unwrap_or_else(PoisonError::into_inner).insert(address, Arc::new(guarded));
+    std::ptr::without_provenance_mut(address)
 }
 
 /// Removes and drops an instance, which ends its threads.

@@ -1,6 +1,7 @@
 //! One instance of the unit: the functions of FMI 2.0 in safe Rust.
 
 use crate::calls::Phase;
+use crate::guard;
 use crate::location::{self, LocationError};
 use crate::refusal::Refusal;
 use crate::saved::{Course, Saved};
@@ -134,8 +135,8 @@ pub(crate) struct Instance {
     simulation: Simulation,
     /// What changes beside it.
     course: Course,
-    /// Saved states, by the addresses that the host knows them by.
-    kept: BTreeMap<usize, Box<Kept>>,
+    /// Saved states, by the numbers that the host knows them by.
+    kept: BTreeMap<usize, Kept>,
 }
 
 impl Instance {
@@ -349,13 +350,11 @@ impl Instance {
     /// Keeps a state at `address`, or anew if that is none of ours. Yields the address.
     fn keep(&mut self, saved: Saved, address: usize) -> usize {
         if let Some(kept) = self.kept.get_mut(&address) {
-            **kept = Kept { saved, bytes: None };
+            *kept = Kept { saved, bytes: None };
             return address;
         }
-        let kept = Box::new(Kept { saved, bytes: None });
-        // an address of our own: no other instance, of this unit or another, has the same
-        let address = std::ptr::from_ref(kept.as_ref()).addr();
-        self.kept.insert(address, kept);
+        let address = guard::fresh_address();
+        self.kept.insert(address, Kept { saved, bytes: None });
         address
     }
 

@@ -99,13 +99,13 @@ type PlainLogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Te
 fn callbacks(messages: &Messages) -> Callbacks {
     // SAFETY: a callee without variadic arguments reads the named ones where a variadic call puts them, on the
     // systems that units run on.
-    let log = unsafe { std::mem::transmute::<PlainLogFunction, crate::types::LogFunction>(log) };
+    let log = unsafe { std::mem::transmute::<PlainLogFunction, types::LogFunction>(log) };
     Callbacks {
         logger: Some(log),
         allocate_memory: None,
         free_memory: None,
         step_finished: None,
-        environment: std::ptr::from_ref(messages).cast_mut().cast(),
+        environment: ptr::from_ref(messages).cast_mut().cast(),
     }
 }
 
@@ -309,7 +309,7 @@ pub(super) fn instantiate(
     let callbacks = Box::new(callbacks(&messages));
     let text = |text: &str| CString::new(text).unwrap();
     let (name, guid, location) = (text(name), guid.map(text), location.map(text));
-    let pointer = |text: &Option<CString>| text.as_ref().map_or(std::ptr::null(), |text| text.as_ptr());
+    let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
     // SAFETY: strings and callbacks live until the call returns, as FMI 2.0 demands.
     let component =
         unsafe { fmi2Instantiate(name.as_ptr(), kind, pointer(&guid), pointer(&location), callbacks.as_ref(), 0, 0) };

@@ -45,7 +45,7 @@ fn null_freed_and_foreign_components_are_refused() {
     let unit = Unpacked::new();
     let freed = Host::instantiated(&unit).component;
     let mut foreign = 0_u64;
-    for component in [null_mut(), freed, std::ptr::from_mut(&mut foreign).cast()] {
+    for component in [null_mut(), freed, ptr::from_mut(&mut foreign).cast()] {
         assert_eq!(fmi2DoStep(component, 0.0, 1.0e-4, 1), Status::Error);
         assert_eq!(fmi2Reset(component), Status::Error);
         fmi2FreeInstance(component);

@@ -53,7 +53,7 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
     host.refused(host.set("floor.force.z", 1.0), &[&right]);
 
     let count = unit.reference("contacts.count");
-    let (mut real, mut integer, integers, mut text) = (0.0, 0, 3, std::ptr::null());
+    let (mut real, mut integer, integers, mut text) = (0.0, 0, 3, ptr::null());
     // SAFETY: one reference and one value each.
     unsafe {
         let status = fmi2GetReal(host.component, &raw const count, 1, &raw mut real);
@@ -157,7 +157,7 @@ fn a_step_that_fails_is_discarded_and_the_state_is_that_of_its_beginning() {
 fn a_panic_is_an_error_until_reset() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
-    let status = crate::guard::call(host.component, &crate::calls::DO_STEP, |_, _| panic!("broken by hand"));
+    let status = guard::call(host.component, &calls::DO_STEP, |_, _| panic!("broken by hand"));
     host.refused(status, &["fmi2DoStep: internal error: broken by hand"]);
     host.refused(host.step(0.0, 1.0e-4), &["after an internal error"]);
     host.refused(host.set("floor.displacement.z", 0.0), &["after an internal error"]);
@@ -172,7 +172,7 @@ fn a_call_within_a_call_is_refused() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
     let mut inner = Status::Ok;
-    let outer = crate::guard::call(host.component, &crate::calls::DO_STEP, |_, _| {
+    let outer = guard::call(host.component, &calls::DO_STEP, |_, _| {
         inner = host.step(0.0, 1.0e-4);
         Ok(())
     });
