@@ -1,8 +1,9 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
 use super::bonds::BondPass;
-use super::contacts::{ContactPass, MOST_COEFFICIENTS, Table};
+use super::contacts::ContactPass;
 use super::pass::Pass;
+use super::table::{MOST_COEFFICIENTS, Table};
 use super::wall_bonds::WallBondPass;
 use super::walls::{Plane, WallPass};
 use crate::bond::{BondLaw, keys};

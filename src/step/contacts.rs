@@ -9,7 +9,8 @@ use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
 use super::observe::{self, ContactRecord};
 use super::pass::{Context, Link, Pass};
-use crate::contact::{Contact, Law, MaterialPair, Response};
+use super::table::{MOST_COEFFICIENTS, Table};
+use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
 use crate::state::ledger::Source;
@@ -18,93 +19,6 @@ use std::marker::PhantomData;
 
 /// Listed pairs in one batch; its buffers fill about half of a first-level cache.
 const BATCH: usize = 128;
-
-/// Most coefficients that a composed law may have.
-pub(super) const MOST_COEFFICIENTS: usize = 24;
-
-/// Coefficients of a law for each two materials of the scene.
-#[derive(Clone, Debug)]
-pub(super) struct Table {
-    /// A row of coefficients for each two materials.
-    rows: Vec<f64>,
-    /// How many coefficients a row has.
-    count: usize,
-    /// How many materials there are.
-    materials: usize,
-    /// The one material that all particles of the scene are made of, if it is one.
-    single: Option<u32>,
-    /// Whether the law governs these two materials.
-    governed: Vec<bool>,
-}
-
-impl Table {
-    /// Takes the coefficients of `law` for all pairs of materials it governs; others get zeros.
-    pub(super) fn of<L: Law>(law: &L, scene: &crate::scene::Scene, between: &[bool]) -> Self {
-        let materials = scene.materials.len();
-        let mut rows = Vec::with_capacity(materials * materials * L::COUNT);
-        for a in 0..materials {
-            for b in 0..materials {
-                let entry = a * materials + b;
-                let pair =
-                    MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties: &scene.pairs[entry] };
-                let row = if between[entry] { law.row(&pair).ok() } else { None };
-                rows.extend(row.unwrap_or_else(|| vec![0.0; L::COUNT]));
-            }
-        }
-        let mut present = scene.particles.iter().map(|particle| particle.material.0);
-        let single = present.next().filter(|&first| present.all(|other| other == first));
-        Self { rows, count: L::COUNT, materials, single, governed: between.to_vec() }
-    }
-
-    /// The one row that all particles have with each other, if it is one.
-    #[inline(always)]
-    pub(super) fn uniform(&self) -> Option<&[f64]> {
-        self.uniform_with(self.single?)
-    }
-
-    /// The one row that all particles have with this material, if it is one.
-    #[inline(always)]
-    pub(super) fn uniform_with(&self, material: u32) -> Option<&[f64]> {
-        Some(self.row(self.single?, material))
-    }
-
-    /// The coefficients of each lane's two materials: that of a particle, and a given one.
-    #[inline(always)]
-    pub(super) fn gather<L: Law, N: Lane>(
-        &self,
-        material: &[u32],
-        first: &[u32; 8],
-        second: &[u32; 8],
-        row: &mut [N; MOST_COEFFICIENTS],
-    ) {
-        let mut entry = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            entry[lane] = material[first[lane] as usize] * self.materials as u32 + second[lane];
-            lane += 1;
-        }
-        let mut k = 0;
-        while k < L::COUNT {
-            // SAFETY: the table has a row of `L::COUNT` numbers for each two materials.
-            row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry.as_ptr(), L::COUNT) };
-            k += 1;
-        }
-    }
-
-    /// The stiffest response of an impact between any two of the materials.
-    pub(super) fn stiffest<L: Law>(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
-        let rows = self.rows.chunks_exact(self.count.max(1));
-        let responses = rows.zip(&self.governed).filter(|(_, governed)| **governed);
-        let responses = responses.map(|(row, _)| observe::impact::<L>(row, radius, mass, speed));
-        responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
-    }
-
-    /// The coefficients for two materials.
-    pub(super) fn row(&self, a: u32, b: u32) -> &[f64] {
-        let entry = a as usize * self.materials + b as usize;
-        &self.rows[entry * self.count..(entry + 1) * self.count]
-    }
-}
 
 /// The pass of one contact law.
 pub(super) struct ContactPass<L> {

@@ -15,6 +15,7 @@ mod pass;
 mod placement;
 mod settled;
 mod stable;
+mod table;
 mod wall_bonds;
 mod walls;
 mod workers;

@@ -3,11 +3,11 @@
 //! The phases are those of the contacts between particles. A particle stands once in a list, so pieces of a list
 //! are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::contacts::{MOST_COEFFICIENTS, Table};
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, columns, vector};
 use super::observe::{self, ContactRecord};
 use super::pass::{CHUNK, Context, Link, Pass};
+use super::table::{MOST_COEFFICIENTS, Table};
 use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
