@@ -1,6 +1,6 @@
 //! Why a run stopped.
 
-/// Why a run stopped. The state is then that of the last good time step.
+/// Why a run stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// A particle would move further in one step than its neighbours were looked for.

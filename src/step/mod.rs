@@ -207,7 +207,9 @@ impl Simulation {
 
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end.
     ///
-    /// On an error the state is that of the last good time step, at [`Simulation::time`].
+    /// An error that is seen before a step ([`RunError::Runaway`]) leaves the state of the last good time step, at
+    /// [`Simulation::time`]. One that a step itself brings about leaves the state behind that step, for the search of
+    /// the cause only: who wants to go on keeps a copy.
     pub fn advance(&mut self, interval: f64) -> Result<(), RunError> {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });
