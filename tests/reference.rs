@@ -123,6 +123,20 @@ fn a_bond_with_another_stiffness_or_strength_fails() {
 }
 
 #[test]
+fn a_contact_that_a_bond_would_hide_is_not_passed_over() {
+    let folder = Path::new(BOND).join("compression");
+    let mut case: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("case.json")).unwrap()).unwrap();
+    case["model"]["disableNormalWhenBonded"] = true.into();
+    let scratch = Scratch::new("hidden");
+    for file in ["samples.csv", "bonds.csv"] {
+        fs::copy(folder.join(file), scratch.0.join(file)).unwrap();
+    }
+    let report = replay(&scratch.case(&case.to_string()), &Options::default()).unwrap();
+    assert!(!report.passed() && report.to_string().contains("disableNormalWhenBonded"), "{report}");
+}
+
+#[test]
 fn bad_cases_of_bonds_are_refused() {
     let whole = fs::read_to_string(Path::new(BOND).join("tension/case.json")).unwrap();
     let case: serde_json::Value = serde_json::from_str(&whole).unwrap();

@@ -3,6 +3,7 @@
 use super::case::Case;
 use super::history::{History, PairRow};
 use super::samples::{Row, Samples};
+use crate::bond::creation::ContactPolicy;
 use crate::quantity::SetIndex;
 use crate::scene::Scene;
 use crate::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
@@ -30,43 +31,72 @@ pub(super) struct Run {
 /// Runs the scene from its start and keeps these steps, in ascending order.
 pub(super) fn free(case: &Case, scene: &Arc<Scene>, steps: &[u64]) -> Run {
     let mut run = Run::default();
-    let mut go = || -> Result<(), RunError> {
-        let mut simulation = Simulation::new(scene.clone())?;
+    let mut go = || -> Result<(), String> {
+        let mut simulation = Simulation::new(scene.clone()).map_err(told)?;
         let mut now = 0;
         for &step in steps {
-            advance(&mut simulation, case, now, step)?;
+            advance(&mut simulation, case, now, step).map_err(told)?;
+            refuse_hidden_contact(scene, &simulation)?;
             now = step;
             run.samples.push(observe(case, &simulation, step));
         }
         Ok(())
     };
     let result = go();
-    run.stopped = result.err().map(|cause| cause.to_string());
+    run.stopped = result.err();
     run
 }
 
 /// Runs the scene from each sample to the next; the first window has the other engine's start, as the first sample.
 pub(super) fn windows(case: &Case, scene: &Arc<Scene>, samples: &Samples, history: &History) -> Run {
     let mut run = Run::default();
-    let mut go = || -> Result<(), RunError> {
+    let mut go = || -> Result<(), String> {
         for (at, (step, rows)) in samples.rows.iter().enumerate() {
             let mut simulation = if *step == 0 {
-                Simulation::new(scene.clone())?
+                Simulation::new(scene.clone()).map_err(told)?
             } else {
-                Simulation::placed(scene.clone(), &placement(case, scene, *step, rows, history.at(*step)))?
+                Simulation::placed(scene.clone(), &placement(case, scene, *step, rows, history.at(*step)))
+                    .map_err(told)?
             };
             if at == 0 {
                 run.samples.push(observe(case, &simulation, *step));
             }
             let Some((next, _)) = samples.rows.get(at + 1) else { break };
-            advance(&mut simulation, case, *step, *next)?;
+            advance(&mut simulation, case, *step, *next).map_err(told)?;
+            refuse_hidden_contact(scene, &simulation)?;
             run.samples.push(observe(case, &simulation, *next));
         }
         Ok(())
     };
     let result = go();
-    run.stopped = result.err().map(|cause| cause.to_string());
+    run.stopped = result.err();
     run
+}
+
+/// Why a run stopped, in words.
+fn told(cause: RunError) -> String {
+    cause.to_string()
+}
+
+/// Stops where the case hides the contact of bonded bodies and two of them overlap: no pass hides it.
+fn refuse_hidden_contact(scene: &Scene, simulation: &Simulation) -> Result<(), String> {
+    if scene.bonds.iter().all(|bond| bond.keys.contact == ContactPolicy::Parallel) {
+        return Ok(());
+    }
+    let particles = &simulation.state().particles;
+    let row = |index: u32| particles.position[particles.slot[index as usize] as usize];
+    for bond in simulation.bonds() {
+        let (a, b) = (row(bond.first), row(bond.second));
+        let distance: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
+        if distance < (a[3] + b[3]) * (a[3] + b[3]) {
+            return Err(format!(
+                "disableNormalWhenBonded: on found, and bonded spheres overlap at t = {} s; contact and bond act side by \
+                 side here, so that only cases without such an overlap can be replayed",
+                simulation.time()
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Makes the steps between two numbers.

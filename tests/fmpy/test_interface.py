@@ -1,7 +1,10 @@
 """What crosses a boundary is the same on both sides."""
 
 import csv
+import json
 import math
+import re
+import shutil
 
 import meshio
 import numpy as np
@@ -81,3 +84,17 @@ def test_momentum_of_the_grains_changes_by_gravity_and_the_impulses_of_the_bound
         error = momentum[1][place] - momentum[0][place] - math.fsum(impulses) - weight
         scale = math.fsum(map(abs, impulses)) + abs(weight)
         assert abs(error) <= 1e-12 * scale, f"{axis}: momentum is off by {error} of {scale} N s"
+
+
+def test_books_of_every_model_close(cograin, model, tmp_path):
+    folder = tmp_path / "model"
+    shutil.copytree(ROOT / "models" / model, folder)
+    text = (folder / "scene.toml").read_text()
+    text = re.sub(r"(?m)^end = .*$", "end = 0.004", text)
+    text = re.sub(r"(?m)^energy = .*$", "", text).replace("[output]", "[output]\nenergy = true")
+    (folder / "scene.toml").write_text(text)
+    cograin("run", folder / "scene.toml", "-o", tmp_path / "out")
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["steps"] > 10
+    assert abs(summary["energy"]["relative_residual"]) <= 1e-12
+    assert abs(summary["momentum"]["relative_residual"]) <= 1e-12
