@@ -1,5 +1,11 @@
 //! What the program computes, held against theory and published numbers: one claim a file.
 
+mod axial_chain;
+mod bending_frequencies;
+mod bond_energy;
+mod cantilever;
+mod chain;
+mod conservative_block;
 mod contact_records;
 mod cundall_decay;
 mod cundall_frame;
@@ -9,7 +15,9 @@ mod grazing_energy;
 mod hertz_impact;
 mod momentum;
 mod oblique_impact;
+mod pulse;
 mod restitution;
+mod rigid_rotation;
 mod rolling;
 mod sjkr;
 mod sliding;
