@@ -11,18 +11,26 @@ use crate::number::Number;
 pub enum Cause {
     /// The centres are further apart than `max_distance`.
     Distance,
-    /// The normal stress of a stretched (or neither stretched nor compressed) bond, bending included.
+    /// The normal stress, and no less of it from stretching than from bending.
     Tension,
-    /// The normal stress of a compressed bond, bending included.
+    /// The normal stress, and no less of it from compression than from bending.
     Compression,
-    /// The shear stress, torsion included.
+    /// The shear stress, and no less of it from the shear force than from torsion.
     Shear,
+    /// The normal stress, most of it from bending.
+    Bending,
+    /// The shear stress, most of it from torsion.
+    Torsion,
 }
 
 impl Cause {
+    /// All causes.
+    const ALL: [Self; 6] =
+        [Self::Distance, Self::Tension, Self::Compression, Self::Shear, Self::Bending, Self::Torsion];
+
     /// The cause that a lane's code stands for; `None` for a living bond (0).
     pub fn from_code(code: f64) -> Option<Self> {
-        [Self::Distance, Self::Tension, Self::Compression, Self::Shear].into_iter().find(|cause| cause.code() == code)
+        Self::ALL.into_iter().find(|cause| cause.code() == code)
     }
 
     /// The number that stands for it in a lane, above 0.
@@ -32,6 +40,8 @@ impl Cause {
             Self::Tension => 2.0,
             Self::Compression => 3.0,
             Self::Shear => 4.0,
+            Self::Bending => 5.0,
+            Self::Torsion => 6.0,
         }
     }
 
@@ -42,6 +52,8 @@ impl Cause {
             Self::Tension => "tension",
             Self::Compression => "compression",
             Self::Shear => "shear",
+            Self::Bending => "bending",
+            Self::Torsion => "torsion",
         }
     }
 }
@@ -63,8 +75,12 @@ pub trait Breakage: Send + Sync + 'static {
 pub struct Stress<N: Number = f64> {
     /// σ \[Pa\].
     pub normal: N,
+    /// The part of σ that bending makes, |T_t| r_b/I \[Pa\].
+    pub bending: N,
     /// τ \[Pa\].
     pub shear: N,
+    /// The part of τ that torsion makes, |T_n| r_b/J \[Pa\].
+    pub torsion: N,
     /// Mean compressive stress sgn(u) |N|/A \[Pa\].
     pub pressure: N,
 }
@@ -84,7 +100,9 @@ impl<N: Number> Stress<N> {
         let torsion = elastic.torsion.abs() * N::splat(2.0) * per_rim;
         Self {
             normal: mean * N::select(compressed, law.compression_share, N::splat(1.0)) + bending,
+            bending,
             shear: elastic.shear.length() * per_area + torsion,
+            torsion,
             pressure: mean * sign,
         }
     }

@@ -86,9 +86,14 @@ fn the_evaluation_before_the_first_step_changes_nothing() {
     assert_eq!(Composed::<FiniteRotation<false>, Undamped, Distance>::react(&law, &pair, &rows).rows, rows);
 }
 
-/// The reaction of the engine's bond at rest length 2 to a distance and stored shear and bending along y.
+/// Why the engine's bond at rest length 2 breaks at a distance with stored shear and bending along y, if it does.
 fn broken(law: &Law, distance: f64, shear: f64, bending: f64) -> Option<Cause> {
-    let rows = stored([0.0, shear, 0.0], 0.0, [0.0, bending, 0.0]);
+    broken_with(law, distance, shear, 0.0, bending)
+}
+
+/// The same with stored torsion.
+fn broken_with(law: &Law, distance: f64, shear: f64, torsion: f64, bending: f64) -> Option<Cause> {
+    let rows = stored([0.0, shear, 0.0], torsion, [0.0, bending, 0.0]);
     let pair = pair(distance, [0.0; 3], [0.0; 3]);
     let found: Reaction<f64> = Composed::<EngineExact, Undamped, ByStress>::react(&law.coefficients(0.0), &pair, &rows);
     let cause = Cause::from_code(found.cause);
@@ -113,14 +118,40 @@ fn each_stress_breaks_beyond_its_limit_and_names_itself() {
     // τ = F/A.
     assert_eq!(broken(&law, 2.0, 0.499 * AREA, 0.0), None);
     assert_eq!(broken(&law, 2.0, 0.501 * AREA, 0.0), Some(Cause::Shear));
-    // σ = 4 M/(A r_b), of a bond neither stretched nor compressed: tension at the rim.
+    // σ = 4 M/(A r_b), of a bond neither stretched nor compressed, against the strength in tension.
     assert_eq!(broken(&law, 2.0, 0.0, 0.249 * AREA * 0.6), None);
-    assert_eq!(broken(&law, 2.0, 0.0, 0.251 * AREA * 0.6), Some(Cause::Tension));
+    assert_eq!(broken(&law, 2.0, 0.0, 0.251 * AREA * 0.6), Some(Cause::Bending));
     // Compressed by 0.05: −0.5 + bending against 2.
     assert_eq!(broken(&law, 1.95, 0.0, 2.49 / 4.0 * AREA * 0.6), None);
-    assert_eq!(broken(&law, 1.95, 0.0, 2.51 / 4.0 * AREA * 0.6), Some(Cause::Compression));
+    assert_eq!(broken(&law, 1.95, 0.0, 2.51 / 4.0 * AREA * 0.6), Some(Cause::Bending));
     let apart = Law { max_distance: 2.05, ..law };
     assert_eq!(broken(&apart, 2.06, 0.0, 0.0), Some(Cause::Distance));
+}
+
+#[test]
+fn the_larger_part_of_a_stress_names_the_cause() {
+    let law = Law { tension_strength: 1.0, compression_strength: 1.0, shear_strength: 0.5, ..law() };
+    let bending = |stress: f64| stress / 4.0 * AREA * 0.6;
+    let torsion = |stress: f64| stress / 2.0 * AREA * 0.6;
+    // 0.6 from stretching against 0.5 from bending, and the other way round; both at 0.05 and 0.06 m.
+    assert_eq!(broken(&law, 2.06, 0.0, bending(0.5)), Some(Cause::Tension));
+    assert_eq!(broken(&law, 2.05, 0.0, bending(0.6)), Some(Cause::Bending));
+    let breaks = Law { compression_share: 1.0, ..law };
+    assert_eq!(broken(&breaks, 1.94, 0.0, bending(0.5)), Some(Cause::Compression));
+    assert_eq!(broken(&breaks, 1.95, 0.0, bending(0.6)), Some(Cause::Bending));
+    assert_eq!(broken_with(&law, 2.0, 0.3 * AREA, torsion(0.25), 0.0), Some(Cause::Shear));
+    assert_eq!(broken_with(&law, 2.0, 0.25 * AREA, torsion(0.3), 0.0), Some(Cause::Torsion));
+    // The normal stress is looked at first.
+    assert_eq!(broken_with(&law, 2.0, 0.0, torsion(0.6), bending(1.1)), Some(Cause::Bending));
+}
+
+#[test]
+fn every_cause_has_a_code_and_a_name_of_its_own() {
+    let causes: Vec<Cause> = (1..10).filter_map(|code| Cause::from_code(f64::from(code))).collect();
+    let mut names: Vec<&str> = causes.iter().map(|cause| cause.name()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["bending", "compression", "distance", "shear", "tension", "torsion"]);
+    assert_eq!(Cause::from_code(0.0), None);
 }
 
 #[test]
