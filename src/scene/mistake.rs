@@ -242,17 +242,17 @@ pub enum Mistake {
         /// How many further particles are.
         more: usize,
     },
-    /// A packing that does not fit its box.
+    /// A packing that does not fit its region.
     #[error(
-        "{reached} of {count} particles found room ({fraction:.3} of the box is filled); \
-         fewer or smaller ones or a larger box are right"
+        "{reached} of {count} particles found room ({fraction:.3} of the region is filled); \
+         fewer or smaller ones, a larger region, or solid_fraction instead of count are right"
     )]
     Full {
         /// How many found room.
         reached: usize,
         /// How many were asked for.
         count: usize,
-        /// Volume of those over that of the box.
+        /// Volume of those over that of the region.
         fraction: f64,
     },
 }

@@ -6,7 +6,7 @@ mod values;
 
 pub(super) use boundary::{BoundaryTable, MotionTable, PlaneTable};
 pub(super) use particles::{
-    Format, LatticeKind, LatticeTable, ListEntry, PackingTable, ParticlesTable, Selection, Units,
+    CylinderTable, Format, LatticeKind, LatticeTable, ListEntry, PackingTable, ParticlesTable, Selection, Units,
 };
 pub(super) use values::{Between, Corners, Safety, StepKey, Triple};
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `[particles.<name>]` and how particles are chosen.
 
 use super::values::{Corners, Counts, Radii, Triple};
-use crate::quantity::Positive;
+use crate::quantity::{Fraction, Positive};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
@@ -70,17 +70,33 @@ pub(in crate::scene) enum LatticeKind {
     HexagonalClosePacked,
 }
 
-/// `packing = { box, count, radius }`
+/// `packing = { box or cylinder, count or solid_fraction, radius }`
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct PackingTable {
     /// The box that holds every sphere whole \[m\].
     #[serde(rename = "box")]
-    pub(in crate::scene) corners: Corners,
+    pub(in crate::scene) corners: Option<Corners>,
+    /// The cylinder that holds every sphere whole.
+    pub(in crate::scene) cylinder: Option<CylinderTable>,
     /// How many.
-    pub(in crate::scene) count: NonZeroU32,
+    pub(in crate::scene) count: Option<NonZeroU32>,
+    /// Volume of the spheres over that of the region; they are pushed apart until they fit.
+    pub(in crate::scene) solid_fraction: Option<Fraction>,
     /// Radius, or least and largest \[m\].
     pub(in crate::scene) radius: Radii,
+}
+
+/// `cylinder = { from, to, radius }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct CylinderTable {
+    /// Centre of one end \[m\].
+    pub(in crate::scene) from: Triple,
+    /// Centre of the other \[m\].
+    pub(in crate::scene) to: Triple,
+    /// Radius \[m\].
+    pub(in crate::scene) radius: Positive,
 }
 
 /// Formats of particle files.

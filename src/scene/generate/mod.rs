@@ -1,7 +1,9 @@
 //! Particles that no file lists: lattices and random packings.
 
+mod dense;
 mod lattice;
 mod packing;
+mod region;
 
 pub(super) use lattice::lattice;
 pub(super) use packing::packing;

@@ -1,5 +1,7 @@
-//! Spheres at random places of a box, none overlapping another.
+//! Spheres at random places of a region, none overlapping another.
 
+use super::dense::dense;
+use super::region::Region;
 use super::{MOST, Sphere};
 use crate::scene::file::PackingTable;
 use crate::scene::mistake::Mistake;
@@ -7,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Places tried for one sphere before the box counts as full.
+/// Places tried for one sphere before the region counts as full.
 const TRIES: usize = 5000;
 
 /// The spheres that are in already and are at most twice as large as one another.
@@ -64,7 +66,7 @@ impl Class {
 }
 
 /// A number from 0 to below 1.
-fn uniform(random: &mut ChaCha8Rng) -> f64 {
+pub(super) fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -77,22 +79,37 @@ fn generator(seed: u64, set: &str) -> ChaCha8Rng {
     random
 }
 
-/// The spheres of a packing; the largest are placed first. Otherwise the key that is wrong.
+/// The spheres of a packing. Otherwise the key that is wrong.
 pub(in crate::scene) fn packing(
     table: &PackingTable,
     seed: u64,
     set: &str,
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
-    let [lower, upper] = table.corners.0;
-    let size: [f64; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
-    let count = table.count.get() as usize;
+    let region = Region::named(table)?;
+    let mut random = generator(seed, set);
+    match (table.count, table.solid_fraction) {
+        (Some(count), None) => scattered(&region, count.get() as usize, table.radius.0, &mut random),
+        (None, Some(fraction)) => dense(&region, fraction.get(), table.radius.0, &mut random),
+        _ => {
+            let (what, right) = ("not one amount".to_owned(), "one of count, solid_fraction is right".to_owned());
+            Err(("packing", Mistake::Senseless { what, right }))
+        }
+    }
+}
+
+/// So many spheres, each at the first random place where it finds room; the largest are placed first.
+fn scattered(
+    region: &Region,
+    count: usize,
+    [least, most]: [f64; 2],
+    random: &mut ChaCha8Rng,
+) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     if count > MOST {
         let (found, right) = (count.to_string(), format!("{MOST} at most"));
         return Err(("packing.count", Mistake::Wrong { found, right }));
     }
-    let mut random = generator(seed, set);
-    let [least, most] = table.radius.0;
-    let radii: Vec<f64> = (0..count).map(|_| least + (most - least) * uniform(&mut random)).collect();
+    let size = region.size();
+    let radii: Vec<f64> = (0..count).map(|_| least + (most - least) * uniform(random)).collect();
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|a, b| radii[*b].total_cmp(&radii[*a]));
     let mut spheres = vec![([0.0; 3], 0.0); count];
@@ -103,8 +120,8 @@ pub(in crate::scene) fn packing(
         if classes.last().is_none_or(|class| 2.0 * radius < class.largest) {
             classes.push(Class::new(radius, size, count));
         }
-        let Some(place) = room(radius, size, &classes, &mut random) else {
-            let fraction = volume / size.iter().product::<f64>();
+        let Some(place) = room(radius, region, &classes, random) else {
+            let fraction = volume / region.volume();
             return Err(("packing.count", Mistake::Full { reached, count, fraction }));
         };
         if let Some(class) = classes.last_mut() {
@@ -112,20 +129,20 @@ pub(in crate::scene) fn packing(
             class.cells[cell].push((place, radius));
         }
         volume += 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
-        spheres[index] = (std::array::from_fn(|axis| lower[axis] + place[axis]), radius);
+        spheres[index] = (region.in_scene(place), radius);
     }
     Ok(spheres)
 }
 
-/// A place, from the lower corner, where the sphere overlaps nobody.
-fn room(radius: f64, size: [f64; 3], classes: &[Class], random: &mut ChaCha8Rng) -> Option<[f64; 3]> {
-    let free = size.map(|length| length - 2.0 * radius);
+/// A place, in coordinates of the region, where the sphere overlaps nobody.
+fn room(radius: f64, region: &Region, classes: &[Class], random: &mut ChaCha8Rng) -> Option<[f64; 3]> {
+    let free = region.size().map(|length| length - 2.0 * radius);
     if free.iter().any(|length| *length < 0.0) {
         return None;
     }
     (0..TRIES)
         .map(|_| free.map(|length| radius + length * uniform(random)))
-        .find(|place| classes.iter().all(|class| class.has_room((*place, radius))))
+        .find(|place| region.holds(*place, radius) && classes.iter().all(|class| class.has_room((*place, radius))))
 }
 
 #[cfg(test)]
@@ -139,8 +156,10 @@ mod tests {
     fn cube(count: u32, radii: [f64; 2]) -> PackingTable {
         let [least, most] = radii.map(|radius| Positive::new(radius).unwrap().get());
         PackingTable {
-            corners: Corners([[-1.0; 3], [0.0; 3]]),
-            count: NonZeroU32::new(count).unwrap(),
+            corners: Some(Corners([[-1.0; 3], [0.0; 3]])),
+            cylinder: None,
+            count: NonZeroU32::new(count),
+            solid_fraction: None,
             radius: Radii([least, most]),
         }
     }
