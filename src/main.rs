@@ -71,6 +71,9 @@ struct RunArguments {
     /// Go on from a checkpoint: this one, or the last one in the folder of the results
     #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
+    /// Table of the driven boundaries' displacements: CSV with `time` and columns named as the unit's inputs
+    #[arg(long, value_name = "CSV")]
+    inputs: Option<PathBuf>,
 }
 
 /// `cograin settle`
@@ -211,8 +214,14 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
         Some(Some(path)) => Start::Checkpoint(path.clone()),
     };
     stop_at_interruption()?;
-    let order =
-        RunOrder { scene: &scene, scene_name: &source.name, folder: &arguments.output, start: &start, stop: &STOP };
+    let order = RunOrder {
+        scene: &scene,
+        scene_name: &source.name,
+        folder: &arguments.output,
+        start: &start,
+        inputs: arguments.inputs.as_deref(),
+        stop: &STOP,
+    };
     let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
     let result = output::run(order, &mut |progress: Progress| {
         if bar.is_hidden() {

@@ -96,6 +96,51 @@ pub enum ResumeError {
     },
 }
 
+/// Why a table of inputs is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum InputsError {
+    /// It cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        source: csv::Error,
+    },
+    /// A column is missing.
+    #[error("{}: has no column {right}", path.display())]
+    Column {
+        /// The file.
+        path: PathBuf,
+        /// What would be right.
+        right: String,
+    },
+    /// A field is no number.
+    #[error("{}, line {line}, {column}: {found:?} found; a finite number is right", path.display())]
+    Number {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The field.
+        found: String,
+    },
+    /// A time out of order.
+    #[error("{}, line {line}: time {time:?} found; {right} is right", path.display())]
+    Time {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The time \[s\].
+        time: f64,
+        /// What would be right.
+        right: &'static str,
+    },
+}
+
 /// Why the input was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum Refusal {
@@ -116,6 +161,9 @@ pub enum Refusal {
     /// The checkpoint does not fit.
     #[error(transparent)]
     Resume(#[from] ResumeError),
+    /// The table of inputs does not fit.
+    #[error(transparent)]
+    Inputs(#[from] InputsError),
 }
 
 /// Why a command failed.

@@ -21,6 +21,7 @@ mod error;
 mod files;
 mod folder;
 mod frames;
+mod inputs;
 mod momentum;
 mod remarks;
 mod run;
@@ -32,7 +33,7 @@ mod vtk;
 mod writer;
 
 pub use check::{Report, check};
-pub use error::{Failure, OutputError, Refusal, ResumeError};
+pub use error::{Failure, InputsError, OutputError, Refusal, ResumeError};
 pub use files::{read_checkpoint, write_checkpoint};
 pub use remarks::remarks;
 pub use run::{Progress, RunOrder, Start, run};

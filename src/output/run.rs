@@ -3,6 +3,7 @@
 use super::error::{Failure, OutputError, Refusal, ResumeError};
 use super::files::{Durability, read_checkpoint, write_whole};
 use super::folder::{Beginning, Folder, Job, Kept, Origin};
+use super::inputs::Inputs;
 use super::momentum;
 use super::schedule::{Due, Schedule};
 use super::summary::{Meter, Summary};
@@ -42,6 +43,8 @@ pub struct RunOrder<'a> {
     pub folder: &'a Path,
     /// Where it begins.
     pub start: &'a Start,
+    /// A table of the driven boundaries' displacements over time; without one they stay where they are.
+    pub inputs: Option<&'a Path>,
     /// Set from outside to stop at the next communication point.
     pub stop: &'a AtomicBool,
 }
@@ -76,6 +79,8 @@ struct Session<'a> {
     simulation: Simulation,
     /// Its variables.
     interface: Interface,
+    /// What the driven boundaries do.
+    inputs: Option<Inputs>,
     /// Who writes.
     writer: Writer,
     /// Communication point that was reached last \[s\].
@@ -94,7 +99,10 @@ impl<'a> Session<'a> {
     /// Refuses what cannot be run, before anything is written; then opens the folder.
     fn begin(order: RunOrder<'a>) -> Result<Self, Failure> {
         let scene_name = || order.scene_name.to_owned();
-        let end = order.scene.run.end.ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
+        let interface = Interface::of(order.scene);
+        let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
+        let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
+        let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
         let schedule = Schedule::new(&order.scene.output, end);
         let (simulation, time, origin) = match checkpoint(&order)? {
             Some((path, origin)) => {
@@ -109,7 +117,6 @@ impl<'a> Session<'a> {
                 (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
             }
         };
-        let interface = Interface::of(order.scene);
         let outputs = interface.outputs().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
         let state = simulation.state();
@@ -125,6 +132,7 @@ impl<'a> Session<'a> {
             end,
             simulation,
             interface,
+            inputs,
             writer,
             time,
             start: time,
@@ -146,6 +154,9 @@ impl<'a> Session<'a> {
         let tell = |time| Progress { start, time, end };
         watch(tell(self.time));
         while let Some(point) = self.schedule.after(self.time) {
+            if let Some(inputs) = &self.inputs {
+                inputs.set(&self.interface, &mut self.simulation, point.time);
+            }
             let advanced = self.meter.step(&mut self.simulation, point.interval);
             self.write_breaks()?;
             advanced?;
