@@ -45,7 +45,7 @@ fn scene(path: &str, threads: usize) -> Scene {
     let plane = |name: &str, point: [f64; 3], normal: [f64; 3]| Boundary {
         name: name.into(),
         shape: Shape::Plane { material: MaterialIndex(0), point, normal },
-        axes: [AxisMotion::Fixed; 3],
+        axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,
     };

@@ -130,7 +130,7 @@ impl Interface {
         let mut variables = Vec::new();
         for (index, boundary) in scene.boundaries.iter().enumerate() {
             let index = BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX));
-            variables.extend(of_boundary(scene, boundary, index).map(|meaning| meaning.variable(scene)));
+            variables.extend(of_boundary(scene, boundary, index).into_iter().map(|meaning| meaning.variable(scene)));
         }
         let mut whole = vec![Meaning::KineticEnergy];
         if scene.output.energy {
@@ -148,7 +148,7 @@ impl Interface {
     /// The same variables, with the start values of a scene that begins in this state.
     pub fn starting_in(mut self, state: &State) -> Self {
         for variable in &mut self.variables {
-            if let (Causality::Input, Meaning::Displacement(boundary, axis)) = (variable.causality, variable.meaning) {
+            if let (Causality::Input, Some((boundary, axis))) = (variable.causality, variable.meaning.axis()) {
                 variable.start = Some(state.boundaries[boundary.index()].target[axis]);
             }
         }
@@ -206,7 +206,7 @@ impl Interface {
     /// Sets an input; it takes effect in the next communication step.
     pub fn set(&self, simulation: &mut Simulation, index: usize, value: Value) -> Result<(), InterfaceError> {
         self.check(index, value.number())?;
-        if let Meaning::Displacement(boundary, axis) = self.variables[index].meaning {
+        if let Some((boundary, axis)) = self.variables[index].meaning.axis() {
             simulation.set_displacement(boundary, axis, value.number());
         }
         Ok(())
@@ -216,7 +216,7 @@ impl Interface {
     /// \[unit of the input/s\].
     pub fn set_rate(&self, simulation: &mut Simulation, index: usize, rate: f64) -> Result<(), InterfaceError> {
         self.check(index, rate)?;
-        if let Meaning::Displacement(boundary, axis) = self.variables[index].meaning {
+        if let Some((boundary, axis)) = self.variables[index].meaning.axis() {
             simulation.set_displacement_rate(boundary, axis, rate);
         }
         Ok(())
@@ -228,7 +228,7 @@ impl Interface {
         let before = simulation.state().clone();
         let mut starts = Vec::new();
         for (_, variable) in self.inputs() {
-            if let Meaning::Displacement(boundary, axis) = variable.meaning {
+            if let Some((boundary, axis)) = variable.meaning.axis() {
                 starts.push((boundary, axis, before.boundaries[boundary.index()].target[axis]));
             }
         }
@@ -237,20 +237,29 @@ impl Interface {
 }
 
 /// What the outside gives to and gets from one boundary, inputs first.
-fn of_boundary(scene: &Scene, boundary: &Boundary, index: BoundaryIndex) -> impl Iterator<Item = Meaning> {
-    let axes = move |chosen: fn(&AxisMotion) -> bool| {
-        (0..3).filter(move |&axis| chosen(&scene.boundaries[index.index()].axes[axis]))
+fn of_boundary(scene: &Scene, boundary: &Boundary, index: BoundaryIndex) -> Vec<Meaning> {
+    use AxisMotion::{Driven, Fixed, Free};
+    let axes = &scene.boundaries[index.index()].axes;
+    let place = |axis: usize| match axis {
+        0..3 => Meaning::Displacement(index, axis),
+        _ => Meaning::Rotation(index, axis - 3),
     };
-    let driven = axes(|motion| matches!(motion, AxisMotion::Driven));
-    let prescribed = axes(|motion| matches!(motion, AxisMotion::Prescribed(_)));
-    let loads = [Meaning::Force, Meaning::Moment, Meaning::MeanForce, Meaning::MeanMoment];
-    let mass = matches!(boundary.shape, Shape::Particles { .. }).then_some(Meaning::Mass(index));
-    driven
-        .chain(prescribed)
-        .map(move |axis| Meaning::Displacement(index, axis))
-        .chain(loads.into_iter().flat_map(move |load| (0..3).map(move |axis| load(index, axis))))
-        .chain([Meaning::Work(index)])
-        .chain(mass)
+    let rate = |axis: usize| match axis {
+        0..3 => Meaning::Velocity(index, axis),
+        _ => Meaning::AngularVelocity(index, axis - 3),
+    };
+    let of = |chosen: fn(&AxisMotion) -> bool| (0..6).filter(move |&axis| chosen(&axes[axis]));
+    let mut list: Vec<Meaning> = of(|motion| *motion == Driven).map(place).collect();
+    list.extend(of(|motion| !matches!(motion, Driven | Fixed)).map(place));
+    list.extend(of(|motion| *motion == Free).map(rate));
+    for load in [Meaning::Force, Meaning::Moment, Meaning::MeanForce, Meaning::MeanMoment] {
+        list.extend((0..3).map(|axis| load(index, axis)));
+    }
+    list.push(Meaning::Work(index));
+    if matches!(boundary.shape, Shape::Particles { .. }) {
+        list.push(Meaning::Mass(index));
+    }
+    list
 }
 
 #[cfg(test)]

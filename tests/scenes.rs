@@ -112,11 +112,12 @@ fn particles_without_a_number_are_numbered_above_those_with_one() {
 fn boundaries_move_along_the_axes_named() {
     let scene = good("everything.toml");
     let (floor, grip) = (&scene.boundaries[0], &scene.boundaries[1]);
-    assert_eq!(floor.axes, [AxisMotion::Prescribed(0.1), AxisMotion::Fixed, AxisMotion::Driven]);
+    use AxisMotion::{Driven, Fixed, Prescribed};
+    assert_eq!(floor.axes, [Prescribed(0.1), Fixed, Driven, Fixed, Fixed, Fixed]);
     assert_eq!(floor.input, InputCourse::Smooth);
     assert!(matches!(floor.shape, Shape::Plane { normal: [0.0, 0.0, 1.0], .. }));
     assert_eq!(grip.shape, Shape::Particles { members: vec![3, 4] });
-    assert_eq!(grip.axes, [AxisMotion::Fixed; 3]);
+    assert_eq!(grip.axes, [Fixed; 6]);
     assert_eq!(grip.reference, [0.0, 0.109, 0.02]);
 }
 

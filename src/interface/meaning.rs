@@ -13,6 +13,12 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) enum Meaning {
     /// Displacement of a boundary along an axis \[m\].
     Displacement(BoundaryIndex, usize),
+    /// Rotation of a boundary about an axis \[rad\].
+    Rotation(BoundaryIndex, usize),
+    /// Velocity of a boundary along an axis \[m/s\].
+    Velocity(BoundaryIndex, usize),
+    /// Angular velocity of a boundary about an axis \[rad/s\].
+    AngularVelocity(BoundaryIndex, usize),
     /// Force on a boundary along an axis \[N\].
     Force(BoundaryIndex, usize),
     /// Moment on a boundary about an axis \[N m\].
@@ -49,10 +55,12 @@ impl Meaning {
         let state = simulation.state();
         let of = |boundary: BoundaryIndex| &state.boundaries[boundary.index()];
         Value::Real(match self {
-            Self::Displacement(boundary, axis) => match simulation.scene().boundaries[boundary.index()].axes[axis] {
-                AxisMotion::Driven => of(boundary).target[axis],
-                AxisMotion::Fixed | AxisMotion::Prescribed(_) => of(boundary).displacement[axis],
-            },
+            Self::Displacement(boundary, axis) if self.is_input(simulation.scene()) => of(boundary).target[axis],
+            Self::Rotation(boundary, axis) if self.is_input(simulation.scene()) => of(boundary).target[3 + axis],
+            Self::Displacement(boundary, axis) => of(boundary).displacement[axis],
+            Self::Rotation(boundary, axis) => of(boundary).rotation[axis],
+            Self::Velocity(boundary, axis) => of(boundary).velocity[axis],
+            Self::AngularVelocity(boundary, axis) => of(boundary).angular_velocity[axis],
             Self::Force(boundary, axis) => of(boundary).force[axis],
             Self::Moment(boundary, axis) => of(boundary).moment[axis],
             Self::MeanForce(boundary, axis) => of(boundary).mean_force[axis],
@@ -73,8 +81,7 @@ impl Meaning {
 
     /// The variable that shows it.
     pub(super) fn variable(self, scene: &Scene) -> Variable {
-        let is_input = matches!(self, Self::Displacement(boundary, axis)
-            if scene.boundaries[boundary.index()].axes[axis] == AxisMotion::Driven);
+        let is_input = self.is_input(scene);
         let start = match self {
             _ if is_input => Some(0.0),
             Self::Mass(boundary) => Some(mass(scene, boundary)),
@@ -89,7 +96,14 @@ impl Meaning {
         };
         let starts_at_rest = matches!(
             self,
-            Self::Displacement(..) | Self::Work(_) | Self::Mass(_) | Self::KineticEnergy | Self::EnergyResidual
+            Self::Displacement(..)
+                | Self::Rotation(..)
+                | Self::Velocity(..)
+                | Self::AngularVelocity(..)
+                | Self::Work(_)
+                | Self::Mass(_)
+                | Self::KineticEnergy
+                | Self::EnergyResidual
         );
         Variable {
             name: self.name(scene),
@@ -104,10 +118,27 @@ impl Meaning {
         }
     }
 
+    /// The axis (0 to 5) whose place it is.
+    pub(super) fn axis(self) -> Option<(BoundaryIndex, usize)> {
+        match self {
+            Self::Displacement(boundary, axis) => Some((boundary, axis)),
+            Self::Rotation(boundary, axis) => Some((boundary, 3 + axis)),
+            _ => None,
+        }
+    }
+
+    /// Whether the outside gives it.
+    fn is_input(self, scene: &Scene) -> bool {
+        self.axis().is_some_and(|(boundary, axis)| scene.boundaries[boundary.index()].axes[axis] == AxisMotion::Driven)
+    }
+
     /// What it measures.
     fn quantity(self) -> Quantity {
         match self {
             Self::Displacement(..) => Quantity::Length,
+            Self::Rotation(..) => Quantity::Angle,
+            Self::Velocity(..) => Quantity::Velocity,
+            Self::AngularVelocity(..) => Quantity::AngularVelocity,
             Self::Force(..) | Self::MeanForce(..) => Quantity::Force,
             Self::Moment(..) | Self::MeanMoment(..) => Quantity::Torque,
             Self::Work(_) | Self::KineticEnergy | Self::EnergyResidual => Quantity::Energy,
@@ -138,6 +169,9 @@ impl Meaning {
         let of = |boundary: BoundaryIndex| &scene.boundaries[boundary.index()].name;
         match self {
             Self::Displacement(boundary, axis) => format!("{}.displacement.{}", of(boundary), AXES[axis]),
+            Self::Rotation(boundary, axis) => format!("{}.rotation.{}", of(boundary), AXES[axis]),
+            Self::Velocity(boundary, axis) => format!("{}.velocity.{}", of(boundary), AXES[axis]),
+            Self::AngularVelocity(boundary, axis) => format!("{}.angular_velocity.{}", of(boundary), AXES[axis]),
             Self::Force(boundary, axis) => format!("{}.force.{}", of(boundary), AXES[axis]),
             Self::Moment(boundary, axis) => format!("{}.moment.{}", of(boundary), AXES[axis]),
             Self::MeanForce(boundary, axis) => format!("{}.mean_force.{}", of(boundary), AXES[axis]),
@@ -159,17 +193,28 @@ impl Meaning {
     fn description(self, scene: &Scene) -> String {
         let of = |boundary: BoundaryIndex| &scene.boundaries[boundary.index()];
         match self {
-            Self::Displacement(boundary, axis) => match of(boundary).axes[axis] {
-                AxisMotion::Driven => format!(
-                    "displacement of {} along {} since the scene's time 0, to be reached at the end of the \
-                     communication step; at initialisation taken without motion",
-                    of(boundary).name,
-                    AXES[axis]
-                ),
-                AxisMotion::Fixed | AxisMotion::Prescribed(_) => {
-                    format!("displacement of {} along {} since the scene's time 0", of(boundary).name, AXES[axis])
-                }
-            },
+            Self::Displacement(boundary, axis) if self.is_input(scene) => format!(
+                "displacement of {} along {} since the scene's time 0, to be reached at the end of the \
+                 communication step; at initialisation taken without motion",
+                of(boundary).name,
+                AXES[axis]
+            ),
+            Self::Displacement(boundary, axis) => {
+                format!("displacement of {} along {} since the scene's time 0", of(boundary).name, AXES[axis])
+            }
+            Self::Rotation(boundary, axis) if self.is_input(scene) => format!(
+                "rotation of {} about {} since the scene's time 0, to be reached at the end of the communication \
+                 step; at initialisation taken without motion",
+                of(boundary).name,
+                AXES[axis]
+            ),
+            Self::Rotation(boundary, axis) => {
+                format!("rotation of {} about {} since the scene's time 0", of(boundary).name, AXES[axis])
+            }
+            Self::Velocity(boundary, axis) => format!("velocity of {} along {}", of(boundary).name, AXES[axis]),
+            Self::AngularVelocity(boundary, axis) => {
+                format!("angular velocity of {} about {}", of(boundary).name, AXES[axis])
+            }
             Self::Force(boundary, axis) => {
                 format!("force of the particles on {} along {}", of(boundary).name, AXES[axis])
             }
@@ -194,7 +239,7 @@ impl Meaning {
             Self::Mass(boundary) => {
                 format!("mass of the particles of {}; their weight and inertia are not in its force", of(boundary).name)
             }
-            Self::KineticEnergy => "kinetic energy of the particles that move freely".to_owned(),
+            Self::KineticEnergy => "kinetic energy of the particles and groups that move freely".to_owned(),
             Self::EnergyResidual => {
                 "change of the kinetic energy less the work of every force, as the time steps do it".to_owned()
             }

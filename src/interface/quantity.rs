@@ -5,6 +5,12 @@
 pub enum Quantity {
     /// \[m\]
     Length,
+    /// \[m/s\]
+    Velocity,
+    /// \[rad\]
+    Angle,
+    /// \[rad/s\]
+    AngularVelocity,
     /// \[N\]
     Force,
     /// Moment of forces \[N m\]
@@ -30,6 +36,8 @@ pub struct BaseUnits {
     pub metre: i32,
     /// Of the second.
     pub second: i32,
+    /// Of the radian.
+    pub radian: i32,
 }
 
 impl Quantity {
@@ -37,6 +45,9 @@ impl Quantity {
     pub fn name(self) -> &'static str {
         match self {
             Self::Length => "Length",
+            Self::Velocity => "Velocity",
+            Self::Angle => "Angle",
+            Self::AngularVelocity => "AngularVelocity",
             Self::Force => "Force",
             Self::Torque => "Torque",
             Self::Energy => "Energy",
@@ -51,6 +62,9 @@ impl Quantity {
     pub fn unit(self) -> Option<&'static str> {
         match self {
             Self::Length => Some("m"),
+            Self::Velocity => Some("m/s"),
+            Self::Angle => Some("rad"),
+            Self::AngularVelocity => Some("rad/s"),
             Self::Force => Some("N"),
             Self::Torque => Some("N.m"),
             Self::Energy => Some("J"),
@@ -63,14 +77,17 @@ impl Quantity {
 
     /// Its unit in SI base units.
     pub fn base_units(self) -> BaseUnits {
-        let (kilogram, metre, second) = match self {
-            Self::Length => (0, 1, 0),
-            Self::Force => (1, 1, -2),
-            Self::Torque | Self::Energy => (1, 2, -2),
-            Self::Mass => (1, 0, 0),
-            Self::Time => (0, 0, 1),
-            Self::Ratio | Self::Count => (0, 0, 0),
+        let (kilogram, metre, second, radian) = match self {
+            Self::Length => (0, 1, 0, 0),
+            Self::Velocity => (0, 1, -1, 0),
+            Self::Angle => (0, 0, 0, 1),
+            Self::AngularVelocity => (0, 0, -1, 1),
+            Self::Force => (1, 1, -2, 0),
+            Self::Torque | Self::Energy => (1, 2, -2, 0),
+            Self::Mass => (1, 0, 0, 0),
+            Self::Time => (0, 0, 1, 0),
+            Self::Ratio | Self::Count => (0, 0, 0, 0),
         };
-        BaseUnits { kilogram, metre, second }
+        BaseUnits { kilogram, metre, second, radian }
     }
 }

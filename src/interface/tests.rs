@@ -29,9 +29,9 @@ fn scene() -> Scene {
     Scene {
         particles: vec![sphere],
         boundaries: vec![
-            boundary("floor", &plane, [Fixed, Fixed, Driven]),
-            boundary("lid", &plane, [Prescribed(0.1), Fixed, Fixed]),
-            boundary("grip", &Shape::Particles { members: vec![0] }, [Fixed; 3]),
+            boundary("floor", &plane, [Fixed, Fixed, Driven, Fixed, Fixed, Fixed]),
+            boundary("lid", &plane, [Prescribed(0.1), Fixed, Fixed, Fixed, Fixed, Fixed]),
+            boundary("grip", &Shape::Particles { members: vec![0] }, [Fixed; 6]),
         ],
         ..Scene::default()
     }
@@ -97,7 +97,7 @@ fn names_are_unique_and_every_variable_is_described() {
 fn a_start_from_a_state_takes_its_displacements() {
     let scene = scene();
     let mut state = Simulation::new(std::sync::Arc::new(scene.clone())).unwrap().state().clone();
-    state.boundaries[0] = BoundaryState { target: [0.0, 0.0, 2.5e-3], ..state.boundaries[0] };
+    state.boundaries[0] = BoundaryState { target: [0.0, 0.0, 2.5e-3, 0.0, 0.0, 0.0], ..state.boundaries[0] };
     let interface = Interface::of(&scene).starting_in(&state);
     let index = interface.find("floor.displacement.z").expect("the floor is driven");
     assert_eq!(interface.variables()[index].start, Some(2.5e-3));

@@ -109,11 +109,14 @@ fn boundary(boundary: &Boundary) -> String {
         Shape::Plane { .. } => "plane".to_owned(),
         Shape::Particles { members } => format!("group of {} particles", members.len()),
     };
-    let axes: Vec<_> = (["x", "y", "z"].iter().zip(&boundary.axes))
-        .filter_map(|(axis, motion)| match motion {
+    let axes: Vec<_> = (AxisMotion::WORDS.iter().zip(&boundary.axes).zip(0..))
+        .filter_map(|((axis, motion), index)| match motion {
             AxisMotion::Fixed => None,
             AxisMotion::Driven => Some(format!("{axis} driven")),
-            AxisMotion::Prescribed(velocity) => Some(format!("{axis} at {velocity} m/s")),
+            AxisMotion::Prescribed(velocity) => {
+                Some(format!("{axis} at {velocity} {}", if index < 3 { "m/s" } else { "rad/s" }))
+            }
+            AxisMotion::Free => Some(format!("{axis} free")),
         })
         .collect();
     let motion = if axes.is_empty() { "fixed".to_owned() } else { axes.join(", ") };

@@ -1,6 +1,6 @@
-//! The momentum balance of the particles that move freely.
+//! The momentum balance of the particles and groups that move freely.
 
-use crate::scene::Scene;
+use crate::scene::{AxisMotion, Scene};
 use crate::state::State;
 use crate::step::Simulation;
 use serde::Serialize;
@@ -8,9 +8,9 @@ use serde::Serialize;
 /// Momentum and the impulses that make it, at one time.
 #[derive(Clone, Copy, Debug)]
 struct Account {
-    /// Momentum of the free particles \[kg m/s\].
+    /// Momentum of the free particles, and of groups along their free axes \[kg m/s\].
     momentum: [f64; 3],
-    /// Impulse of the boundaries on them since time 0 \[N s\].
+    /// Impulse on them since time 0 of the boundaries, along axes that are not free \[N s\].
     boundaries: [f64; 3],
     /// Impulse of global damping since time 0 \[N s\].
     damping: [f64; 3],
@@ -21,7 +21,7 @@ struct Account {
 /// Change of momentum and the impulses that should make it \[N s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumBalance {
-    /// Change of momentum of the particles that move freely \[N s\].
+    /// Change of momentum of the particles and groups that move freely \[N s\].
     pub change: [f64; 3],
     /// Impulse of gravity \[N s\].
     pub gravity: [f64; 3],
@@ -42,12 +42,12 @@ pub(super) struct Start(Account);
 impl Start {
     /// The account at the present time.
     pub(super) fn of(simulation: &Simulation) -> Self {
-        Self(account(simulation.state()))
+        Self(account(simulation.scene(), simulation.state()))
     }
 
     /// The balance from then to the present time.
     pub(super) fn balance(&self, simulation: &Simulation) -> MomentumBalance {
-        let (start, end) = (self.0, account(simulation.state()));
+        let (start, end) = (self.0, account(simulation.scene(), simulation.state()));
         let less = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
         let (weight, applied) = constant_forces(simulation.scene(), simulation.state());
         let duration = end.time - start.time;
@@ -69,12 +69,18 @@ impl Start {
 }
 
 /// Momentum and impulses in a state.
-fn account(state: &State) -> Account {
+fn account(scene: &Scene, state: &State) -> Account {
     let mut momentum = [0.0; 3];
     let particles = &state.particles;
-    for (velocity, _) in particles.velocity.iter().zip(&particles.owner).filter(|(_, owner)| **owner == 0) {
-        for axis in 0..3 {
-            momentum[axis] += velocity[3] * velocity[axis];
+    for (slot, velocity) in particles.velocity.iter().enumerate() {
+        let free = free_axes(scene, particles.owner[slot]);
+        // The spheres of a group that turns have further velocities, whose momenta cancel.
+        let along = match (particles.owner[slot] as usize).checked_sub(1) {
+            None => [velocity[0], velocity[1], velocity[2]],
+            Some(group) => state.boundaries[group].velocity,
+        };
+        for axis in (0..3).filter(|&axis| free[axis]) {
+            momentum[axis] += velocity[3] * along[axis];
         }
     }
     let mut boundaries = [0.0; 3];
@@ -86,17 +92,31 @@ fn account(state: &State) -> Account {
     Account { momentum, boundaries, damping: state.damping_impulse, time: state.clock.time }
 }
 
-/// Weight of the free particles and the constant forces on them \[N\].
+/// Along which axes forces move a particle with this owner.
+fn free_axes(scene: &Scene, owner: u32) -> [bool; 3] {
+    match (owner as usize).checked_sub(1) {
+        None => [true; 3],
+        Some(group) => [0, 1, 2].map(|axis| scene.boundaries[group].axes[axis] == AxisMotion::Free),
+    }
+}
+
+/// Weight of what moves freely and the constant forces on it \[N\].
 fn constant_forces(scene: &Scene, state: &State) -> ([f64; 3], [f64; 3]) {
     let particles = &state.particles;
-    let owned = |slot: usize| particles.owner[slot] != 0;
-    let mass: f64 = (0..particles.len()).filter(|&slot| !owned(slot)).map(|slot| particles.velocity[slot][3]).sum();
-    let mut applied = [0.0; 3];
-    for force in &scene.forces {
-        let count = force.members.iter().filter(|&&member| !owned(particles.slot[member as usize] as usize)).count();
-        for axis in 0..3 {
-            applied[axis] += count as f64 * force.force[axis];
+    let (mut weight, mut applied) = ([0.0; 3], [0.0; 3]);
+    for (slot, velocity) in particles.velocity.iter().enumerate() {
+        let free = free_axes(scene, particles.owner[slot]);
+        for axis in (0..3).filter(|&axis| free[axis]) {
+            weight[axis] += velocity[3] * scene.gravity[axis];
         }
     }
-    (scene.gravity.map(|gravity| gravity * mass), applied)
+    for force in &scene.forces {
+        for &member in &force.members {
+            let free = free_axes(scene, particles.owner[particles.slot[member as usize] as usize]);
+            for axis in (0..3).filter(|&axis| free[axis]) {
+                applied[axis] += force.force[axis];
+            }
+        }
+    }
+    (weight, applied)
 }

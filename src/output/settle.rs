@@ -2,7 +2,7 @@
 
 use super::error::{Failure, Refusal};
 use super::files::write_checkpoint;
-use crate::scene::{AxisMotion, Scene};
+use crate::scene::{AxisMotion, Boundary, Scene};
 use crate::step::Simulation;
 use std::collections::VecDeque;
 use std::path::Path;
@@ -61,7 +61,7 @@ pub struct Settled {
     pub wall_time: f64,
 }
 
-/// Runs a scene with damping, its boundaries standing still, until the unbalanced force is below the scene's
+/// Runs a scene with damping, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
 /// tolerance; then writes the state as one at time 0, contact histories kept, velocities as they are.
 pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> Result<Settled, Failure> {
     let begun = Instant::now();
@@ -116,15 +116,19 @@ fn come_to_rest(
 
 /// Unbalanced force over the mean contact force; 0 where nothing moves by the forces on it.
 fn unbalanced_force(simulation: &Simulation) -> f64 {
-    let nothing_moves = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
+    let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
+    let free = |boundary: &Boundary| boundary.axes.contains(&AxisMotion::Free);
+    let nothing_moves = held && !simulation.scene().boundaries.iter().any(free);
     if nothing_moves { 0.0 } else { simulation.unbalanced_force() }
 }
 
-/// The scene with boundaries that stand still, and without books to keep.
+/// The scene with boundaries that stand still but for their free axes, and without books to keep.
 fn standing_still(scene: &Scene) -> Arc<Scene> {
     let mut still = scene.clone();
     for boundary in &mut still.boundaries {
-        boundary.axes = [AxisMotion::Fixed; 3];
+        for axis in boundary.axes.iter_mut().filter(|axis| **axis != AxisMotion::Free) {
+            *axis = AxisMotion::Fixed;
+        }
     }
     still.output.energy = false;
     Arc::new(still)

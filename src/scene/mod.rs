@@ -197,8 +197,8 @@ pub struct Boundary {
     pub name: String,
     /// What it is.
     pub shape: Shape,
-    /// How it moves along x, y, z.
-    pub axes: [AxisMotion; 3],
+    /// How it moves along x, y, z, and turns about them.
+    pub axes: [AxisMotion; 6],
     /// How a driven axis goes from where it stands to its new value.
     pub input: InputCourse,
     /// The point about which its moment is taken, at time 0 \[m\].
@@ -229,10 +229,17 @@ pub enum Shape {
 pub enum AxisMotion {
     /// Stays.
     Fixed,
-    /// Follows the input `<boundary>.displacement.<axis>`.
+    /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
     Driven,
-    /// Moves at this constant velocity \[m/s\].
+    /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
     Prescribed(f64),
+    /// Moves by the forces on it.
+    Free,
+}
+
+impl AxisMotion {
+    /// The axes of a boundary in their order, as scenes and variables name them.
+    pub const WORDS: [&str; 6] = ["x", "y", "z", "rotation.x", "rotation.y", "rotation.z"];
 }
 
 /// How a driven axis moves inside a communication step.

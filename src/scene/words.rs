@@ -17,7 +17,7 @@ const ABSENT: [(&[&str], &str, &str); 7] = [
         "spheres are",
     ),
     (&["cylinder", "mesh", "nodes"], "boundaries of this shape", "plane and particles are"),
-    (&["servo", "loaded", "free"], "boundaries moved by forces", "fixed, driven and prescribed axes are"),
+    (&["servo", "loaded"], "boundaries that follow a given force", "fixed, driven, prescribed and free axes are"),
     (&["rotation", "angular_velocities"], "rotating boundaries", "driven and prescribed translations are"),
     (&["region", "regions"], "averaging regions", "outputs of boundaries are"),
 ];

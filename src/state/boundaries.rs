@@ -1,5 +1,6 @@
 //! Where the boundaries stand and what they feel.
 
+use super::Row;
 use serde::{Deserialize, Serialize};
 
 /// Motion and loads of one boundary. Force and moment are those *of the particles on the boundary*.
@@ -7,14 +8,28 @@ use serde::{Deserialize, Serialize};
 pub struct BoundaryState {
     /// Displacement since time 0 \[m\].
     pub displacement: [f64; 3],
-    /// Velocity in the present time step \[m/s\].
+    /// Velocity in the present time step, of free axes at the present time \[m/s\].
     pub velocity: [f64; 3],
-    /// Where the present communication step began \[m\].
-    pub start: [f64; 3],
-    /// Where it is to end \[m\]: the last value given.
-    pub target: [f64; 3],
-    /// Rate of the input at the start of the communication step \[m/s\]; 0 where none was given.
-    pub target_rate: [f64; 3],
+    /// Rotation vector since time 0, in global axes \[rad\].
+    pub rotation: [f64; 3],
+    /// Angular velocity in the present time step, of free axes at the present time \[rad/s\].
+    pub angular_velocity: [f64; 3],
+    /// Attitude that the rotation vector stands for.
+    pub attitude: Attitude,
+    /// The reference point where it stands now \[m\].
+    pub pivot: [f64; 3],
+    /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\].
+    pub start: [f64; 6],
+    /// Where it is to end, in the same order: the last values given.
+    pub target: [f64; 6],
+    /// Rates of the inputs at the start of the communication step; 0 where none was given.
+    pub target_rate: [f64; 6],
+    /// Attitude when the present communication step began.
+    pub start_attitude: Attitude,
+    /// Rotation vector from there to its end \[rad\].
+    pub turn: [f64; 3],
+    /// What free axes need.
+    pub inertial: Inertial,
     /// Force at the present time \[N\].
     pub force: [f64; 3],
     /// Moment about the moved reference point at the present time \[N m\].
@@ -27,8 +42,38 @@ pub struct BoundaryState {
     pub mean_force: [f64; 3],
     /// Mean moment over the last communication step \[N m\].
     pub mean_moment: [f64; 3],
-    /// Impulse since time 0, for the momentum balance \[N s\].
+    /// Impulse since time 0 along axes that are not free, for the momentum balance \[N s\].
     pub total_impulse: [f64; 3],
-    /// Work done by the boundary on the particles since time 0 \[J\].
+    /// Work done by the boundary on the particles since time 0 \[J\]. Free axes do none.
     pub work: f64,
+}
+
+/// What moves the free axes of a boundary, and what it gave them. Zero where none is free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Inertial {
+    /// Angular momentum about the reference point \[kg m²/s\].
+    pub angular_momentum: [f64; 3],
+    /// Force on the body: of the particles, weight, applied forces and damping \[N\].
+    pub load: [f64; 3],
+    /// Moment of all these about the moved reference point \[N m\].
+    pub couple: [f64; 3],
+    /// The part of the force that is global damping \[N\].
+    pub braking_force: [f64; 3],
+    /// The part of the moment that is global damping \[N m\].
+    pub braking_moment: [f64; 3],
+    /// What the last half kick added to the velocity \[m/s\].
+    pub kick: [f64; 3],
+    /// What the last half kick added to the angular velocity \[rad/s\].
+    pub spin_kick: [f64; 3],
+}
+
+/// A unit quaternion: scalar, x, y, z.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attitude(pub Row);
+
+impl Default for Attitude {
+    /// As at time 0.
+    fn default() -> Self {
+        Self([1.0, 0.0, 0.0, 0.0])
+    }
 }

@@ -12,7 +12,7 @@ pub mod particles;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};
-pub use boundaries::BoundaryState;
+pub use boundaries::{Attitude, BoundaryState};
 pub use clock::Clock;
 pub use contacts::{ContactList, Neighbours, WallContacts};
 pub use ledger::Ledger;

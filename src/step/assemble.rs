@@ -1,5 +1,6 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
+use super::bodies::{Body, sphere_inertia};
 use super::bonds::BondPass;
 use super::contacts::ContactPass;
 use super::pass::Pass;
@@ -9,7 +10,7 @@ use super::walls::{Plane, WallPass};
 use crate::bond::{BondLaw, keys};
 use crate::contact::{Law, TakeLaw};
 use crate::number::Vector;
-use crate::scene::{AxisMotion, Scene, Shape};
+use crate::scene::{AxisMotion, Boundary, Scene, Shape};
 use crate::state::{BondList, BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
 use std::marker::PhantomData;
 
@@ -28,7 +29,7 @@ pub(super) fn state(scene: &Scene) -> State {
         walls: wall_lists(scene),
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
-        boundaries: scene.boundaries.iter().map(boundary).collect(),
+        boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),
         ledger: scene.output.energy.then(Ledger::default),
         damping_force: [0.0; 3],
         damping_impulse: [0.0; 3],
@@ -47,7 +48,7 @@ fn particles(scene: &Scene) -> Particles {
         let (radius, mass) = (particle.radius, particle.mass());
         particles.position.push([x, y, z, radius]);
         particles.velocity.push([u, v, w, mass]);
-        particles.angular_velocity.push([a, b, c, 0.4 * mass * radius * radius]);
+        particles.angular_velocity.push([a, b, c, sphere_inertia(mass, radius)]);
         particles.material.push(particle.material.0);
         particles.id.push(index as u32);
         particles.slot.push(index as u32);
@@ -67,12 +68,22 @@ fn particles(scene: &Scene) -> Particles {
 }
 
 /// A boundary at time 0.
-fn boundary(boundary: &crate::scene::Boundary) -> BoundaryState {
-    let velocity = boundary.axes.map(|axis| match axis {
+fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
+    let prescribed = boundary.axes.map(|axis| match axis {
         AxisMotion::Prescribed(velocity) => velocity,
-        AxisMotion::Fixed | AxisMotion::Driven => 0.0,
+        AxisMotion::Fixed | AxisMotion::Driven | AxisMotion::Free => 0.0,
     });
-    BoundaryState { velocity, ..BoundaryState::default() }
+    let [x, y, z, about_x, about_y, about_z] = prescribed;
+    let mut moved = BoundaryState {
+        velocity: [x, y, z],
+        angular_velocity: [about_x, about_y, about_z],
+        pivot: boundary.reference,
+        ..BoundaryState::default()
+    };
+    if let Some(body) = Body::of(scene, boundary) {
+        body.begin(scene, boundary, &mut moved);
+    }
+    moved
 }
 
 /// Planes and contact laws that can meet: boundary and law.

@@ -118,7 +118,7 @@ impl<L: Law> Pass for ContactPass<L> {
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         let list = &state.contacts[self.index];
-        let before = |slot: u32| observe::half_step_back(&state.particles, slot as usize, step);
+        let before = |slot: u32| observe::half_step_back(state, slot as usize, step);
         for pair in (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0) {
             let (i, j) = (list.first[pair], list.second[pair]);
             let ((v, w), (u, z)) = (before(i), before(j));

@@ -1,12 +1,20 @@
 //! Kinetic energy, and the algorithmic energy book for the scenes that ask for it.
 
+use super::bodies::Body;
 use super::fields::Fields;
 use super::pass::{CHUNK, Context};
+use crate::number::Vector;
 use crate::state::ledger::{Loads, Source};
-use crate::state::{Particles, Row, State};
+use crate::state::{BoundaryState, Particles, Row, State};
+
+/// Kinetic energy of the particles and groups that move by the forces on them \[J\].
+pub(super) fn kinetic(state: &State, bodies: &[Option<Body>], context: &Context) -> f64 {
+    let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some(body.as_ref()?.kinetic(moved)));
+    groups.fold(of_particles(&state.particles, context), |sum, group| sum + group)
+}
 
 /// Kinetic energy of the particles that move by the forces on them \[J\].
-pub(super) fn kinetic(particles: &Particles, context: &Context) -> f64 {
+fn of_particles(particles: &Particles, context: &Context) -> f64 {
     let count = particles.len();
     let sums = context.collect(count.div_ceil(CHUNK), |piece| {
         let mut sum = 0.0;
@@ -55,7 +63,7 @@ pub(super) fn settle_damping(state: &mut State, fields: &Fields) {
 }
 
 /// Books the half kick that is about to be made with the present loads.
-pub(super) fn book(state: &mut State, fields: &Fields, step: f64, context: &Context) {
+pub(super) fn book(state: &mut State, fields: &Fields, bodies: &[Option<Body>], step: f64, context: &Context) {
     let Some(ledger) = &mut state.ledger else { return };
     let particles = &state.particles;
     let count = particles.len();
@@ -78,12 +86,45 @@ pub(super) fn book(state: &mut State, fields: &Fields, step: f64, context: &Cont
         }
         sum
     });
-    for sum in sums {
+    let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
+        let body = body.as_ref().filter(|body| body.is_free())?;
+        Some(of_group(body, moved, particles, loads, fields, step))
+    });
+    for sum in sums.into_iter().chain(groups.collect::<Vec<_>>()) {
         for (work, part) in ledger.work.iter_mut().zip(sum) {
             *work += part;
             ledger.turnover += part.abs();
         }
     }
+}
+
+/// Work of each kind of force on the free axes of a group in the half kick that is about to be made \[J\].
+fn of_group(
+    body: &Body,
+    moved: &BoundaryState,
+    particles: &Particles,
+    loads: &[Loads],
+    fields: &Fields,
+    step: f64,
+) -> [f64; 6] {
+    let [drift, turn] = body.mean_motion(moved, step);
+    let power = |force: Vector, moment: Vector| 0.5 * step * (force.dot(drift) + moment.dot(turn));
+    let mut sum = [0.0; 6];
+    // Damping acts on the group as a whole.
+    for (sum, loads) in sum.iter_mut().zip(loads).take(Source::Damping as usize) {
+        for &member in &body.members {
+            let slot = particles.slot[member as usize] as usize;
+            if let (Some(&force), Some(&torque)) = (loads.force.get(slot), loads.torque.get(slot)) {
+                let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+                *sum += power(force.into(), arm.cross(force.into()) + torque.into());
+            }
+        }
+    }
+    let [weight, applied] = fields.on_body(body, moved, particles);
+    sum[Source::Damping as usize] = power(moved.inertial.braking_force.into(), moved.inertial.braking_moment.into());
+    sum[Source::Gravity as usize] = power(weight[0], weight[1]);
+    sum[Source::Applied as usize] = power(applied[0], applied[1]);
+    sum
 }
 
 /// Mean of the velocity before and after half a kick.

@@ -83,6 +83,18 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// Half a turn or more about several axes at once.
+    #[error(
+        "boundary {boundary} would turn {angle:.4} rad about several axes in one communication step at t = {time} s; less than half a turn (pi) is right"
+    )]
+    Turn {
+        /// The boundary.
+        boundary: String,
+        /// The turn \[rad\].
+        angle: f64,
+        /// Time \[s\].
+        time: f64,
+    },
     /// An interval that is no interval.
     #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
     Interval {

@@ -1,10 +1,16 @@
 //! Gravity, applied forces and Cundall's global damping.
 
+use super::bodies::Body;
 use super::integrate::Rows;
 use super::lanes::Shared;
 use super::pass::{CHUNK, Context};
+use super::rotation::kept;
+use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::{Row, State};
+use crate::state::{BoundaryState, Particles, Row, State};
+
+/// Force \[N\] and moment about the reference point of a group \[N m\].
+pub(super) type Load = [Vector; 2];
 
 /// What acts on each particle by itself.
 pub(super) struct Fields {
@@ -111,6 +117,49 @@ impl Fields {
         sums.into_iter().fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
     }
 
+    /// Puts the whole load on each group that forces move: that of the particles, weight, applied forces and damping.
+    /// Returns the sum of the damping forces \[N\].
+    pub(super) fn load_bodies(&self, bodies: &[Option<Body>], state: &mut State) -> [f64; 3] {
+        let mut sum = Vector::zero();
+        for (index, body) in bodies.iter().enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+            let [weight, applied] = self.on_body(body, &state.boundaries[index], &state.particles);
+            // The spheres of a group are damped alike.
+            let damped = self.damping.get(body.members[0] as usize).copied().unwrap_or_default();
+            let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
+            let moved = &mut state.boundaries[index];
+            let before: Load = [0, 1].map(|k| {
+                let particles = if k == 0 { moved.force } else { moved.moment };
+                Vector::from(particles) + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
+            });
+            let braking = [
+                body.along_free(brakes(damped.linear, before[0], moved.velocity)),
+                body.about_free(brakes(damped.angular, before[1], moved.angular_velocity)),
+            ];
+            let load: Load = [0, 1]
+                .map(|k| before[k] + braking[k] + part(!damped.gravity, weight)[k] + part(!damped.applied, applied)[k]);
+            sum += braking[0];
+            let inertial = &mut moved.inertial;
+            [inertial.load, inertial.couple] = load.map(Vector::to_array);
+            [inertial.braking_force, inertial.braking_moment] = braking.map(Vector::to_array);
+        }
+        sum.to_array()
+    }
+
+    /// Weight of a group and the forces applied to its spheres.
+    pub(super) fn on_body(&self, body: &Body, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
+        let weight = Vector::from(self.weight(body.mass));
+        let weight = [weight, kept(moved.attitude).turn(body.offset).cross(weight)];
+        let mut applied = [Vector::zero(); 2];
+        for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
+            let row = particles.position[particles.slot[member as usize] as usize];
+            let force = Vector::from(self.applied(member));
+            applied[0] += force;
+            applied[1] += (Vector::from(row) - moved.pivot.into()).cross(force);
+        }
+        [weight, applied]
+    }
+
     /// Adds gravity, where nothing else acts.
     fn weigh(&self, state: &mut State, context: &Context) {
         if self.gravity == [0.0; 3] {
@@ -159,6 +208,12 @@ impl Fields {
 #[inline(always)]
 fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {
     if load * velocity >= 0.0 { fraction * load } else { -fraction * load }
+}
+
+/// What damping adds to a load, component by component.
+fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3] {
+    let load = load.to_array();
+    [0, 1, 2].map(|axis| -brake(fraction, load[axis], velocity[axis]))
 }
 
 /// Adds a load to a row.

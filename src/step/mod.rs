@@ -1,6 +1,7 @@
 //! One time step: the passes, in their order, over the state.
 
 mod assemble;
+mod bodies;
 mod bonds;
 mod boundaries;
 mod contacts;
@@ -13,6 +14,7 @@ mod neighbours;
 mod observe;
 mod pass;
 mod placement;
+mod rotation;
 mod settled;
 mod stable;
 mod table;
@@ -61,6 +63,8 @@ pub struct Simulation {
     passes: Vec<Box<dyn Pass>>,
     /// Gravity, applied forces, damping.
     fields: fields::Fields,
+    /// Groups that turn or that forces move; `None` for other boundaries.
+    bodies: Vec<Option<bodies::Body>>,
     /// The neighbour search.
     search: neighbours::Search,
     /// Whether anything turns the particles.
@@ -98,6 +102,7 @@ impl Simulation {
             turning: passes.iter().any(|pass| pass.has_torque()),
             passes,
             fields: fields::Fields::of(&scene),
+            bodies: bodies::of(&scene),
             search: neighbours::Search::of(&scene),
             width: Width::widest(),
             workers: workers::Workers::new(scene.run.threads, scene.particles.len()),
@@ -110,7 +115,7 @@ impl Simulation {
     /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
     fn begin(&mut self) -> Result<(), RunError> {
         self.give_attitudes();
-        boundaries::place_groups(&self.scene, &mut self.state);
+        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
         self.rebuild();
         let time = self.state.clock.time;
         self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, 0.0);
@@ -173,34 +178,33 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// Where a driven axis (0 to 2) is to be at the end of the next interval \[m\].
+    /// Where a driven axis is to be at the end of the next interval: along x, y, z (0 to 2) \[m\] or about them (3 to
+    /// 5) \[rad\].
     pub fn set_displacement(&mut self, boundary: BoundaryIndex, axis: usize, displacement: f64) {
         let boundary = &mut self.state.boundaries[boundary.index()];
         boundary.target[axis] = displacement;
         boundary.target_rate[axis] = 0.0;
     }
 
-    /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 2) and displacement \[m\] of each.
+    /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 5) and value \[m, rad\] of each.
     /// Springs stay as they are; forces are evaluated anew. For use before the first interval only.
     pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
         let from_scene = self.origin == Origin::Scene && self.state.clock.steps == 0;
         if from_scene {
             self.state = assemble::state(&self.scene);
         }
-        for &(boundary, axis, displacement) in starts {
-            let boundary = &mut self.state.boundaries[boundary.index()];
-            boundary.displacement[axis] = displacement;
-            boundary.target[axis] = displacement;
+        for &(boundary, axis, value) in starts {
+            boundaries::put(&mut self.state.boundaries[boundary.index()], axis, value);
         }
         if from_scene {
             return self.begin();
         }
-        boundaries::place_groups(&self.scene, &mut self.state);
+        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
         self.rebuild();
         self.start()
     }
 
-    /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s\].
+    /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s, rad/s\].
     pub fn set_displacement_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
     }
@@ -214,9 +218,9 @@ impl Simulation {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });
         }
+        boundaries::begin(&self.scene, &mut self.state, interval)?;
         self.lengthen_step();
         let (count, step) = divide(interval, self.state.clock.step);
-        boundaries::begin(&mut self.state, interval);
         self.state.breaks.clear();
         let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
         let context = Context { step, width: self.width, parallel: workers.parallel() };
@@ -246,14 +250,14 @@ impl Simulation {
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
-        energy::book(&mut self.state, &self.fields, step, context);
+        energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
         let speed = integrate::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integrate::turn(&mut self.state.particles, step, context);
         let time = self.state.clock.time;
-        let ways = boundaries::advance(&self.scene, &mut self.state, Progress { time, ..progress });
-        boundaries::place_groups(&self.scene, &mut self.state);
-        let speed = speed.max(boundaries::fastest_group(&self.scene, &self.state));
-        self.state.neighbours.travel += speed * step;
+        let ways = boundaries::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress });
+        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
+        let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
+        self.state.neighbours.travel += (speed * step).max(carried);
         let mut result = Ok(());
         if self.search.outdated(&mut self.state) {
             result = self.check_domain();
@@ -266,10 +270,12 @@ impl Simulation {
         let before = boundaries::clear_loads(&mut self.state);
         let damping_before = self.state.damping_force;
         result = result.and(self.evaluate(context));
-        energy::book(&mut self.state, &self.fields, step, context);
+        energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
         let speed = integrate::kick_again(&mut self.state.particles, step, self.turning, context);
+        let free_groups = bodies::kick_again(&self.bodies, &mut self.state, step);
+        let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
-        boundaries::book(&mut self.state, &before, &ways, step);
+        boundaries::book(&self.scene, &mut self.state, &before, &ways, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
         }
@@ -298,6 +304,10 @@ impl Simulation {
             energy::record(state, Source::Damping, &mut seen);
             energy::settle_damping(state, &self.fields);
         }
+        let braking = self.fields.load_bodies(&self.bodies, state);
+        for (sum, part) in state.damping_force.iter_mut().zip(braking) {
+            *sum += part;
+        }
         result
     }
 
@@ -310,7 +320,7 @@ impl Simulation {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;
         }
-        let kinetic = energy::kinetic(&self.state.particles, &context);
+        let kinetic = energy::kinetic(&self.state, &self.bodies, &context);
         if let Some(ledger) = &mut self.state.ledger {
             ledger.initial_kinetic = kinetic;
         }
@@ -328,18 +338,20 @@ impl Simulation {
                 self.state.clock.step = (safety * limit.safe).min(LONGEST_AUTOMATIC_STEP);
             }
         }
-        self.state.clock.speed = integrate::coming_speed(&self.state.particles, self.state.clock.step);
+        let step = self.state.clock.step;
+        let groups = bodies::coming_speed(&self.bodies, &self.state, step);
+        self.state.clock.speed = integrate::coming_speed(&self.state.particles, step).max(groups);
         Ok(())
     }
 
     /// The stable time step of the present network of contacts, and of impacts at the present speeds.
     pub fn limit(&self) -> Limit {
-        let mut network = stable::Network::of(&self.state);
+        let mut network = stable::Network::of(&self.state, &self.bodies);
         for pass in &self.passes {
             pass.stiffness(&self.state, &mut |link| network.add(link));
         }
         let mut limit = network.limit();
-        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.passes)
+        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.bodies, &self.passes)
             && safe < limit.safe
         {
             limit.safe = safe;
@@ -381,15 +393,22 @@ impl Simulation {
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
             if way > RUNAWAY * radius {
-                return Err(RunError::Runaway {
-                    id: particles.id[slot],
-                    radii: way / radius,
-                    time: self.time(),
-                    stable: self.state.clock.stable,
-                });
+                return Err(self.runaway(particles.id[slot], way / radius));
+            }
+        }
+        for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
+            let Some(body) = body else { continue };
+            let way = step * body.coming_speed(moved, step);
+            if way > RUNAWAY * body.smallest {
+                return Err(self.runaway(body.members[0], way / body.smallest));
             }
         }
         Ok(())
+    }
+
+    /// A particle that would move further than makes sense.
+    fn runaway(&self, id: u32, radii: f64) -> RunError {
+        RunError::Runaway { id, radii, time: self.time(), stable: self.state.clock.stable }
     }
 
     /// Finds what is not finite.
@@ -440,7 +459,7 @@ impl Simulation {
             RunError::Overbent { first, second, .. } => {
                 (*first, *second) = (self.number(*first), second.map(|second| self.number(second)));
             }
-            RunError::StepTooLong { .. } | RunError::Interval { .. } => {}
+            RunError::StepTooLong { .. } | RunError::Turn { .. } | RunError::Interval { .. } => {}
         }
         error
     }

@@ -7,7 +7,7 @@ use crate::contact::{Contact, Law, Reaction, Response};
 use crate::number::Vector;
 use crate::scene::Shape;
 use crate::state::contacts::{SLIDING, TOUCHING};
-use crate::state::{Particles, Row};
+use crate::state::{Row, State};
 
 /// One contact at work, as it was when the present forces were evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,9 +72,18 @@ impl ContactRecord {
 
 /// Velocity with mass and angular velocity with moment of inertia of a particle at the middle of the last time step,
 /// when its forces were evaluated.
-pub(super) fn half_step_back(particles: &Particles, slot: usize, step: f64) -> (Row, Row) {
+pub(super) fn half_step_back(state: &State, slot: usize, step: f64) -> (Row, Row) {
+    let particles = &state.particles;
     let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
-    if particles.owner[slot] == 0 {
+    if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+        let moved = &state.boundaries[group];
+        let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+        let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
+        for axis in 0..3 {
+            velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
+            spin[axis] -= moved.inertial.spin_kick[axis];
+        }
+    } else {
         for axis in 0..3 {
             velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
             spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
@@ -119,9 +128,9 @@ pub(super) fn impact<L: Law>(row: &[f64], radius: f64, mass: f64, speed: f64) ->
 }
 
 impl Simulation {
-    /// Kinetic energy of the particles that move by the forces on them \[J\].
+    /// Kinetic energy of the particles and groups that move by the forces on them \[J\].
     pub fn kinetic_energy(&self) -> f64 {
-        energy::kinetic(&self.state.particles, &self.quiet())
+        energy::kinetic(&self.state, &self.bodies, &self.quiet())
     }
 
     /// Contacts between particles and of particles with planes.
@@ -174,7 +183,7 @@ impl Simulation {
         largest
     }
 
-    /// Mean unbalanced force of the free particles over the mean normal force of the contacts; infinite without
+    /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts; infinite without
     /// contacts.
     pub fn unbalanced_force(&self) -> f64 {
         let particles = &self.state.particles;
@@ -183,6 +192,12 @@ impl Simulation {
         for slot in free {
             sum += Vector::from(particles.force[slot]).length();
             count += 1;
+        }
+        for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
+            if let Some(body) = body.as_ref().filter(|body| body.moves != [false; 3]) {
+                sum += body.along_free(moved.inertial.load).length();
+                count += 1;
+            }
         }
         let contacts = self.contacts();
         let forces: f64 = contacts.iter().map(|contact| contact.normal_force.abs()).sum();

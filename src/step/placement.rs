@@ -1,6 +1,6 @@
 //! Bodies put where another program had them, in the middle of their way.
 
-use super::{RunError, Simulation, assemble};
+use super::{RunError, Simulation, assemble, boundaries};
 use crate::bond::Rows;
 use crate::number::Vector;
 use crate::scene::{Scene, Step};
@@ -69,9 +69,7 @@ impl Simulation {
         }
         state.clock.steps = placement.steps;
         let time = state.clock.time;
-        for boundary in &mut state.boundaries {
-            boundary.displacement = boundary.velocity.map(|velocity| velocity * time);
-        }
+        boundaries::put_prescribed(&scene, &mut state, time);
         put_particles(&mut state, &placement.particles);
         for bond in &placement.bonds {
             put_bond(&mut state, bond);

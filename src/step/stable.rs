@@ -4,11 +4,13 @@
 //! definite (M masses, C dampers, K stiffnesses). Each interaction's share is bounded by twice what its two
 //! particles would feel alone, |a − b|² ≤ 2 |a|² + 2 |b|², so a bound holds particle by particle: the largest
 //! eigenvalue of its own 6 × 6 block. It is safe, and at most √2 below the true limit where only springs act.
+//! A group that forces move is one such particle, with its own mass and inertia and the arms of its spheres.
 
+use super::bodies::Body;
 use super::pass::{Link, Pass};
 use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::State;
+use crate::state::{Particles, State};
 
 /// A symmetric matrix over the six freedoms of a particle, scaled by its mass and moment of inertia.
 type Block = [[f64; 6]; 6];
@@ -34,7 +36,10 @@ pub struct Limit {
 pub(super) struct Network<'a> {
     /// Masses, radii and where everything stands.
     state: &'a State,
-    /// Stiffness of each particle's own block, doubled where the partner moves too \[1/s²\].
+    /// Groups, by their boundary.
+    bodies: &'a [Option<Body>],
+    /// Stiffness of the own block of each particle, then of each boundary, doubled where the partner moves too
+    /// \[1/s²\].
     stiffness: Vec<Block>,
     /// The same, not doubled.
     single: Vec<Block>,
@@ -44,10 +49,11 @@ pub(super) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// Without any interaction.
-    pub(super) fn of(state: &'a State) -> Self {
-        let count = state.particles.len();
+    pub(super) fn of(state: &'a State, bodies: &'a [Option<Body>]) -> Self {
+        let count = state.particles.len() + bodies.len();
         Self {
             state,
+            bodies,
             stiffness: vec![[[0.0; 6]; 6]; count],
             single: vec![[[0.0; 6]; 6]; count],
             damping: vec![0.0; count],
@@ -56,15 +62,72 @@ impl<'a> Network<'a> {
 
     /// Adds one interaction.
     pub(super) fn add(&mut self, link: Link) {
-        let owner = &self.state.particles.owner;
-        let moving = |slot: u32| owner[slot as usize] == 0;
-        let both = link.second.is_some_and(moving) && moving(link.first);
-        if moving(link.first) {
-            self.add_end(link.first as usize, &link, link.first_arm, link.normal, both);
+        let first = self.mover(link.first);
+        let second = link.second.and_then(|second| self.mover(second));
+        if first.is_some() && first == second {
+            return;
         }
-        if let Some(second) = link.second.filter(|&second| moving(second)) {
-            self.add_end(second as usize, &link, link.second_arm, -link.normal, both);
+        let both = first.is_some() && second.is_some();
+        if let Some(mover) = first {
+            self.add_side(mover, link.first, &link, link.first_arm, link.normal, both);
         }
+        if let (Some(mover), Some(slot)) = (second, link.second) {
+            self.add_side(mover, slot, &link, link.second_arm, -link.normal, both);
+        }
+    }
+
+    /// What moves a particle, if forces do: the place of its block.
+    fn mover(&self, slot: u32) -> Option<usize> {
+        match (self.state.particles.owner[slot as usize] as usize).checked_sub(1) {
+            None => Some(slot as usize),
+            Some(group) => {
+                self.bodies[group].as_ref().filter(|body| body.is_free()).map(|_| self.state.particles.len() + group)
+            }
+        }
+    }
+
+    /// Adds one end of an interaction to what moves there.
+    fn add_side(&mut self, mover: usize, slot: u32, link: &Link, arm: f64, normal: Vector, both: bool) {
+        match mover.checked_sub(self.state.particles.len()) {
+            None => self.add_end(mover, link, arm, normal, both),
+            Some(group) => self.add_to_group(group, slot, link, arm, normal, both),
+        }
+    }
+
+    /// Adds one end of an interaction to the group of its particle.
+    fn add_to_group(&mut self, group: usize, slot: u32, link: &Link, arm: f64, normal: Vector, both: bool) {
+        let Some(body) = &self.bodies[group] else { return };
+        let moved = &self.state.boundaries[group];
+        let row = self.state.particles.position[slot as usize];
+        let arm = Vector::from(row) - moved.pivot.into() - normal * arm;
+        // The point of action moves with v + w × arm: what unit freedoms give along three axes.
+        let (a, n) = (arm.to_array(), normal.to_array());
+        let across = [[0.0, a[2], -a[1]], [-a[2], 0.0, a[0]], [a[1], -a[0], 0.0]];
+        let gradient = |axis: usize, k: usize| if k < 3 { one_if(k == axis) } else { across[axis][k - 3] };
+        let along = |k: usize| (0..3).map(|axis| n[axis] * gradient(axis, k)).sum::<f64>();
+        let (kn, kt) = (link.response.normal_stiffness, link.response.tangential_stiffness);
+        let mut stiffness = [[0.0; 6]; 6];
+        for (p, row) in stiffness.iter_mut().enumerate() {
+            for (q, entry) in row.iter_mut().enumerate() {
+                let whole = (0..3).map(|axis| gradient(axis, p) * gradient(axis, q)).sum::<f64>();
+                *entry = kt * whole + (kn - kt) * along(p) * along(q);
+                if p >= 3 && q >= 3 {
+                    let twist = n[p - 3] * n[q - 3];
+                    *entry += link.torsion * twist + link.bending * (one_if(p == q) - twist);
+                }
+            }
+        }
+        let (mobility, doubled) = (body.mobility(moved), if both { 2.0 } else { 1.0 });
+        let place = self.state.particles.len() + group;
+        for p in 0..6 {
+            for q in 0..6 {
+                let sum = (0..6).map(|k| mobility[p][k] * stiffness[k][q]).sum::<f64>();
+                self.single[place][p][q] += sum;
+                self.stiffness[place][p][q] += doubled * sum;
+            }
+        }
+        let damping = link.response.normal_damping.max(link.response.tangential_damping);
+        self.damping[place] += doubled * damping * answer(&mobility, arm.length());
     }
 
     /// Adds one end of an interaction to its particle.
@@ -107,6 +170,14 @@ impl<'a> Network<'a> {
         self.damping[slot] += doubled * (damping / mass).max(tangential);
     }
 
+    /// The particle at the place of a block, of a group the first: index into the scene's particles.
+    fn named(&self, place: usize) -> Option<u32> {
+        match place.checked_sub(self.state.particles.len()) {
+            None => Some(self.state.particles.id[place]),
+            Some(group) => self.bodies[group].as_ref().map(|body| body.members[0]),
+        }
+    }
+
     /// The limit over all particles.
     pub(super) fn limit(&self) -> Limit {
         let mut limit = Limit { safe: f64::INFINITY, unstable: f64::INFINITY, particle: None };
@@ -119,7 +190,7 @@ impl<'a> Network<'a> {
             let safe = 4.0 / (c + (c * c + 4.0 * k).sqrt());
             if safe < limit.safe {
                 limit.safe = safe;
-                limit.particle = Some(self.state.particles.id[slot]);
+                limit.particle = self.named(slot);
             }
             // Moving this particle alone gives a Rayleigh quotient, hence a bound from below.
             let alone = largest_eigenvalue(&self.single[slot]) / ROOT_OF_SIX;
@@ -153,29 +224,71 @@ fn largest_eigenvalue(block: &Block) -> f64 {
     trace * root
 }
 
-/// The bound for impacts still to come: the two smallest particles meeting at twice the largest present speed, with
-/// what gravity adds over a radius. Returns the step \[s\] and the particle.
-pub(super) fn impact_limit(scene: &Scene, state: &State, passes: &[Box<dyn Pass>]) -> Option<(f64, u32)> {
-    let particles = &state.particles;
+/// 1 where it holds, 0 otherwise.
+fn one_if(holds: bool) -> f64 {
+    f64::from(u8::from(holds))
+}
+
+/// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].
+fn answer(mobility: &Block, arm: f64) -> f64 {
+    let (shift, turn) = (0..3)
+        .fold((0.0, 0.0), |(shift, turn): (f64, f64), k| (shift.max(mobility[k][k]), turn + mobility[3 + k][3 + k]));
+    shift + turn * arm * arm
+}
+
+/// What may meet something else next.
+struct Meeting {
+    /// Radius \[m\].
+    radius: f64,
+    /// Mass that it meets with \[kg\].
+    mass: f64,
+    /// Largest acceleration that a unit force across gives to where it acts \[1/kg\].
+    turn: f64,
+    /// The particle: index into the scene's particles.
+    particle: u32,
+}
+
+/// The smallest particle that forces move.
+fn smallest_particle(particles: &Particles) -> Option<Meeting> {
     let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-    let smallest =
-        free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
-    let (mass, radius) = (particles.velocity[smallest][3], particles.position[smallest][3]);
-    let speeds = particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    let slot = free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
+    let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
+    let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
+    Some(Meeting { radius, mass, turn, particle: particles.id[slot] })
+}
+
+/// The bound for impacts still to come: the two smallest particles meeting at twice the largest present speed, with
+/// what gravity adds over a radius; likewise of each group that forces move. Returns the step \[s\] and the particle.
+pub(super) fn impact_limit(
+    scene: &Scene,
+    state: &State,
+    bodies: &[Option<Body>],
+    passes: &[Box<dyn Pass>],
+) -> Option<(f64, u32)> {
+    let speeds = state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     let fastest = speeds.fold(0.0, f64::max).sqrt();
     let gravity = Vector::from(scene.gravity).length();
-    let speed = 2.0 * fastest + (2.0 * gravity * radius).sqrt();
-    let inertia = particles.angular_velocity[smallest][3];
-    let mut safe = f64::INFINITY;
-    for pass in passes {
-        let Some(response) = pass.impact(0.5 * radius, 0.5 * mass, speed) else { continue };
-        let turn = 1.0 / mass + radius * radius / inertia;
-        // Both move: their one spring acts on the reduced mass.
-        let k = 2.0 * (response.normal_stiffness / mass).max(response.tangential_stiffness * turn);
-        let c = 2.0 * (response.normal_damping / mass).max(response.tangential_damping * turn);
-        if k > 0.0 || c > 0.0 {
-            safe = safe.min(4.0 / (c + (c * c + 4.0 * k).sqrt()));
+    let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
+        let body = body.as_ref().filter(|body| body.is_free())?;
+        let turn = answer(&body.mobility(moved), body.farthest + body.largest);
+        Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0] })
+    });
+    let mut limit: Option<(f64, u32)> = None;
+    for meeting in smallest_particle(&state.particles).into_iter().chain(groups) {
+        let speed = 2.0 * fastest + (2.0 * gravity * meeting.radius).sqrt();
+        let safe = passes.iter().filter_map(|pass| bound(pass.as_ref(), &meeting, speed)).fold(f64::INFINITY, f64::min);
+        if safe < limit.map_or(f64::INFINITY, |(least, _)| least) {
+            limit = Some((safe, meeting.particle));
         }
     }
-    (safe < f64::INFINITY).then(|| (safe, particles.id[smallest]))
+    limit
+}
+
+/// The stable time step while something meets its like at this speed \[m/s\].
+fn bound(pass: &dyn Pass, meeting: &Meeting, speed: f64) -> Option<f64> {
+    let response = pass.impact(0.5 * meeting.radius, 0.5 * meeting.mass, speed)?;
+    // Both move: their one spring acts on the reduced mass.
+    let k = 2.0 * (response.normal_stiffness / meeting.mass).max(response.tangential_stiffness * meeting.turn);
+    let c = 2.0 * (response.normal_damping / meeting.mass).max(response.tangential_damping * meeting.turn);
+    (k > 0.0 || c > 0.0).then(|| 4.0 / (c + (c * c + 4.0 * k).sqrt()))
 }

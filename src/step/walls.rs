@@ -218,7 +218,7 @@ impl<L: Law> Pass for WallPass<L> {
         let plane = self.plane(state);
         for entry in (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0) {
             let slot = list.particle[entry] as usize;
-            let (velocity, spin) = observe::half_step_back(&state.particles, slot, step);
+            let (velocity, spin) = observe::half_step_back(state, slot, step);
             let position = state.particles.position[slot];
             let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
             let (contact, arm) = plane.meet(position, velocity, spin, constant);

@@ -119,7 +119,10 @@ fn boundaries(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary
         all.push(Boundary {
             name: format!("motion{index}"),
             shape: Shape::Particles { members },
-            axes: velocity.map(|speed| if speed == 0.0 { AxisMotion::Fixed } else { AxisMotion::Prescribed(speed) }),
+            axes: [0, 1, 2, 3, 4, 5].map(|axis| match velocity.get(axis) {
+                Some(&speed) if speed != 0.0 => AxisMotion::Prescribed(speed),
+                _ => AxisMotion::Fixed,
+            }),
             input: InputCourse::Ramp,
             reference: case.particles[case.by_id()[first]].position,
         });
@@ -156,7 +159,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
             point,
             normal: normal.map(|component| component / length),
         },
-        axes: [AxisMotion::Fixed; 3],
+        axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,
     })

@@ -73,7 +73,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
     Boundary {
         name: "plane".into(),
         shape: Shape::Plane { material: MaterialIndex(material), point, normal },
-        axes: [AxisMotion::Fixed; 3],
+        axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,
     }

@@ -1,12 +1,13 @@
 //! Boundaries: shape, motion, point of reference.
 
 use super::contacts::material_index;
+use super::motion;
 use super::particles::Born;
 use super::selection::{Owners, members};
 use super::written::Written;
 use crate::contact::Material;
 use crate::scene::document::Faults;
-use crate::scene::file::{BoundaryTable, MotionTable, PlaneTable};
+use crate::scene::file::{BoundaryTable, PlaneTable};
 use crate::scene::mistake::Mistake;
 use crate::scene::{AxisMotion, Boundary, Shape};
 
@@ -21,7 +22,8 @@ pub(super) fn boundaries(written: &Written, materials: &[Material], born: &Born,
             owners.claim(members, &table, born, faults);
         }
         let reference = boundary.reference.map_or_else(|| centre(&shape, born), |reference| reference.0);
-        let axes = axes(&boundary.motion.0, &table, faults);
+        let axes = motion::axes(&boundary.motion.0, &table, faults);
+        motion::check(&axes, &shape, boundary.reference.is_some(), &table, faults);
         if boundary.input.is_some() && !axes.contains(&AxisMotion::Driven) {
             let (what, right) = ("no axis is driven".to_owned(), "leave input out".to_owned());
             faults.add(&table, "input", Mistake::Senseless { what, right });
@@ -105,20 +107,4 @@ fn centre(shape: &Shape, born: &Born) -> [f64; 3] {
             if mass > 0.0 { first.map(|moment| moment / mass) } else { [0.0; 3] }
         }
     }
-}
-
-/// What each axis does; an axis may be named once.
-fn axes(motion: &MotionTable, table: &str, faults: &mut Faults) -> [AxisMotion; 3] {
-    let mut axes = [None; 3];
-    let named = (motion.fixed.iter().map(|axis| (axis, AxisMotion::Fixed)))
-        .chain(motion.driven.iter().map(|axis| (axis, AxisMotion::Driven)))
-        .chain(motion.prescribed.iter().map(|(axis, speed)| (axis, AxisMotion::Prescribed(speed.get()))));
-    for (axis, does) in named {
-        if axes[*axis as usize].replace(does).is_some() {
-            let what = format!("axis {} is named twice", ["x", "y", "z"][*axis as usize]);
-            let right = "an axis is fixed, driven or prescribed".to_owned();
-            faults.add(table, "motion", Mistake::Senseless { what, right });
-        }
-    }
-    axes.map(|does| does.unwrap_or(AxisMotion::Fixed))
 }

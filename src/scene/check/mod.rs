@@ -5,6 +5,7 @@ mod boundaries;
 mod close;
 mod contacts;
 mod damping;
+mod motion;
 mod nursery;
 mod particles;
 mod selection;
@@ -35,6 +36,7 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
     let boundaries = boundaries::boundaries(&written, &materials, &born, &mut faults);
     let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
+    motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let scene = Scene {
         bonds,

@@ -39,7 +39,7 @@ pub(in crate::scene) struct PlaneTable {
     pub(in crate::scene) normal: Triple,
 }
 
-/// A coordinate axis.
+/// A way to move: along a coordinate axis, or about one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(in crate::scene) enum Axis {
@@ -49,6 +49,15 @@ pub(in crate::scene) enum Axis {
     Y,
     /// z
     Z,
+    /// Rotation about x
+    #[serde(rename = "rotation.x")]
+    RotationX,
+    /// Rotation about y
+    #[serde(rename = "rotation.y")]
+    RotationY,
+    /// Rotation about z
+    #[serde(rename = "rotation.z")]
+    RotationZ,
 }
 
 /// `motion` of a boundary; an axis not named is fixed.
@@ -65,9 +74,12 @@ pub(in crate::scene) struct MotionTable {
     /// Those that follow an input.
     #[serde(default)]
     pub(in crate::scene) driven: Vec<Axis>,
-    /// Those with a constant velocity \[m/s\].
+    /// Those with a constant velocity \[m/s\] or angular velocity \[rad/s\].
     #[serde(default)]
     pub(in crate::scene) prescribed: BTreeMap<Axis, Finite>,
+    /// Those that move by the forces on the boundary.
+    #[serde(default)]
+    pub(in crate::scene) free: Vec<Axis>,
 }
 
 impl<'de> Deserialize<'de> for Motion {
@@ -75,7 +87,7 @@ impl<'de> Deserialize<'de> for Motion {
         /// Takes `"fixed"` or a table.
         struct WordOrTable;
         /// What is right.
-        const RIGHT: &str = "\"fixed\" or a table of driven and prescribed axes";
+        const RIGHT: &str = "\"fixed\" or a table of driven, prescribed and free axes";
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = Motion;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
