@@ -47,3 +47,21 @@ def test_the_loaded_beam_begins_as_expected(request, tmp_path):
     subprocess.run([*command, "--end", "0.01", "--no-failure"], check=True, capture_output=True)
     # The beam's factorisation is the machine's own, to rounding.
     compare(table(tmp_path / "couple.csv"), table(folder / "expected.csv"), 1e-6)
+
+
+def test_the_ice_begins_as_expected(request, tmp_path):
+    folder = ROOT / "models" / "ice_beam"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    subprocess.run([*command, "--end", "0.2", "--no-frames"], check=True, capture_output=True)
+    compare(table(tmp_path / "couple.csv"), table(folder / "expected.csv"), 1e-9)
+
+
+def test_the_energy_book_of_the_ice_closes_while_it_breaks(unit, slave):
+    ice = slave(unit("ice_beam"))
+    for step in range(1, 31):
+        ice.step(1e-3 * step, 1e-3)
+    broken = ice.slave.getInteger([ice.reference("bonds.broken")])[0]
+    assert broken > 20, f"a hull at 1 m/s broke {broken} bonds"
+    work, residual = ice.get("hull.work", "energy.residual")
+    assert abs(residual) < 1e-12 * work, f"{residual:.1e} J of {work:.1e} J"
