@@ -16,7 +16,7 @@ OUTPUTS = ["hull.force.x", "hull.force.z", "hull.mean_force.x", "hull.mean_force
 BOOK = ["energy.kinetic", "energy.residual"]
 COLUMNS = ["time", "hull.displacement.x", *OUTPUTS, *BOOK, "bonds.intact", "bonds.broken"]
 
-FRAME_INTERVAL = 0.1  # of the run that leaves frames [s]
+FRAME_INTERVAL = 0.1  # of the run that leaves frames [s], as in scene.toml
 
 
 def arguments():
@@ -58,14 +58,10 @@ class Ice:
 
 
 def framed(options):
-    """Starts a run of the same course that leaves frames: in it the scene itself moves the hull."""
-    text = (HERE / "scene.toml").read_text()
-    text = text.replace('driven = ["x"]', f"prescribed = {{ x = {options.speed} }}")
-    text = text.replace("end = 9.0", f"end = {options.end}")
-    text = text.replace("[output]", f"[output]\nframe_interval = {FRAME_INTERVAL}")
-    scene = options.output / "framed.toml"
-    scene.write_text(text)
-    command = [options.program, "run", scene, "-o", options.output / "frames"]
+    """Starts a run of the same course that leaves frames and broken bonds."""
+    course = options.output / "course.csv"
+    course.write_text(f"time,hull.displacement.x\n{options.end!r},{options.speed * options.end!r}\n")
+    command = [options.program, "run", HERE / "scene.toml", "--inputs", course, "-o", options.output / "frames"]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
