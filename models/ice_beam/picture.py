@@ -29,13 +29,15 @@ class Frame:
         self.order = np.argsort(spheres.point_data["id"].ravel())
         ids = spheres.point_data["id"].ravel()[self.order]
         bonds = meshio.read(folder / f"bonds_{number:06d}.vtu")
-        ends = bonds.point_data["id"].ravel()[bonds.cells_dict["line"].astype(int)]
+        # Bonds of the ice; those of the water end at a plane.
+        ice = bonds.cell_data["law"][0].ravel() == 0
+        ends = bonds.point_data["id"].ravel()[bonds.cells_dict["line"][ice].astype(int)]
         places = self.order[np.searchsorted(ids, ends)]
         one, two = self.rest[places[:, 0]], self.rest[places[:, 1]]
         along = (np.abs(one[:, 2] - two[:, 2]) < 0.1) & (one[:, 1] < 0.1) & (two[:, 1] < 0.1)
         self.bonds = places[along]
-        self.pull = -bonds.cell_data["normal_force"][0].ravel()[along] / BOND_AREA
-        self.stress = bonds.cell_data["normal_stress"][0].ravel()[along]
+        self.pull = -bonds.cell_data["normal_force"][0].ravel()[ice][along] / BOND_AREA
+        self.stress = bonds.cell_data["normal_stress"][0].ravel()[ice][along]
 
     def drawn(self, places):
         """Where spheres stand in the picture."""
