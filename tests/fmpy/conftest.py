@@ -63,7 +63,10 @@ class Course:
         return self.amplitude * (4 - abs(step % 8 - 4)) / 4.0
 
 
-COURSES = {"loaded_beam": Course(interval=2e-4, steps=6)}
+COURSES = {
+    "loaded_beam": Course(interval=2e-4, steps=6),
+    "cantilever": Course(interval=1e-4, steps=20, amplitude=4e-7),
+}
 
 
 @pytest.fixture

@@ -65,3 +65,22 @@ def test_the_energy_book_of_the_ice_closes_while_it_breaks(unit, slave):
     assert broken > 20, f"a hull at 1 m/s broke {broken} bonds"
     work, residual = ice.get("hull.work", "energy.residual")
     assert abs(residual) < 1e-12 * work, f"{residual:.1e} J of {work:.1e} J"
+
+
+def test_the_cantilever_bends_and_rings_as_theory_says(request, tmp_path):
+    folder = ROOT / "models" / "cantilever"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    done = subprocess.run([*command, "--levels", "2", "--periods", "6"], check=True, capture_output=True, text=True)
+    names, rows = table(tmp_path / "couple.csv")
+    expected_names, expected = table(folder / "expected.csv")
+    assert names == expected_names
+    # The same deflections as in every second row of the table; what the master waited for is 1e-10 of the force.
+    for name in ("displacement", "force", "rotation", "clamp_moment"):
+        column = names.index(name)
+        assert np.allclose(rows[:, column], expected[1::2, column], rtol=1e-8, atol=0.0), name
+    bending, ringing = done.stdout.split("ringing:")
+    for line in bending.splitlines()[2:4]:
+        assert abs(float(line.split()[3])) < 1e-9, line
+    for line in ringing.splitlines()[2:5]:
+        assert abs(float(line.split()[3])) < 1e-4, line
