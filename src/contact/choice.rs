@@ -149,7 +149,7 @@ mod tests {
     use super::*;
     use crate::contact::normal::{hooke, hooke_stiffness};
     use crate::contact::specimen::{contact, properties, with_pair};
-    use crate::contact::{Contact, NoKeys, PairProperties, Reaction, cohesion};
+    use crate::contact::{Beyond, Contact, NoKeys, PairProperties, Reaction, cohesion};
     use crate::number::{Number, Vector};
     use crate::quantity::{Positive, Restitution};
     use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -322,6 +322,62 @@ mod tests {
     fn every_law_is_finite_at_the_corners_and_has_the_same_bits_in_lanes() {
         for choice in all() {
             choice.visit(Try);
+        }
+    }
+
+    /// Runs a law on contacts that a bond hides or has hidden.
+    struct Hide;
+
+    impl TakeLaw for Hide {
+        type Output = ();
+        fn take<L: Law>(self, law: L) {
+            let row = row_of::<L>(&law, 0.5);
+            let spring = Vector::new(0.125, 0.0, 0.0);
+            for contact in corners() {
+                let nothing = Contact { overlap: 0.0, section_area: 0.0, ..contact };
+                let whole = Beyond { pressing: contact.overlap, acts: true, offset: nothing };
+                let open = L::react(&row, &contact, spring, 0.5);
+                let found = L::react_beyond(&row, &contact, &whole, spring, 0.5);
+                assert_eq!(numbers(&found), numbers(&open), "without an offset nothing is hidden");
+                let bonded = Beyond { pressing: 0.0, acts: false, offset: contact };
+                let found = L::react_beyond(&row, &contact, &bonded, spring, 0.5);
+                assert_eq!((found.force.dot(contact.normal), found.rolling), (0.0, Vector::zero()));
+                let still = Contact { normal_velocity: 0.0, ..contact };
+                let broken = Beyond { pressing: 0.0, acts: true, offset: still };
+                let found = L::react_beyond(&row, &still, &broken, spring, 0.5);
+                assert_eq!(found.force.dot(contact.normal), 0.0, "no force at the overlap that is left");
+                assert_eq!(found.rolling, Vector::zero());
+            }
+            force_is_the_slope_of_the_energy::<L>(&row);
+        }
+    }
+
+    /// The elastic force beyond an offset against the difference of the energies a little to both sides.
+    fn force_is_the_slope_of_the_energy<L: Law>(row: &[f64]) {
+        let at = |overlap: f64| Contact { overlap, pair_constant: 5.0, normal_velocity: 0.0, ..contact() };
+        let (overlap, spring) = (contact().overlap, Vector::new(0.125, 0.0, 0.0));
+        for offset in [0.0, 0.25 * overlap] {
+            let energy = |overlap: f64| L::elastic_energy(row, &at(overlap), offset, Vector::zero());
+            // Attraction is the same with and without the pressing part: the difference is the elastic force.
+            let push = |pressing| {
+                let beyond = Beyond { pressing, acts: true, offset: at(offset) };
+                let found = L::react_beyond(row, &at(overlap), &beyond, Vector::zero(), 0.0);
+                found.force.dot(contact().normal)
+            };
+            let (nudge, force) = (1e-4 * overlap, push(overlap - offset) - push(0.0));
+            let slope = (energy(overlap + nudge) - energy(overlap - nudge)) / (2.0 * nudge);
+            assert!((slope / force - 1.0).abs() < 1e-7, "{slope:e} J/m for {force:e} N");
+            assert!(energy(offset).abs() < 1e-15 * energy(2.0 * overlap));
+        }
+        let sheared = L::elastic_energy(row, &at(overlap), overlap, spring);
+        let stiffness = L::stiffness(row, &at(overlap)).tangential_stiffness;
+        assert!((sheared - 0.5 * stiffness * 0.125 * 0.125).abs() < 1e-15 * sheared, "{sheared:e} J");
+    }
+
+    #[test]
+    fn what_a_bond_hides_comes_back_without_a_jump_in_every_law() {
+        for choice in all() {
+            choice.visit(Hide);
         }
     }
 

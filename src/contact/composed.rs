@@ -1,8 +1,8 @@
 //! Four sub-models as one law.
 
 use super::{
-    Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Reaction,
-    Response, Rolling, Tangential, coefficients,
+    Beyond, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm,
+    Reaction, Response, Rolling, Tangential, coefficients,
 };
 use crate::number::{Number, Vector};
 
@@ -59,6 +59,14 @@ pub trait Law: Send + Sync + 'static {
     fn pair_constant(row: &[f64], radius: f64, mass: f64) -> f64;
     /// Force and torque of one contact.
     fn react<N: Number>(row: &[N], contact: &Contact<N>, spring: Vector<N>, step: N) -> Reaction<N>;
+    /// The same of a contact that a bond hides, or has hidden. The elastic force is taken from the overlap beyond the
+    /// offset, and attraction is what the offset's does not hold already, so that neither jumps when the bond is
+    /// gone; stiffness and damping are those of the whole overlap. Where the normal force does not act, friction
+    /// alone does.
+    fn react_beyond(row: &[f64], contact: &Contact, beyond: &Beyond, spring: Vector, step: f64) -> Reaction;
+    /// Elastic energy of the normal force beyond an offset of the overlap \[m\] and of the tangential spring \[m\],
+    /// where there is one \[J\].
+    fn elastic_energy(row: &[f64], contact: &Contact, offset: f64, spring: Vector) -> f64;
     /// Tangent normal stiffness, tangential stiffness \[N/m\] and damping coefficients \[kg/s\].
     fn stiffness(row: &[f64], contact: &Contact) -> Response;
 }
@@ -186,6 +194,48 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed
             reaction.rolling = C::torque(rolling, contact, &response);
         }
         reaction
+    }
+
+    fn react_beyond(row: &[f64], contact: &Contact, beyond: &Beyond, spring: Vector, step: f64) -> Reaction {
+        let (normal, row) = (A::lanes(row), &row[A::COUNT..]);
+        let (tangential, row) = (B::lanes(row), &row[B::COUNT..]);
+        let (rolling, row) = (C::lanes(row), &row[C::COUNT..]);
+        let (cohesion, row) = (D::lanes(row), &row[D::COUNT..]);
+        let switches = Switches::lanes(row);
+
+        let mut response = A::response(normal, contact);
+        response.tangential_damping *= switches.tangential_damping_factor;
+        let elastic = response.normal_stiffness * beyond.pressing;
+        let push = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);
+        let (mut along, mut seen) = (push, push);
+        if D::ACTIVE {
+            let pull = D::force(cohesion, contact) - D::force(cohesion, &beyond.offset);
+            along += pull;
+            seen += D::seen_by_friction(cohesion, pull);
+        }
+        let force = contact.normal * if beyond.acts { along } else { 0.0 };
+        let mut reaction = Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), spring, sliding: false };
+        if B::ACTIVE {
+            let (friction, spring, sliding) = B::force(tangential, contact, &response, seen.abs(), spring, step);
+            reaction.force += friction;
+            reaction.couple = contact.normal.cross(friction);
+            reaction.spring = spring;
+            reaction.sliding = sliding;
+        }
+        if C::ACTIVE && beyond.acts {
+            let pressed = Contact { overlap: beyond.pressing, ..*contact };
+            reaction.rolling = C::torque(rolling, &pressed, &response);
+        }
+        reaction
+    }
+
+    fn elastic_energy(row: &[f64], contact: &Contact, offset: f64, spring: Vector) -> f64 {
+        let mut energy = A::read(row).elastic_energy(contact, offset);
+        if B::HAS_SPRING {
+            let stiffness = A::response(A::lanes(row), contact).tangential_stiffness;
+            energy += 0.5 * stiffness * spring.dot(spring);
+        }
+        energy
     }
 
     fn stiffness(row: &[f64], contact: &Contact) -> Response {

@@ -53,6 +53,17 @@ pub struct Contact<N = f64> {
     pub pair_constant: N,
 }
 
+/// How much of a contact is left where a bond hides it, or has hidden it.
+#[derive(Clone, Copy, Debug)]
+pub struct Beyond {
+    /// Overlap beyond the offset: what the elastic force is taken from \[m\].
+    pub pressing: f64,
+    /// Whether the normal force acts. Friction sees it in either case.
+    pub acts: bool,
+    /// The contact of these bodies at an overlap of the offset alone.
+    pub offset: Contact,
+}
+
 /// What a normal model says of a contact: stiffnesses and damping coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<N = f64> {
@@ -101,6 +112,8 @@ pub trait NormalForm: Coefficients {
     }
     /// Stiffness and damping of the contact at hand.
     fn response<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> Response<N>;
+    /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact \[J\].
+    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].
     fn tangent_stiffness(&self, contact: &Contact) -> f64;
 }

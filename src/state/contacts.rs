@@ -60,3 +60,36 @@ pub struct WallContacts {
     /// What the normal model keeps of each; empty where it keeps nothing.
     pub pair_constant: Vec<f64>,
 }
+
+impl ContactList {
+    /// Takes pairs out, keeping the order of the others.
+    pub fn remove(&mut self, dead: &[bool]) {
+        let mut slabs = vec![0; self.slabs.len()];
+        for slab in 1..self.slabs.len() {
+            let (from, to) = (self.slabs[slab - 1] as usize, self.slabs[slab] as usize);
+            slabs[slab] = slabs[slab - 1] + dead[from..to].iter().filter(|dead| !**dead).count() as u32;
+        }
+        self.slabs = slabs;
+        keep(&mut self.first, dead);
+        keep(&mut self.second, dead);
+        keep(&mut self.flags, dead);
+        keep(&mut self.spring, dead);
+        keep(&mut self.pair_constant, dead);
+    }
+}
+
+impl WallContacts {
+    /// Takes particles out, keeping the order of the others.
+    pub fn remove(&mut self, dead: &[bool]) {
+        keep(&mut self.particle, dead);
+        keep(&mut self.flags, dead);
+        keep(&mut self.spring, dead);
+        keep(&mut self.pair_constant, dead);
+    }
+}
+
+/// Keeps the entries that are not dead, in their order.
+fn keep<T>(entries: &mut Vec<T>, dead: &[bool]) {
+    let mut dead = dead.iter();
+    entries.retain(|_| !dead.next().copied().unwrap_or(false));
+}

@@ -7,6 +7,7 @@ pub mod bonds;
 pub mod boundaries;
 pub mod clock;
 pub mod contacts;
+pub mod hidden;
 pub mod ledger;
 pub mod particles;
 pub mod snapshot;
@@ -15,6 +16,7 @@ pub use bonds::{BondList, Break};
 pub use boundaries::{Attitude, BoundaryState};
 pub use clock::Clock;
 pub use contacts::{ContactList, Neighbours, WallContacts};
+pub use hidden::{Hidden, HiddenContact};
 pub use ledger::Ledger;
 pub use particles::Particles;
 
@@ -36,6 +38,8 @@ pub struct State {
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
     pub walls: Vec<WallContacts>,
+    /// Contacts that bonds hide or have hidden, which stand in none of these lists.
+    pub hidden: Hidden,
     /// Living bonds, a list for each bond law.
     pub bonds: Vec<BondList>,
     /// Bonds that broke since the present communication step began.

@@ -11,7 +11,9 @@ use crate::bond::{BondLaw, keys};
 use crate::contact::{Law, TakeLaw};
 use crate::number::Vector;
 use crate::scene::{AxisMotion, Boundary, Scene, Shape};
-use crate::state::{BondList, BoundaryState, Clock, ContactList, Ledger, Neighbours, Particles, State, WallContacts};
+use crate::state::{
+    BondList, BoundaryState, Clock, ContactList, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
+};
 use std::marker::PhantomData;
 
 /// Skin of the neighbour lists over the mean radius, where the scene does not say.
@@ -27,6 +29,7 @@ pub(super) fn state(scene: &Scene) -> State {
         neighbours,
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
+        hidden: Hidden::default(),
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),

@@ -192,6 +192,10 @@ impl<L: BondLaw> Pass for BondPass<L> {
 
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
+    fn elastic_energy(&self, state: &State) -> f64 {
+        state.bonds[self.index].elastic
+    }
+
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {

@@ -63,6 +63,7 @@ impl<L: Law> Pass for ContactPass<L> {
                 Slab { work, from, to }.run(context.width);
             });
         }
+        self.apply_hidden(state, context.step);
         Ok(())
     }
 
@@ -75,6 +76,7 @@ impl<L: Law> Pass for ContactPass<L> {
     }
 
     fn prepare(&self, state: &mut State) {
+        self.prepare_hidden(state);
         let list = &mut state.contacts[self.index];
         if !L::HAS_SPRING {
             list.spring.clear();
@@ -91,6 +93,7 @@ impl<L: Law> Pass for ContactPass<L> {
     }
 
     fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        self.hidden_stiffness(state, tell);
         let list = &state.contacts[self.index];
         for pair in 0..list.first.len() {
             let (i, j) = (list.first[pair], list.second[pair]);
@@ -132,11 +135,25 @@ impl<L: Law> Pass for ContactPass<L> {
             let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
             tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
         }
+        self.hidden_records(state, tell);
+    }
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        let list = &state.contacts[self.index];
+        let material = |slot: u32| state.particles.material[slot as usize];
+        let energy = |pair: usize| {
+            let (contact, _) = pair_contact(&state.particles, list, pair)?;
+            let row = self.table.row(material(list.first[pair]), material(list.second[pair]));
+            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
+            Some(L::elastic_energy(row, &contact, 0.0, spring.into()))
+        };
+        let touching = (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0);
+        touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
     }
 }
 
 /// Effective radius \[m\] and mass \[kg\] of two particles.
-fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
+pub(super) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
     let (i, j) = (i as usize, j as usize);
     let (r, s) = (particles.position[i][3], particles.position[j][3]);
     let (m, n) = (particles.velocity[i][3], particles.velocity[j][3]);

@@ -8,6 +8,8 @@ mod contacts;
 mod energy;
 mod error;
 mod fields;
+mod hidden;
+mod hiding;
 mod integrate;
 pub mod lanes;
 mod neighbours;
@@ -67,6 +69,8 @@ pub struct Simulation {
     bodies: Vec<Option<bodies::Body>>,
     /// The neighbour search.
     search: neighbours::Search,
+    /// Which contacts bonds hide.
+    hiding: hiding::Hiding,
     /// Whether anything turns the particles.
     turning: bool,
     /// Lane width.
@@ -104,6 +108,7 @@ impl Simulation {
             fields: fields::Fields::of(&scene),
             bodies: bodies::of(&scene),
             search: neighbours::Search::of(&scene),
+            hiding: hiding::Hiding::of(&scene),
             width: Width::widest(),
             workers: workers::Workers::new(scene.run.threads, scene.particles.len()),
             scene,
@@ -131,11 +136,12 @@ impl Simulation {
 
     /// Makes the bonds that are to be made at this moment, in a time step of this length \[s\].
     fn bond(&mut self, moment: &Moment, step: f64) {
-        let mut made = false;
+        let (mut made, before) = (false, self.hiding.bonds(&self.state));
         for pass in &self.passes {
             made |= pass.create(&mut self.state, moment, step);
         }
         if made {
+            self.hiding.made(&mut self.state, &before, moment);
             self.rebuild();
         }
     }
@@ -143,6 +149,7 @@ impl Simulation {
     /// Makes the lists anew.
     fn rebuild(&mut self) {
         self.search.rebuild(&mut self.state);
+        self.hiding.sort_out(&mut self.state);
         for pass in &self.passes {
             pass.prepare(&mut self.state);
         }
@@ -289,7 +296,7 @@ impl Simulation {
     fn evaluate(&mut self, context: &Context) -> Result<(), RunError> {
         let state = &mut self.state;
         integrate::clear_loads(&mut state.particles, self.turning, context);
-        let mut result = Ok(());
+        let (mut result, told) = (Ok(()), state.breaks.len());
         let mut seen = Loads::default();
         for (place, pass) in self.passes.iter().enumerate() {
             result = result.and(pass.apply(state, context));
@@ -298,6 +305,7 @@ impl Simulation {
                 energy::record(state, pass.source(), &mut seen);
             }
         }
+        self.hiding.broken(state, told);
         boundaries::sum_groups(&self.scene, state);
         state.damping_force = self.fields.apply(state, context);
         if self.fields.damps() {

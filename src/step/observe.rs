@@ -137,7 +137,8 @@ impl Simulation {
     pub fn contact_count(&self) -> usize {
         let touching = |flags: &Vec<u8>| flags.iter().filter(|flags| **flags & TOUCHING != 0).count();
         let pairs = self.state.contacts.iter().map(|list| touching(&list.flags)).sum::<usize>();
-        pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
+        let hidden = self.state.hidden.all().filter(|entry| entry.is_told()).count();
+        hidden + pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
     }
 
     /// Every contact at work, between particles first, then at planes.
@@ -161,26 +162,43 @@ impl Simulation {
     /// Largest overlap over the smaller radius of the two (the particle's, at a plane). From positions alone: rows of
     /// a history ask for it often.
     pub fn largest_overlap(&self) -> f64 {
-        let position = &self.state.particles.position;
+        let State { particles, contacts, walls, hidden, boundaries, .. } = &self.state;
+        let slot = |index: u32| particles.slot[index as usize];
+        let position = |slot: u32| particles.position[slot as usize];
         let mut largest: f64 = 0.0;
-        for list in &self.state.contacts {
-            for (place, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
-                let [a, b] = [list.first[place], list.second[place]].map(|slot| position[slot as usize]);
-                let distance = (Vector::from(a) - Vector::from(b)).length();
-                largest = largest.max((a[3] + b[3] - distance) / a[3].min(b[3]));
+        let touching =
+            |flags: &[u8]| (0..flags.len()).filter(|&place| flags[place] & TOUCHING != 0).collect::<Vec<_>>();
+        let mut pair = |a: Row, b: Row| {
+            let distance = (Vector::from(a) - Vector::from(b)).length();
+            largest = largest.max((a[3] + b[3] - distance) / a[3].min(b[3]));
+        };
+        for list in contacts {
+            for place in touching(&list.flags) {
+                pair(position(list.first[place]), position(list.second[place]));
             }
         }
-        for list in &self.state.walls {
+        for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0) {
+            pair(position(slot(entry.first)), position(slot(entry.second.unwrap_or(entry.first))));
+        }
+        for (place, list) in walls.iter().enumerate() {
             let boundary = list.boundary as usize;
             let Shape::Plane { point, normal, .. } = self.scene.boundaries[boundary].shape else { continue };
-            let point = Vector::from(point) + Vector::from(self.state.boundaries[boundary].displacement);
-            for (place, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
-                let particle = position[list.particle[place] as usize];
+            let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);
+            let apart = hidden.planes.get(place).into_iter().flatten();
+            let apart = apart.filter(|entry| entry.flags & TOUCHING != 0).map(|entry| slot(entry.first));
+            for slot in touching(&list.flags).into_iter().map(|place| list.particle[place]).chain(apart) {
+                let particle = position(slot);
                 let distance = (Vector::from(particle) - point).dot(normal.into());
                 largest = largest.max((particle[3] - distance) / particle[3]);
             }
         }
         largest
+    }
+
+    /// Elastic energy of contacts and bonds \[J\]: of contacts that of normal force and tangential spring, not the
+    /// potential of an attraction.
+    pub fn elastic_energy(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.elastic_energy(&self.state)).sum()
     }
 
     /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts; infinite without

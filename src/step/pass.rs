@@ -81,6 +81,9 @@ pub(super) trait Pass: Send + Sync {
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord));
 
+    /// Elastic energy at the present time, as far as it has a closed form \[J\].
+    fn elastic_energy(&self, state: &State) -> f64;
+
     /// Tells each living bond and what it carries. Changes nothing.
     fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
 }

@@ -1,6 +1,6 @@
 //! Bodies put where another program had them, in the middle of their way.
 
-use super::{RunError, Simulation, assemble, boundaries};
+use super::{RunError, Simulation, assemble, boundaries, hiding};
 use crate::bond::Rows;
 use crate::number::Vector;
 use crate::scene::{Scene, Step};
@@ -41,6 +41,8 @@ pub struct PlacedSpring {
     pub bodies: [u32; 2],
     /// Tangential spring, as the first sees the second \[m\].
     pub spring: [f64; 3],
+    /// Overlap from which the normal force is taken, of a contact that a bond hides or has hidden \[m\].
+    pub offset: f64,
 }
 
 /// Everything that a scene without planes remembers from one time step to the next.
@@ -76,6 +78,8 @@ impl Simulation {
         }
         let mut simulation = Self::resume(scene, state);
         simulation.give_attitudes();
+        let Self { scene, hiding, state, .. } = &mut simulation;
+        hiding.placed(scene, state, &placement.springs);
         simulation.rebuild();
         for spring in &placement.springs {
             put_spring(&mut simulation.state, spring);
@@ -122,6 +126,9 @@ fn put_spring(state: &mut State, placed: &PlacedSpring) {
     let [one, other] = [a, b].map(|slot| particles.position[slot as usize]);
     let distance = (Vector::from(one) - Vector::from(other)).length();
     if distance >= one[3] + other[3] {
+        return;
+    }
+    if hiding::put_spring(state, placed) {
         return;
     }
     for list in &mut state.contacts {

@@ -262,4 +262,8 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
     }
 
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        state.bonds[self.index].elastic
+    }
 }

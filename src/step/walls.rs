@@ -51,13 +51,13 @@ pub(super) struct Plane<N = f64> {
 impl<N: Number> Plane<N> {
     /// How far in front of the plane a centre is \[m\].
     #[inline(always)]
-    fn distance(&self, position: [N; 4]) -> N {
+    pub(super) fn distance(&self, position: [N; 4]) -> N {
         (vector(position) - self.point).dot(self.normal)
     }
 
     /// Geometry and relative motion of a sphere at the plane, with the sphere's arm \[m\].
     #[inline(always)]
-    fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> (Contact<N>, N) {
+    pub(super) fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> (Contact<N>, N) {
         let radius = position[3];
         let overlap = radius - self.distance(position);
         let arm = radius - N::splat(0.5) * overlap;
@@ -91,7 +91,7 @@ impl Plane {
 
 impl<L: Law> WallPass<L> {
     /// The plane where it stands in this state.
-    fn plane(&self, state: &State) -> Plane {
+    pub(super) fn plane(&self, state: &State) -> Plane {
         let boundary = &state.boundaries[state.walls[self.index].boundary as usize];
         Plane {
             point: self.plane.point + boundary.displacement.into(),
@@ -153,10 +153,11 @@ impl<L: Law> Pass for WallPass<L> {
             }
             behind = behind.or(load.behind);
         }
+        let behind = behind.or(self.apply_hidden(state, context.step));
         match behind {
             None => Ok(()),
             Some(slot) => Err(RunError::Behind {
-                id: particles.id[slot as usize],
+                id: state.particles.id[slot as usize],
                 boundary: self.name.clone(),
                 time: state.clock.time,
             }),
@@ -172,6 +173,7 @@ impl<L: Law> Pass for WallPass<L> {
     }
 
     fn prepare(&self, state: &mut State) {
+        self.prepare_hidden(state);
         let list = &mut state.walls[self.index];
         if !L::HAS_SPRING {
             list.spring.clear();
@@ -188,6 +190,7 @@ impl<L: Law> Pass for WallPass<L> {
     }
 
     fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        self.hidden_stiffness(state, tell);
         let list = &state.walls[self.index];
         for entry in 0..list.particle.len() {
             if let Some((contact, arm)) = self.contact(state, entry) {
@@ -229,6 +232,19 @@ impl<L: Law> Pass for WallPass<L> {
             let ids = (state.particles.id[slot], None);
             tell(ContactRecord::new(ids, Some(list.boundary), point, &contact, &reaction, sliding));
         }
+        self.hidden_records(state, tell);
+    }
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        let list = &state.walls[self.index];
+        let energy = |entry: usize| {
+            let (contact, _) = self.contact(state, entry)?;
+            let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
+            let spring = list.spring.get(entry).copied().unwrap_or([0.0; 4]);
+            Some(L::elastic_energy(row, &contact, 0.0, spring.into()))
+        };
+        let touching = (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0);
+        touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
     }
 }
 

@@ -3,7 +3,6 @@
 use super::case::Case;
 use super::history::{History, PairRow};
 use super::samples::{Row, Samples};
-use crate::bond::creation::ContactPolicy;
 use crate::quantity::SetIndex;
 use crate::scene::Scene;
 use crate::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
@@ -36,7 +35,6 @@ pub(super) fn free(case: &Case, scene: &Arc<Scene>, steps: &[u64]) -> Run {
         let mut now = 0;
         for &step in steps {
             advance(&mut simulation, case, now, step).map_err(told)?;
-            refuse_hidden_contact(scene, &simulation)?;
             now = step;
             run.samples.push(observe(case, &simulation, step));
         }
@@ -63,7 +61,6 @@ pub(super) fn windows(case: &Case, scene: &Arc<Scene>, samples: &Samples, histor
             }
             let Some((next, _)) = samples.rows.get(at + 1) else { break };
             advance(&mut simulation, case, *step, *next).map_err(told)?;
-            refuse_hidden_contact(scene, &simulation)?;
             run.samples.push(observe(case, &simulation, *next));
         }
         Ok(())
@@ -78,27 +75,6 @@ fn told(cause: RunError) -> String {
     cause.to_string()
 }
 
-/// Stops where the case hides the contact of bonded bodies and two of them overlap: no pass hides it.
-fn refuse_hidden_contact(scene: &Scene, simulation: &Simulation) -> Result<(), String> {
-    if scene.bonds.iter().all(|bond| bond.keys.contact == ContactPolicy::Parallel) {
-        return Ok(());
-    }
-    let particles = &simulation.state().particles;
-    let row = |index: u32| particles.position[particles.slot[index as usize] as usize];
-    for bond in simulation.bonds() {
-        let (a, b) = (row(bond.first), row(bond.second));
-        let distance: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
-        if distance < (a[3] + b[3]) * (a[3] + b[3]) {
-            return Err(format!(
-                "disableNormalWhenBonded: on found, and bonded spheres overlap at t = {} s; contact and bond act side by \
-                 side here, so that only cases without such an overlap can be replayed",
-                simulation.time()
-            ));
-        }
-    }
-    Ok(())
-}
-
 /// Makes the steps between two numbers.
 fn advance(simulation: &mut Simulation, case: &Case, from: u64, to: u64) -> Result<(), RunError> {
     if to > from { simulation.advance((to - from) as f64 * case.dt) } else { Ok(()) }
@@ -110,7 +86,7 @@ fn placement(case: &Case, scene: &Scene, step: u64, rows: &[Row], pairs: &[PairR
         let [position, velocity, angular_velocity, force, torque] = rows[in_case];
         PlacedParticle { position, velocity, angular_velocity, force, torque }
     };
-    let spring = |pair: &PairRow| PlacedSpring { bodies: pair.bodies, spring: pair.spring };
+    let spring = |pair: &PairRow| PlacedSpring { bodies: pair.bodies, spring: pair.spring, offset: pair.offset };
     Placement {
         steps: step,
         particles: case.by_id().into_iter().map(particle).collect(),

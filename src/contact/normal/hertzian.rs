@@ -43,6 +43,12 @@ impl NormalForm for Hertzian {
         }
     }
 
+    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+        // ∫ K √(R* δ) (δ − δ₀) dδ = K √R* [2/5 δ^(5/2) − 2/3 δ₀ δ^(3/2)] from δ₀ to δ
+        let below = |overlap: f64| overlap * overlap.sqrt() * (0.4 * overlap - offset * 2.0 / 3.0);
+        self.normal_stiffness * contact.radius.sqrt() * (below(contact.overlap) - below(offset))
+    }
+
     fn tangent_stiffness(&self, contact: &Contact) -> f64 {
         1.5 * self.normal_stiffness * (contact.radius * contact.overlap).sqrt()
     }

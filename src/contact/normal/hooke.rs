@@ -81,6 +81,11 @@ impl NormalForm for Hooke {
         }
     }
 
+    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+        let pressing = contact.overlap - offset;
+        0.5 * contact.pair_constant * pressing * pressing
+    }
+
     fn tangent_stiffness(&self, contact: &Contact) -> f64 {
         contact.pair_constant
     }

@@ -78,6 +78,11 @@ impl NormalForm for HookeStiffness {
         }
     }
 
+    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+        let pressing = contact.overlap - offset;
+        0.5 * self.normal_stiffness * pressing * pressing
+    }
+
     fn tangent_stiffness(&self, _contact: &Contact) -> f64 {
         self.normal_stiffness
     }

@@ -4,7 +4,7 @@ use super::close::for_each_overlap;
 use super::particles::Born;
 use super::sense::Finding;
 use super::written::Written;
-use crate::bond::creation::{ContactPolicy, Creation};
+use crate::bond::creation::Creation;
 use crate::bond::keys::Keys;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::document::{Document, Faults};
@@ -26,11 +26,6 @@ pub(super) fn bonds(
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
         given_step(keys, &table, step, faults);
-        if keys.contact != ContactPolicy::Parallel {
-            let (what, instead) =
-                ("contacts that a bond switches off", "contact and bond side by side (\"parallel\") are");
-            faults.add(&table, "contact", Mistake::NotThere { what, instead });
-        }
         let between = between(keys, document, &table, written, born, faults);
         if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
             let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
