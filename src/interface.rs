@@ -133,12 +133,16 @@ impl Interface {
             variables.extend(of_boundary(scene, boundary, index).into_iter().map(|meaning| meaning.variable(scene)));
         }
         let mut whole = vec![Meaning::KineticEnergy];
+        if !(scene.contacts.is_empty() && scene.bonds.is_empty()) {
+            whole.push(Meaning::ElasticEnergy);
+        }
         if scene.output.energy {
-            whole.push(Meaning::EnergyResidual);
+            whole.extend([Meaning::DissipatedEnergy, Meaning::EnergyResidual]);
         }
         whole.extend([Meaning::ContactCount, Meaning::LargestOverlap]);
         if !scene.bonds.is_empty() {
-            whole.extend([Meaning::IntactBonds, Meaning::BrokenBonds]);
+            let energies = [Meaning::BondElasticEnergy, Meaning::BondDissipatedEnergy];
+            whole.extend([Meaning::IntactBonds, Meaning::BrokenBonds].into_iter().chain(energies));
         }
         whole.extend([Meaning::TimeStep, Meaning::StableStep]);
         variables.extend(whole.into_iter().map(|meaning| meaning.variable(scene)));

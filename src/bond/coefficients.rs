@@ -70,6 +70,11 @@ impl Law {
         }
     }
 
+    /// Whether a living bond loses energy.
+    pub fn dissipates(&self) -> bool {
+        self.damping != [0.0; 4] || self.relaxation_rate != [0.0; 4]
+    }
+
     /// k_n A, k_t A, k_t J, k_n I of a bond between bodies whose smaller radius is this \[m\], for the stable
     /// time step \[N/m, N m\].
     pub fn stiffness(&self, least_radius: f64) -> Parts {

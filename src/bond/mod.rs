@@ -117,6 +117,8 @@ pub struct Reaction<N: Number> {
     pub elastic: N,
     /// Elastic energy that relaxation took in this evaluation \[J\].
     pub relaxed: N,
+    /// Energy that damping took in this time step, by the rates of half a step earlier \[J\].
+    pub damped: N,
     /// 0, or why the bond broke: [`Cause::code`].
     pub cause: N,
     /// Where the bond is bent beyond π.
@@ -135,6 +137,8 @@ pub trait BondLaw: Send + Sync + 'static {
     const NEEDS_ATTITUDES: bool;
     /// Whether [`Body::mass`] and [`Body::inertia`] are looked at.
     const NEEDS_MASSES: bool;
+    /// Whether [`Reaction::damped`] says anything.
+    const DAMPS: bool;
     /// State of a bond that is made now; evaluate it in the same step with [`BondLaw::react`].
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
     /// Force, torque, breakage and new state of one bond.
@@ -164,6 +168,8 @@ pub struct Carried {
     pub shear_stress: f64,
     /// Elastic energy \[J\].
     pub energy: f64,
+    /// Rate at which its elastic force and torques work on the bodies \[W\].
+    pub power: f64,
 }
 
 /// The law that the scene composed of a formulation, damping and breakage.
@@ -175,6 +181,7 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
     const FIXED_ROWS: usize = F::FIXED_ROWS;
     const NEEDS_ATTITUDES: bool = F::NEEDS_ATTITUDES;
     const NEEDS_MASSES: bool = D::NEEDS_MASSES;
+    const DAMPS: bool = D::ACTIVE;
 
     #[inline(always)]
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
@@ -194,6 +201,11 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
         let damping_torque_i = couple * pair.share_i + twist;
         let damping_torque_j = couple * pair.share_j - twist;
 
+        let mut damped = N::zero();
+        if D::ACTIVE {
+            let turning = damping_torque_i.dot(pair.spin_i) + damping_torque_j.dot(pair.spin_j);
+            damped = -(damping_force.dot(pair.velocity) + turning) * law.step;
+        }
         let none = Vector::zero();
         let broken = cause.greater(N::zero());
         Reaction {
@@ -205,6 +217,7 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
             damping_torque_j: Vector::select(broken, none, damping_torque_j),
             elastic: elastic.energy,
             relaxed: elastic.relaxed,
+            damped: N::select(broken, N::zero(), damped),
             cause,
             overbent: elastic.overbent,
             rows: elastic.rows,
@@ -226,6 +239,9 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
             normal_stress: stress.normal,
             shear_stress: stress.shear,
             energy: elastic.energy,
+            power: elastic.force.dot(pair.velocity)
+                + elastic.torque_i.dot(pair.spin_i)
+                + elastic.torque_j.dot(pair.spin_j),
         }
     }
 }

@@ -14,6 +14,7 @@ pub use resources::{Contents, Resource, ResourceError, identity, read_resources,
 use crate::interface::Interface;
 use crate::scene::{Scene, Source};
 use crate::state::State;
+use crate::state::ledger::Source as Kind;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -72,15 +73,19 @@ pub fn export(
     archive::write(&entries, output).map_err(written)
 }
 
-/// The state as a start: work and the energy book count from there, and mean loads are the present ones.
+/// The state as a start: work and the energy book count from there, and mean loads are the present ones. Dissipated
+/// energy goes on counting.
 fn as_start(state: &State) -> State {
     let mut state = state.clone();
+    let given: f64 = state.boundaries.iter().map(|boundary| boundary.work).sum();
     for boundary in &mut state.boundaries {
         boundary.work = 0.0;
         boundary.mean_force = boundary.force;
         boundary.mean_moment = boundary.moment;
     }
     if let Some(ledger) = &mut state.ledger {
+        let returned = ledger.total() - ledger.work_of(Kind::Gravity) - ledger.work_of(Kind::Applied);
+        ledger.initial_elastic += given - returned;
         ledger.initial_kinetic += ledger.total();
         ledger.work = Default::default();
     }

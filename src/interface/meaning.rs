@@ -33,6 +33,14 @@ pub(super) enum Meaning {
     Mass(BoundaryIndex),
     /// Kinetic energy of the particles \[J\].
     KineticEnergy,
+    /// Elastic energy of contacts and bonds \[J\].
+    ElasticEnergy,
+    /// What contacts, bonds and global damping took \[J\].
+    DissipatedEnergy,
+    /// Elastic energy of the bonds \[J\].
+    BondElasticEnergy,
+    /// What left the bonds \[J\].
+    BondDissipatedEnergy,
     /// What the algorithmic energy book leaves over \[J\].
     EnergyResidual,
     /// Number of contacts.
@@ -68,6 +76,10 @@ impl Meaning {
             Self::Work(boundary) => of(boundary).work,
             Self::Mass(boundary) => mass(simulation.scene(), boundary),
             Self::KineticEnergy => simulation.kinetic_energy(),
+            Self::ElasticEnergy => simulation.elastic_energy(),
+            Self::DissipatedEnergy => simulation.dissipated_energy().unwrap_or(0.0),
+            Self::BondElasticEnergy => state.bonds.iter().map(|list| list.elastic).sum(),
+            Self::BondDissipatedEnergy => state.bonds.iter().map(crate::state::BondList::dissipated).sum(),
             Self::EnergyResidual => simulation.energy_residual().unwrap_or(0.0),
             Self::ContactCount => return count(simulation.contact_count() as u64),
             Self::IntactBonds => return count(state.bonds.iter().map(|list| list.first.len() as u64).sum()),
@@ -103,6 +115,8 @@ impl Meaning {
                 | Self::Work(_)
                 | Self::Mass(_)
                 | Self::KineticEnergy
+                | Self::DissipatedEnergy
+                | Self::BondDissipatedEnergy
                 | Self::EnergyResidual
         );
         Variable {
@@ -141,7 +155,13 @@ impl Meaning {
             Self::AngularVelocity(..) => Quantity::AngularVelocity,
             Self::Force(..) | Self::MeanForce(..) => Quantity::Force,
             Self::Moment(..) | Self::MeanMoment(..) => Quantity::Torque,
-            Self::Work(_) | Self::KineticEnergy | Self::EnergyResidual => Quantity::Energy,
+            Self::Work(_)
+            | Self::KineticEnergy
+            | Self::ElasticEnergy
+            | Self::DissipatedEnergy
+            | Self::BondElasticEnergy
+            | Self::BondDissipatedEnergy
+            | Self::EnergyResidual => Quantity::Energy,
             Self::Mass(_) => Quantity::Mass,
             Self::ContactCount | Self::IntactBonds | Self::BrokenBonds => Quantity::Count,
             Self::LargestOverlap => Quantity::Ratio,
@@ -154,6 +174,8 @@ impl Meaning {
         match self {
             Self::Mass(_)
             | Self::KineticEnergy
+            | Self::ElasticEnergy
+            | Self::BondElasticEnergy
             | Self::ContactCount
             | Self::IntactBonds
             | Self::BrokenBonds
@@ -179,6 +201,10 @@ impl Meaning {
             Self::Work(boundary) => format!("{}.work", of(boundary)),
             Self::Mass(boundary) => format!("{}.mass", of(boundary)),
             Self::KineticEnergy => "energy.kinetic".to_owned(),
+            Self::ElasticEnergy => "energy.elastic".to_owned(),
+            Self::DissipatedEnergy => "energy.dissipated".to_owned(),
+            Self::BondElasticEnergy => "bonds.elastic_energy".to_owned(),
+            Self::BondDissipatedEnergy => "bonds.dissipated_energy".to_owned(),
             Self::EnergyResidual => "energy.residual".to_owned(),
             Self::ContactCount => "contacts.count".to_owned(),
             Self::IntactBonds => "bonds.intact".to_owned(),
@@ -240,6 +266,18 @@ impl Meaning {
                 format!("mass of the particles of {}; their weight and inertia are not in its force", of(boundary).name)
             }
             Self::KineticEnergy => "kinetic energy of the particles and groups that move freely".to_owned(),
+            Self::ElasticEnergy => "elastic energy of normal forces, tangential springs and bonds".to_owned(),
+            Self::DissipatedEnergy => {
+                "energy that contacts, bonds and global damping took in and do not hold as elastic energy, since the \
+                 scene's time 0"
+                    .to_owned()
+            }
+            Self::BondElasticEnergy => "elastic energy of the living bonds".to_owned(),
+            Self::BondDissipatedEnergy => {
+                "energy that damping and relaxation took of the bonds and that broken bonds released, since the scene's \
+                 time 0"
+                    .to_owned()
+            }
             Self::EnergyResidual => {
                 "change of the kinetic energy less the work of every force, as the time steps do it".to_owned()
             }

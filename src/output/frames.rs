@@ -48,22 +48,28 @@ pub(super) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
     }
 }
 
-/// A line for each bond, from body i to body j: what it carries. The ids of the bodies are those of the points.
+/// A line for each bond, from body i to body j or to its foot on the plane: what it carries. The ids of the bodies are
+/// those of the points; a foot has −1, and `boundary` is then the place of the plane in the scene (otherwise −1).
 pub(super) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> Cloud {
-    let ends = || bonds.iter().flat_map(|bond| [bond.first, bond.second]);
     let position = |particle: u32| {
-        let slot = particles.slot[particle as usize] as usize;
-        particles.position[slot].into_iter().take(3)
+        let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
+        [x, y, z]
     };
     let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
+    let ids = bonds.iter().flat_map(|bond| [id(bond.first), bond.second.map_or(-1, id)]).collect();
+    let plane = |bond: &BondRecord| {
+        let plane = scene.bonds.get(bond.law as usize).and_then(|law| law.plane);
+        plane.map_or(-1, |plane| i64::from(plane.0))
+    };
     let vectors = |of: fn(&BondRecord) -> [f64; 3]| Values::Vectors(bonds.iter().flat_map(of).collect());
     let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
     Cloud {
-        points: ends().flat_map(position).collect(),
+        points: bonds.iter().flat_map(|bond| [position(bond.first), bond.other]).flatten().collect(),
         kind: Kind::Lines,
-        fields: vec![("id", Values::Integers(ends().map(id).collect()))],
+        fields: vec![("id", Values::Integers(ids))],
         line_fields: vec![
             ("law", Values::Integers(bonds.iter().map(|bond| i64::from(bond.law)).collect())),
+            ("boundary", Values::Integers(bonds.iter().map(plane).collect())),
             ("normal_force", scalars(|bond| bond.carried.normal)),
             ("shear_force", vectors(|bond| bond.carried.shear)),
             ("torsion", scalars(|bond| bond.carried.torsion)),
@@ -71,6 +77,7 @@ pub(super) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
             ("normal_stress", scalars(|bond| bond.carried.normal_stress)),
             ("shear_stress", scalars(|bond| bond.carried.shear_stress)),
             ("energy", scalars(|bond| bond.carried.energy)),
+            ("dissipated", scalars(|bond| bond.dissipated)),
         ],
     }
 }

@@ -108,6 +108,12 @@ pub struct EnergyBook {
     pub initial_kinetic: f64,
     /// Kinetic energy at the end \[J\].
     pub kinetic: f64,
+    /// Elastic energy of contacts and bonds when the book was opened \[J\].
+    pub initial_elastic: f64,
+    /// Elastic energy at the end \[J\].
+    pub elastic: f64,
+    /// What contacts, bonds and global damping took and do not hold as elastic energy \[J\].
+    pub dissipated: f64,
     /// Work of each kind of force \[J\].
     pub work: BTreeMap<&'static str, f64>,
     /// Change of kinetic energy less all work \[J\].
@@ -257,6 +263,9 @@ fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
     Some(EnergyBook {
         initial_kinetic: ledger.initial_kinetic,
         kinetic,
+        initial_elastic: ledger.initial_elastic,
+        elastic: simulation.elastic_energy(),
+        dissipated: simulation.dissipated_energy().unwrap_or(0.0),
         work: Source::ALL.into_iter().map(|source| (source.name(), ledger.work_of(source))).collect(),
         residual,
         relative_residual: if scale > 0.0 { residual / scale } else { 0.0 },

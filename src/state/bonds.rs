@@ -17,6 +17,8 @@ pub struct BondList {
     pub foot: Vec<Row>,
     /// State of the bonds: the rows of the law, each a column here.
     pub rows: Vec<Vec<Row>>,
+    /// Energy that damping and relaxation took of each bond so far \[J\]; empty where the law takes none.
+    pub lost: Vec<f64>,
     /// Bonds made so far.
     pub made: u64,
     /// Bonds broken so far.
@@ -25,8 +27,17 @@ pub struct BondList {
     pub elastic: f64,
     /// Elastic energy that relaxation took so far \[J\].
     pub relaxed: f64,
+    /// Energy that damping took so far \[J\].
+    pub damped: f64,
     /// Elastic energy that broken bonds released so far \[J\].
     pub released: f64,
+}
+
+impl BondList {
+    /// Energy that left the bonds so far: by damping, by relaxation, and with those that broke \[J\].
+    pub fn dissipated(&self) -> f64 {
+        self.damped + self.relaxed + self.released
+    }
 }
 
 /// A bond broke.

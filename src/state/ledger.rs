@@ -55,6 +55,8 @@ pub struct Loads {
 pub struct Ledger {
     /// Kinetic energy when the book was opened \[J\].
     pub initial_kinetic: f64,
+    /// Elastic energy then \[J\].
+    pub initial_elastic: f64,
     /// Work of each of [`Source::ALL`] since then \[J\].
     pub work: [f64; 6],
     /// Sum of the magnitudes of all entries \[J\]: what a residual is measured against.

@@ -9,7 +9,7 @@ use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
 use super::observe::{BondRecord, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use crate::bond::creation::{Creation, Moment, near_pair};
-use crate::bond::{Body, BondLaw, Law, MOST_ROWS, Pair, Quaternion, Reaction, Rows};
+use crate::bond::{Body, BondLaw, Carried, Law, MOST_ROWS, Pair, Quaternion, Reaction, Rows};
 use crate::contact::Response;
 use crate::number::Vector;
 use crate::quantity::SetIndex;
@@ -64,6 +64,17 @@ impl<L: BondLaw> BondPass<L> {
         [a, b] == self.between || [b, a] == self.between
     }
 
+    /// What a bond carries.
+    fn carried(&self, state: &State, bond: usize) -> Carried {
+        let list = &state.bonds[self.index];
+        let mut rows = Rows::default();
+        for (row, column) in rows.iter_mut().zip(&list.rows) {
+            *row = column[bond];
+        }
+        let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
+        L::carried(&self.numbers, &pair_of(&state.particles, i, j), &rows)
+    }
+
     /// Pairs without a bond that are to be bonded at this moment, as slots of i and j; i has the smaller id.
     fn wanted(&self, state: &State, moment: &Moment) -> Vec<[u32; 2]> {
         let particles = &state.particles;
@@ -104,6 +115,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
             first: &list.first,
             second: &list.second,
             rows: [column(), column(), column()],
+            lost: Shared::new(&mut list.lost),
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
@@ -124,6 +136,9 @@ impl<L: BondLaw> Pass for BondPass<L> {
                 results[2 * piece + parity] = done;
             }
         }
+        for done in &mut results {
+            done.release(context.step, |bond| self.carried(state, bond).power);
+        }
         book(state, self.index, results)
     }
 
@@ -137,6 +152,9 @@ impl<L: BondLaw> Pass for BondPass<L> {
             let rows = L::create(&law, &pair);
             list.first.push(i);
             list.second.push(j);
+            if self.numbers.dissipates() {
+                list.lost.push(0.0);
+            }
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
             }
@@ -199,13 +217,11 @@ impl<L: BondLaw> Pass for BondPass<L> {
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
-            let mut rows = Rows::default();
-            for (row, column) in rows.iter_mut().zip(&list.rows) {
-                *row = column[bond];
-            }
-            let carried = L::carried(&self.numbers, &pair_of(particles, i as usize, j as usize), &rows);
+            let carried = self.carried(state, bond);
             let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
-            tell(BondRecord { law: self.index as u32, first, second, carried });
+            let other = Vector::from(particles.position[j as usize]).to_array();
+            let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
+            tell(BondRecord { law: self.index as u32, first, second: Some(second), other, carried, dissipated });
         }
     }
 }
@@ -221,6 +237,7 @@ pub(super) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<
     for done in results {
         list.elastic += done.elastic;
         list.relaxed += done.relaxed;
+        list.damped += done.damped;
         gone.extend(done.broken);
         if let Some(bond) = done.overbent {
             let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
@@ -261,6 +278,7 @@ fn remove(list: &mut BondList, gone: &[(u32, f64, f64)]) {
     for column in list.rows.iter_mut().chain([&mut list.foot]) {
         keep(column, &dead);
     }
+    keep(&mut list.lost, &dead);
 }
 
 /// Keeps the entries of living bonds, in their order.
@@ -295,6 +313,8 @@ pub(super) struct Done {
     elastic: f64,
     /// Elastic energy that relaxation took \[J\].
     relaxed: f64,
+    /// Energy that damping took \[J\].
+    damped: f64,
     /// Bonds that broke: bond, cause, released energy \[J\].
     broken: Vec<(u32, f64, f64)>,
     /// A bond bent beyond what can be followed.
@@ -302,9 +322,18 @@ pub(super) struct Done {
 }
 
 impl Done {
+    /// Takes the energy of broken bonds to the middle of the step: up to there their force acted, and what they then held
+    /// is what the books lose, to second order in the step. `power` says at which rate a bond worked on its bodies \[W\].
+    pub(super) fn release(&mut self, step: f64, power: impl Fn(usize) -> f64) {
+        for (bond, _, energy) in &mut self.broken {
+            *energy += 0.5 * step * power(*bond as usize);
+        }
+    }
+
     /// Adds what one bond did.
     pub(super) fn add(&mut self, bond: u32, reaction: &Reaction<f64>) {
         self.relaxed += reaction.relaxed;
+        self.damped += reaction.damped;
         if reaction.cause == 0.0 {
             self.elastic += reaction.elastic;
         } else {
@@ -326,6 +355,8 @@ struct Work<'a, L> {
     second: &'a [u32],
     /// State of each bond, row by row.
     rows: [Shared<Row>; MOST_ROWS],
+    /// Energy that each bond lost; empty where none does.
+    lost: Shared<f64>,
     /// Positions and radii.
     position: &'a [Row],
     /// Velocities and masses.
@@ -358,6 +389,8 @@ struct Buffer {
     elastic: [f64; BATCH + 8],
     /// Elastic energy that relaxation took.
     relaxed: [f64; BATCH + 8],
+    /// Energy that damping took.
+    damped: [f64; BATCH + 8],
     /// A bond bent beyond what can be followed.
     overbent: Option<u32>,
 }
@@ -373,6 +406,7 @@ impl<L: BondLaw> Work<'_, L> {
             cause: [0.0; BATCH + 8],
             elastic: [0.0; BATCH + 8],
             relaxed: [0.0; BATCH + 8],
+            damped: [0.0; BATCH + 8],
             overbent: None,
         };
         let mut batch = from;
@@ -402,6 +436,11 @@ impl<L: BondLaw> Work<'_, L> {
                     on_i[axis] -= buffer.force[place][axis];
                     on_j[axis] += buffer.second_torque[place][axis];
                 }
+            }
+            if self.lost.length() > 0 {
+                // SAFETY: there is one for each bond, and this bond belongs to this slab alone.
+                unsafe { *self.lost.at(bond) += buffer.relaxed[place] + buffer.damped[place] };
+                done.damped += buffer.damped[place];
             }
             done.relaxed += buffer.relaxed[place];
             if buffer.cause[place] == 0.0 {
@@ -462,6 +501,9 @@ impl<L: BondLaw> Kernel for React<'_, '_, L> {
                 reaction.cause.store(buffer.cause.as_mut_ptr().add(place));
                 reaction.elastic.store(buffer.elastic.as_mut_ptr().add(place));
                 reaction.relaxed.store(buffer.relaxed.as_mut_ptr().add(place));
+                if L::DAMPS {
+                    reaction.damped.store(buffer.damped.as_mut_ptr().add(place));
+                }
                 if work.step > 0.0 {
                     let mut row = L::FIXED_ROWS;
                     while row < L::ROWS {
@@ -527,6 +569,9 @@ pub(super) fn sort(list: &mut BondList, new_slot: &[u32], slabs: &[u32]) {
     list.second = order.iter().filter_map(|&bond| list.second.get(bond as usize).copied()).collect();
     for column in list.rows.iter_mut().chain([&mut list.foot]).filter(|column| !column.is_empty()) {
         *column = order.iter().map(|&bond| column[bond as usize]).collect();
+    }
+    if !list.lost.is_empty() {
+        list.lost = order.iter().map(|&bond| list.lost[bond as usize]).collect();
     }
 }
 

@@ -328,9 +328,10 @@ impl Simulation {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;
         }
-        let kinetic = energy::kinetic(&self.state, &self.bodies, &context);
-        if let Some(ledger) = &mut self.state.ledger {
+        let energies = self.state.ledger.is_some().then(|| (self.kinetic_energy(), self.elastic_energy()));
+        if let (Some(ledger), Some((kinetic, elastic))) = (&mut self.state.ledger, energies) {
             ledger.initial_kinetic = kinetic;
+            ledger.initial_elastic = elastic;
         }
         result.map_err(|error| self.named(error))?;
         let limit = self.limit();

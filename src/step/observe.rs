@@ -7,6 +7,7 @@ use crate::contact::{Contact, Law, Reaction, Response};
 use crate::number::Vector;
 use crate::scene::Shape;
 use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::ledger::Source;
 use crate::state::{Row, State};
 
 /// One contact at work, as it was when the present forces were evaluated.
@@ -39,10 +40,21 @@ pub struct BondRecord {
     pub law: u32,
     /// Body i: index into the scene's particles.
     pub first: u32,
-    /// Body j: index into the scene's particles.
-    pub second: u32,
+    /// Body j: index into the scene's particles; none where it is the law's plane.
+    pub second: Option<u32>,
+    /// Where body j is, or the foot of the bond on the plane \[m\].
+    pub other: [f64; 3],
     /// Forces, torques, stresses and energy.
     pub carried: Carried,
+    /// Energy that damping and relaxation took of it so far \[J\].
+    pub dissipated: f64,
+}
+
+impl BondRecord {
+    /// Whether it is a bond of these two of the scene's particles, in this order.
+    pub fn joins(&self, [i, j]: [u32; 2]) -> bool {
+        self.first == i && self.second == Some(j)
+    }
 }
 
 impl ContactRecord {
@@ -230,6 +242,19 @@ impl Simulation {
     pub fn energy_residual(&self) -> Option<f64> {
         let ledger = self.state.ledger.as_ref()?;
         Some(self.kinetic_energy() - ledger.initial_kinetic - ledger.total())
+    }
+
+    /// Energy that contacts, bonds and global damping took in since the book was opened and do not hold as elastic
+    /// energy \[J\]; `None` where the scene keeps no book.
+    ///
+    /// The difference of what boundaries put into the particles and what the forces gave back to them as work, less
+    /// the growth of the elastic energy. It holds the error of the time stepping, of the second order in the step.
+    pub fn dissipated_energy(&self) -> Option<f64> {
+        let ledger = self.state.ledger.as_ref()?;
+        let given: f64 = self.state.boundaries.iter().map(|boundary| boundary.work).sum();
+        let kinds = [Source::Contacts, Source::Bonds, Source::Walls, Source::Damping];
+        let returned: f64 = kinds.into_iter().map(|kind| ledger.work_of(kind)).sum();
+        Some(given - returned - (self.elastic_energy() - ledger.initial_elastic))
     }
 
     /// Threads at work.

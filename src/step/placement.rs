@@ -74,7 +74,7 @@ impl Simulation {
         boundaries::put_prescribed(&scene, &mut state, time);
         put_particles(&mut state, &placement.particles);
         for bond in &placement.bonds {
-            put_bond(&mut state, bond);
+            put_bond(&mut state, bond, scene.bonds.get(bond.law).is_some_and(|law| law.law.dissipates()));
         }
         let mut simulation = Self::resume(scene, state);
         simulation.give_attitudes();
@@ -107,13 +107,16 @@ fn put(row: &mut Row, vector: [f64; 3]) {
 }
 
 /// Appends a bond to its list; slots are still those of the scene.
-fn put_bond(state: &mut State, bond: &PlacedBond) {
+fn put_bond(state: &mut State, bond: &PlacedBond, lossy: bool) {
     let Some(list) = state.bonds.get_mut(bond.law) else { return };
     list.rows.resize(bond.rows.len(), Vec::new());
     list.first.push(bond.bodies[0]);
     list.second.push(bond.bodies[1]);
     for (column, row) in list.rows.iter_mut().zip(bond.rows) {
         column.push(row);
+    }
+    if lossy {
+        list.lost.push(0.0);
     }
     list.made += 1;
     state.particles.count_bond(bond.bodies);

@@ -6,10 +6,10 @@
 use super::bonds::{Done, body_of, book};
 use super::error::RunError;
 use super::lanes::Shared;
-use super::observe::ContactRecord;
+use super::observe::{BondRecord, ContactRecord};
 use super::pass::{CHUNK, Context, Link, Pass};
 use crate::bond::creation::{Creation, Moment, near_plane};
-use crate::bond::{Body, BondLaw, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows};
+use crate::bond::{Body, BondLaw, Carried, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows};
 use crate::contact::Response;
 use crate::number::Vector;
 use crate::quantity::{BoundaryIndex, SetIndex};
@@ -97,6 +97,15 @@ impl<L: BondLaw> WallBondPass<L> {
         Pair::at_wall(&body_of(&state.particles, list.first[bond] as usize), &foot)
     }
 
+    /// What a bond carries.
+    fn carried(&self, state: &State, bond: usize) -> Carried {
+        let mut rows = Rows::default();
+        for (row, column) in rows.iter_mut().zip(&state.bonds[self.index].rows) {
+            *row = column[bond];
+        }
+        L::carried(&self.numbers, &self.pair(state, bond), &rows)
+    }
+
     /// Particles to be bonded at this moment, with the feet of their bonds where the plane stood at time 0.
     fn wanted(&self, state: &State, moment: &Moment) -> Vec<(u32, Row)> {
         if !self.creation.bonds_near_pairs(moment) {
@@ -124,6 +133,8 @@ struct Work<'a> {
     law: Coefficients<f64>,
     /// Rows of the list, each a column.
     rows: [Shared<Row>; MOST_ROWS],
+    /// Energy that each bond lost; empty where none does.
+    lost: Shared<f64>,
     /// Forces.
     force: Shared<Row>,
     /// Torques.
@@ -164,6 +175,10 @@ impl Work<'_> {
             }
             piece.force += -reaction.force;
             piece.moment += reaction.torque_j - self.arms[bond].cross(reaction.force);
+            if self.lost.length() > 0 {
+                // SAFETY: pieces do not overlap, and there is one for each bond.
+                unsafe { *self.lost.at(bond) += reaction.relaxed + reaction.damped };
+            }
             piece.done.add(bond as u32, &reaction);
         }
         piece
@@ -181,6 +196,7 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
         let work = Work {
             law: self.numbers.coefficients(context.step),
             rows: [column(), column(), column()],
+            lost: Shared::new(&mut list.lost),
             force: Shared::new(&mut state.particles.force),
             torque: Shared::new(&mut state.particles.torque),
             first: &list.first,
@@ -197,6 +213,9 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
             plane.moment = (Vector::from(plane.moment) + piece.moment).to_array();
             results.push(piece.done);
         }
+        for done in &mut results {
+            done.release(context.step, |bond| self.carried(state, bond).power);
+        }
         book(state, self.index, results)
     }
 
@@ -211,6 +230,9 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
             list.rows.resize(L::ROWS, Vec::new());
             list.first.push(slot);
             list.foot.push(foot);
+            if self.numbers.dissipates() {
+                list.lost.push(0.0);
+            }
             state.particles.count_bond([state.particles.id[slot as usize]]);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
@@ -262,6 +284,17 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
     }
 
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
+        let list = &state.bonds[self.index];
+        for (bond, &slot) in list.first.iter().enumerate() {
+            let carried = self.carried(state, bond);
+            let foot = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
+            let (first, other) = (state.particles.id[slot as usize], foot.position.to_array());
+            let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
+            tell(BondRecord { law: self.index as u32, first, second: None, other, carried, dissipated });
+        }
+    }
 
     fn elastic_energy(&self, state: &State) -> f64 {
         state.bonds[self.index].elastic

@@ -48,7 +48,7 @@ impl LinkErrors {
             let living = history.at(*step).iter().filter(|pair| pair.bonded);
             same &= living.clone().count() == ours.len();
             for pair in living {
-                let Some(bond) = ours.iter().find(|bond| [bond.first, bond.second] == pair.bodies) else {
+                let Some(bond) = ours.iter().find(|bond| bond.joins(pair.bodies)) else {
                     same = false;
                     continue;
                 };

@@ -124,5 +124,6 @@ fn observe(case: &Case, simulation: &Simulation, step: u64) -> Sample {
             three(&particles.torque[slot]),
         ];
     }
-    Sample { step, rows, bonds: simulation.bonds() }
+    let bonds = simulation.bonds().into_iter().filter(|bond| bond.second.is_some()).collect();
+    Sample { step, rows, bonds }
 }

@@ -50,6 +50,7 @@ fn torque<N: Number>(share: N, part: Vector<N>, rate: Vector<N>) -> Vector<N> {
 }
 
 impl Damping for Componentwise {
+    const ACTIVE: bool = true;
     const NEEDS_MASSES: bool = false;
 
     #[inline(always)]

@@ -25,6 +25,8 @@ pub struct Lost<N: Number> {
 
 /// A damping model.
 pub trait Damping: Send + Sync + 'static {
+    /// Whether it adds anything.
+    const ACTIVE: bool;
     /// Whether it looks at masses and moments of inertia.
     const NEEDS_MASSES: bool;
     /// What it adds.

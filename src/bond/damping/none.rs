@@ -9,6 +9,7 @@ use crate::number::{Number, Vector};
 pub struct Undamped;
 
 impl Damping for Undamped {
+    const ACTIVE: bool = false;
     const NEEDS_MASSES: bool = false;
 
     #[inline(always)]

@@ -31,6 +31,7 @@ fn against<N: Number>(share: N, part: N, rate: Vector<N>) -> Vector<N> {
 }
 
 impl Damping for Opposing {
+    const ACTIVE: bool = true;
     const NEEDS_MASSES: bool = false;
 
     #[inline(always)]

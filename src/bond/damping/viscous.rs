@@ -35,6 +35,7 @@ fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
 }
 
 impl Damping for Viscous {
+    const ACTIVE: bool = true;
     const NEEDS_MASSES: bool = true;
 
     #[inline(always)]

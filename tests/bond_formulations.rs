@@ -1,0 +1,120 @@
+//! How far the formulations are from `engine_exact` on the stored cases, and what that difference does as the step is
+//! halved: the table in `docs/bonds.md`.
+
+use cograin::bond::keys::FormulationChoice;
+use cograin::verify::{Options, find, replay};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Where the cases of bonds lie.
+const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
+
+/// Steps of a case that are compared at most.
+const MOST: u64 = 2000;
+
+/// A difference below this is none.
+const SAME: f64 = 1e-9;
+
+/// A folder of this test's own that goes when it is dropped.
+struct Scratch(PathBuf);
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The steps of a case up to which rounding does not matter.
+fn until(case: &Value) -> u64 {
+    let steps = case["steps"].as_u64().expect("a number of steps");
+    let horizon = case["reproducible"]["free_run_1e9_until_step"].as_u64().unwrap_or(steps);
+    let every = case["sample_every"].as_u64().expect("a number of steps");
+    let until = if horizon < steps { horizon / 2 } else { steps };
+    (until.min(MOST) / every).max(1) * every
+}
+
+/// The case with as many times the steps.
+fn finer(case: &Value, share: u64) -> Value {
+    let mut finer = case.clone();
+    finer["dt"] = json!(case["dt"].as_f64().expect("a step") / share as f64);
+    finer["steps"] = json!(until(case) * share);
+    finer["sample_every"] = json!(case["sample_every"].as_u64().expect("a number of steps") * share);
+    if let Some(created) = case["pair_properties"]["tsCreateBond"].as_f64() {
+        finer["pair_properties"]["tsCreateBond"] = json!((created as u64 - 1) * share + 1);
+    }
+    finer
+}
+
+/// Position, velocity and angular velocity of each row that a free run leaves.
+fn run(scratch: &Path, case: &Value, formulation: FormulationChoice) -> Vec<[[f64; 3]; 3]> {
+    let (folder, out) = (scratch.join("case"), scratch.join("out"));
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("case.json"), case.to_string()).expect("a file");
+    let options = Options { formulation, free: true, write: Some(out.clone()), ..Options::default() };
+    let report = replay(&folder, &options).expect("the case is right");
+    assert!(report.stopped.is_none(), "{report}");
+    let text = fs::read_to_string(out.join("case.csv")).expect("the trajectory");
+    let row = |line: &str| {
+        let numbers: Vec<f64> = line.split(',').skip(3).map(|field| field.parse().expect("a number")).collect();
+        [0, 3, 6].map(|first| [numbers[first], numbers[first + 1], numbers[first + 2]])
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// The largest part of the difference of two vectors.
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).fold(0.0, |most, axis| (a[axis] - b[axis]).abs().max(most))
+}
+
+/// Largest difference of two runs, over the largest displacement, velocity and angular velocity of the first.
+fn difference(case: &Value, theirs: &[[[f64; 3]; 3]], ours: &[[[f64; 3]; 3]]) -> f64 {
+    let particles = case["particles"].as_array().expect("particles");
+    let radius = particles.iter().filter_map(|particle| particle["radius"].as_f64()).fold(f64::INFINITY, f64::min);
+    let (mut scale, mut worst) = ([0.0_f64; 3], [0.0_f64; 3]);
+    for (place, (a, b)) in theirs.iter().zip(ours).enumerate() {
+        let start = theirs[place % particles.len()];
+        for quantity in 0..3 {
+            let zero = if quantity == 0 { start[0] } else { [0.0; 3] };
+            scale[quantity] = scale[quantity].max(apart(a[quantity], zero));
+            worst[quantity] = worst[quantity].max(apart(a[quantity], b[quantity]));
+        }
+    }
+    if scale[2] < 1e-9 * scale[1] / radius {
+        scale[2] = scale[1] / radius;
+    }
+    (0..3).fold(0.0, |most, quantity| (worst[quantity] / scale[quantity].max(f64::MIN_POSITIVE)).max(most))
+}
+
+/// What becomes of a difference at the step, half of it and a quarter of it.
+fn class([whole, half, quarter]: [f64; 3]) -> &'static str {
+    let ratio = half / quarter;
+    match ratio {
+        _ if whole <= SAME => "same",
+        _ if (ratio - 4.0).abs() <= 0.5 => "÷ 4",
+        _ if (ratio - 2.0).abs() <= 0.3 => "÷ 2",
+        _ if (ratio - 1.0).abs() <= 0.2 => "stays",
+        _ => "?",
+    }
+}
+
+#[test]
+fn the_table_of_differences_is_that_of_the_documentation() {
+    let scratch = Scratch(std::env::temp_dir().join(format!("cograin-formulations-{}", std::process::id())));
+    for folder in find(&[BOND.into()]).expect("cases") {
+        let name = folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let text = fs::read_to_string(folder.join("case.json")).expect("a case");
+        let case: Value = serde_json::from_str(&text).expect("a case");
+        let mut row = format!("| {name} |");
+        let cases = [1, 2, 4].map(|share| finer(&case, share));
+        let theirs = cases.each_ref().map(|case| run(&scratch.0, case, FormulationChoice::EngineExact));
+        for formulation in [FormulationChoice::Incremental, FormulationChoice::FiniteRotation] {
+            let mut found = [0.0; 3];
+            for (place, case) in cases.iter().enumerate() {
+                found[place] = difference(case, &theirs[place], &run(&scratch.0, case, formulation));
+            }
+            row += &format!(" {} | {:.1e} {:.1e} {:.1e} |", class(found), found[0], found[1], found[2]);
+        }
+        println!("{row}");
+    }
+}
