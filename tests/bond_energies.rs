@@ -89,7 +89,7 @@ fn the_physical_residual_falls_with_the_square_of_the_step() {
 #[test]
 fn a_breaking_bond_releases_what_it_held_and_the_residual_stays_of_second_order() {
     for formulation in ["finite_rotation", "incremental"] {
-        let breakage = "breakage = { max_normal_stress = 1.0e4 }";
+        let breakage = "breakage = { max_normal_stress = 1.0e3 }";
         let at = |step: f64| residual(chain(formulation, step, 0.1, breakage), step, 2e-4);
         let ((coarse, broken), (fine, _)) = (at(2e-7), at(5e-8));
         assert!(broken > 0.0, "{formulation}: nothing broke");

@@ -6,6 +6,8 @@
 
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
+use super::near::Near;
+use super::neighbours::near_pairs;
 use super::observe::{BondRecord, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use crate::bond::creation::{Creation, Moment, near_pair};
@@ -17,7 +19,9 @@ use crate::scene::Scene;
 use crate::state::bonds::Break;
 use crate::state::ledger::Source;
 use crate::state::{BondList, Particles, Row, State};
+use std::cmp::Ordering;
 use std::marker::PhantomData;
+use std::sync::{Mutex, PoisonError};
 
 /// Bonds in one batch.
 const BATCH: usize = 64;
@@ -38,6 +42,8 @@ pub(super) struct BondPass<L> {
     pub between: [SetIndex; 2],
     /// Listed pairs: indices into the scene's particles.
     pub pairs: Vec<[u32; 2]>,
+    /// Pairs that may be near, where bonds are made in every step.
+    pub near: Mutex<Near>,
     /// The law.
     pub law: PhantomData<fn() -> L>,
 }
@@ -54,6 +60,7 @@ impl<L: BondLaw> BondPass<L> {
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
             between: bond.between,
             pairs: bond.pairs.clone(),
+            near: Mutex::default(),
             law: PhantomData,
         }
     }
@@ -82,23 +89,24 @@ impl<L: BondLaw> BondPass<L> {
         if moment.number == 0 {
             pairs.extend(self.pairs.iter().map(|pair| pair.map(|index| particles.slot[index as usize])));
         }
-        if self.creation.bonds_near_pairs(moment) {
-            super::neighbours::near_pairs(particles, self.create_distance, |a, b, distance| {
-                let ids = [particles.id[a as usize], particles.id[b as usize]];
-                if self.may_bond(ids[0], ids[1]) && near_pair(distance, self.create_distance) {
-                    pairs.push([a, b]);
-                }
-            });
+        let list = &state.bonds[self.index];
+        let hand = |a: u32, b: u32, distance: f64| {
+            let ids = [particles.id[a as usize], particles.id[b as usize]];
+            if near_pair(distance, self.create_distance) && self.may_bond(ids[0], ids[1]) && !is_bonded(list, a, b) {
+                pairs.push([a, b]);
+            }
+        };
+        if self.creation == Creation::Always && moment.number > 0 {
+            let mut near = self.near.lock().unwrap_or_else(PoisonError::into_inner);
+            near.pairs(particles, self.create_distance, hand);
+        } else if self.creation.bonds_near_pairs(moment) {
+            near_pairs(particles, self.create_distance, hand);
         }
         for pair in &mut pairs {
             pair.sort_unstable_by_key(|&slot| particles.id[slot as usize]);
         }
         pairs.sort_unstable_by_key(|pair| pair.map(|slot| particles.id[slot as usize]));
         pairs.dedup();
-        let list = &state.bonds[self.index];
-        let mut bonded: Vec<[u32; 2]> = list.first.iter().zip(&list.second).map(|(&i, &j)| [i, j]).collect();
-        bonded.sort_unstable();
-        pairs.retain(|pair| bonded.binary_search(pair).is_err());
         pairs
     }
 }
@@ -224,6 +232,22 @@ impl<L: BondLaw> Pass for BondPass<L> {
             tell(BondRecord { law: self.index as u32, first, second: Some(second), other, carried, dissipated });
         }
     }
+}
+
+/// Whether these two particles (slots) have a bond in this list, which is ascending by the slots of its bonds.
+fn is_bonded(list: &BondList, a: u32, b: u32) -> bool {
+    let wanted = (a.min(b), a.max(b));
+    let (mut from, mut to) = (0, list.first.len());
+    while from < to {
+        let middle = from.midpoint(to);
+        let (i, j) = (list.first[middle], list.second[middle]);
+        match (i.min(j), i.max(j)).cmp(&wanted) {
+            Ordering::Equal => return true,
+            Ordering::Less => from = middle + 1,
+            Ordering::Greater => to = middle,
+        }
+    }
+    false
 }
 
 /// Sums energies of the bonds of a law, takes out what broke and tells of it.

@@ -12,6 +12,7 @@ mod hidden;
 mod hiding;
 mod integrate;
 pub mod lanes;
+mod near;
 mod neighbours;
 mod observe;
 mod pass;
