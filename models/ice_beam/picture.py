@@ -108,7 +108,7 @@ def force_curve(axes, strip, table, peak):
     axes.axhline(strip.croasdale() / 1e3, color="0.6", linestyle=":", label="Croasdale")
     axes.set_xlabel("way of the hull [m]")
     axes.set_ylabel("force down on the edge [kN]")
-    axes.set_ylim(0.0, 1.45e-3 * table[peak, 5])
+    axes.set_ylim(0.0, 1.45e-3 * max(table[peak, 5], breaking))
     axes.legend(loc="upper left", frameon=False, fontsize="small")
 
 
