@@ -120,7 +120,7 @@ create_distance = 2.2e-3
 normal_stiffness = 1e11
 tangential_stiffness = 4e10
 contact = "without_normal"
-breakage = {{ max_normal_stress = 2.0e6, max_shear_stress = 2.0e6 }}
+breakage = {{ max_normal_stress = 3.0e5, max_shear_stress = 3.0e5 }}
 "#
     ))
 }
