@@ -496,3 +496,97 @@ fn free_groups_stay_stable_at_the_step_that_is_computed() {
     let most = before + 1.5 * fed;
     assert!(simulation.kinetic_energy() < most, "{} J of {most} J", simulation.kinetic_energy());
 }
+
+/// Six bonded spheres in a bent row; nothing damps them.
+fn row(more: &str) -> String {
+    format!(
+        r#"
+[run]
+step = 2.0e-7
+[material.a]
+density = 2500.0
+[particles.row]
+material = "a"
+list = [
+    {{ position = [0.0, 0.0, 0.0], radius = 0.001 }},
+    {{ position = [0.002, 0.0, 0.0], radius = 0.001 }},
+    {{ position = [0.004, 0.0001, 0.0], radius = 0.001 }},
+    {{ position = [0.006, 0.0, 0.0002], radius = 0.001 }},
+    {{ position = [0.008, 0.0, 0.0], radius = 0.001 }},
+    {{ position = [0.010, 0.0005, 0.0], radius = 0.001 }},
+]
+angular_velocity = [400.0, 6000.0, -10000.0]
+velocity = [0.0, 1.0, -0.5]
+[bond.glue]
+between = ["row", "row"]
+create_distance = 2.2e-3
+normal_stiffness = 1.0e12
+tangential_stiffness = 4.0e11
+[output]
+energy = true
+{more}
+"#
+    )
+}
+
+#[test]
+fn a_free_group_among_bonds_keeps_momentum_angular_momentum_and_the_book() {
+    let group = format!("[boundary.end]\nparticles = {{ ids = [5, 6] }}\nmotion = {FREE}\n");
+    let mut simulation = start(&row(&group));
+    let momentum = |simulation: &Simulation| -> [f64; 3] {
+        let rows = &simulation.state().particles.velocity;
+        [0, 1, 2].map(|axis| rows.iter().map(|row| row[3] * row[axis]).sum())
+    };
+    let before = (momentum(&simulation), angular_momentum(simulation.state(), [0.0; 3]));
+    let attitude = group_attitude(&simulation);
+    simulation.advance(4e-3).expect("it runs");
+    let after = (momentum(&simulation), angular_momentum(simulation.state(), [0.0; 3]));
+    assert!(group_attitude(&simulation)[0] < attitude[0] - 0.1, "the group turned");
+    // 20,000 steps of rounding.
+    assert!(apart(before.0, after.0) < 1e-12 * apart(before.0, [0.0; 3]), "{before:?} {after:?}");
+    assert!(apart(before.1, after.1) < 1e-11 * apart(before.1, [0.0; 3]), "{before:?} {after:?}");
+    let ledger = simulation.state().ledger.as_ref().expect("the scene keeps a book");
+    let residual = simulation.energy_residual().expect("the scene keeps a book");
+    assert!(residual.abs() < 1e-12 * ledger.turnover, "{residual:e} J of {:e} J", ledger.turnover);
+}
+
+/// Attitude of the first boundary, which its spheres share.
+fn group_attitude(simulation: &Simulation) -> [f64; 4] {
+    let attitude = group(simulation).attitude.0;
+    let particles = &simulation.state().particles;
+    assert_eq!(particles.attitude[particles.slot[5] as usize], attitude);
+    attitude
+}
+
+#[test]
+fn bonds_resist_a_driven_rotation_with_their_torsional_stiffness() {
+    let straight = row("")
+        .replace("0.0001, 0.0]", "0.0, 0.0]")
+        .replace("0.0, 0.0002]", "0.0, 0.0]")
+        .replace("0.0005, 0.0]", "0.0, 0.0]")
+        .replace("angular_velocity = [400.0, 6000.0, -10000.0]\nvelocity = [0.0, 1.0, -0.5]", "")
+        .replace("[bond.glue]", "[damping.all]\nlinear = 0.5\nangular = 0.5\n[bond.glue]");
+    let held = "[boundary.clamp]\nparticles = { ids = [1] }\n[boundary.grip]\nparticles = { ids = [6] }\n";
+    let mut simulation = start(&format!("{straight}{held}motion = {{ driven = [\"rotation.x\"] }}\n"));
+    // Several turns: the twist is followed on.
+    let angle = 10.0;
+    simulation.set_displacement(BoundaryIndex(1), 3, angle);
+    simulation.advance(2e-3).expect("it runs");
+    simulation.advance(4e-3).expect("it comes to rest");
+    // Five bonds in a row, each k_t J with J = π R⁴/2.
+    let expected = -4.0e11 * 0.5 * std::f64::consts::PI * 1e-12 * angle / 5.0;
+    let [clamp, grip] = [0, 1].map(|index| simulation.state().boundaries[index].moment[0]);
+    assert!((grip / expected - 1.0).abs() < 1e-9, "{grip} N m, not {expected} N m");
+    assert!((clamp / -expected - 1.0).abs() < 1e-9, "{clamp} N m, not {} N m", -expected);
+}
+
+#[test]
+fn a_group_that_is_put_elsewhere_at_once_meets_what_is_there() {
+    let text =
+        paddle(r#"{ driven = ["x"] }"#, "input = \"hold\"").replace("0.0249", "0.0149").replace("0.0259", "0.0149");
+    let text = text.replace("[-0.01, 0.0", "[-0.31, 0.0").replace("[0.0, 0.001", "[-0.3, 0.001");
+    let mut simulation = start(&text.replace("[0.009, 0.0", "[-0.291, 0.0"));
+    simulation.set_displacement(FIRST, 0, 0.2711);
+    simulation.advance(2e-5).expect("it runs");
+    assert!(apart(group(&simulation).force, [0.0; 3]) > 0.0, "it stands in the bed and feels nothing");
+}
