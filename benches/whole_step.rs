@@ -1,18 +1,145 @@
-//! Whole time steps on the dense packing: nanoseconds per contact and step, for every lane width.
+//! Whole time steps of the common scenes: user CPU time of a contact (or bond) and step.
 //!
-//! `cargo bench --bench whole_step -- PARTICLES.csv.gz [STEPS] [THREADS]`
+//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz]`
+//!
+//! SCENE is part of a name below; without one all of them run. `--widths` repeats each in every lane width: the states
+//! must be the same. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
 
-use cograin::contact::cohesion::CohesionChoice;
-use cograin::contact::normal::NormalChoice;
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{Material, PairProperties, Switches};
-use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
-use cograin::scene::{AxisMotion, Boundary, ContactLaw, InputCourse, Output, Particle, Run, Scene, Shape, Step};
+use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
 use cograin::step::lanes::Width;
-use std::io::Read;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+/// Scenes: name, and what they need beside the text of all.
+const SCENES: [(&str, Kind); 8] = [
+    ("s1", Kind::Dense { normal: "hertz", tangential: "history", rolling: "none", cohesion: "none" }),
+    ("s2", Kind::Dense { normal: "hertz", tangential: "history", rolling: "cdt", cohesion: "sjkr" }),
+    ("hertz_history_rolling", Kind::Dense { normal: "hertz", tangential: "history", rolling: "cdt", cohesion: "none" }),
+    (
+        "hooke_history",
+        Kind::Dense { normal: "hooke_stiffness", tangential: "history", rolling: "none", cohesion: "none" },
+    ),
+    ("hertz_smooth", Kind::Dense { normal: "hertz", tangential: "none", rolling: "none", cohesion: "none" }),
+    ("hooke_smooth", Kind::Dense { normal: "hooke_stiffness", tangential: "none", rolling: "none", cohesion: "none" }),
+    ("s3_incremental", Kind::Bonded { formulation: "incremental" }),
+    ("s3_finite_rotation", Kind::Bonded { formulation: "finite_rotation" }),
+];
+
+/// What a scene is made of.
+#[derive(Clone, Copy)]
+enum Kind {
+    /// The dense packing at rest in six walls, with this contact law.
+    Dense {
+        /// Normal sub-model.
+        normal: &'static str,
+        /// Tangential sub-model.
+        tangential: &'static str,
+        /// Rolling sub-model.
+        rolling: &'static str,
+        /// Cohesion sub-model.
+        cohesion: &'static str,
+    },
+    /// The bonded block of 10,000 spheres.
+    Bonded {
+        /// Formulation of the bonds.
+        formulation: &'static str,
+    },
+}
+
+/// Materials of all scenes.
+const MATERIALS: &str = r#"
+[material.grain]
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+density = 2500.0
+[pair.grain.grain]
+restitution = 0.5
+friction = 0.5
+rolling_friction = 0.1
+cohesion_energy_density = 5.0e3
+normal_stiffness = 4.0e3
+tangential_stiffness = 3.0e3
+normal_damping = 100.0
+tangential_damping = 100.0
+"#;
+
+/// The dense packing: time step [s] of 10 % of Rayleigh's, in a box around it.
+fn dense(packing: Vec<u8>, law: [&str; 4], threads: usize) -> Source {
+    let width = box_width(&packing);
+    let mut text = format!(
+        "gravity = [0.0, 0.0, -9.81]\n[run]\nstep = 1.54807158678598e-5\nend = 1.0\nthreads = {threads}\nmax_overlap = 0.5\n{MATERIALS}"
+    );
+    for (kind, model) in ["normal", "tangential", "rolling", "cohesion"].iter().zip(law) {
+        if model != "none" {
+            let _ = writeln!(text, "[contact.touch.{kind}.{model}]");
+        }
+    }
+    text += "[particles.bed]\nmaterial = \"grain\"\nfile = \"bed.csv.gz\"\n";
+    for (axis, end) in [("x", width), ("y", 0.2448), ("z", 0.4)] {
+        for (name, place, sign) in [("low", 0.0, 1.0), ("high", end, -1.0)] {
+            let [point, normal] = [place, sign].map(|n| ["x", "y", "z"].map(|a| if a == axis { n } else { 0.0 }));
+            let _ = writeln!(text, "[boundary.{axis}_{name}]\nplane = {{ point = {point:?}, normal = {normal:?} }}");
+            text += "material = \"grain\"\n";
+        }
+    }
+    Source { name: "dense".into(), text, files: BTreeMap::from([("bed.csv.gz".into(), packing)]) }
+}
+
+/// Extent of the box along x [m]: the packing may be some copies side by side.
+fn box_width(packing: &[u8]) -> f64 {
+    let mut text = String::new();
+    let mut reader = flate2::read::GzDecoder::new(packing);
+    std::io::Read::read_to_string(&mut reader, &mut text).expect("the packing is text");
+    let reach = |line: &str| {
+        let numbers: Vec<f64> = line.split(',').filter_map(|part| part.parse().ok()).collect();
+        numbers[1] + numbers[4]
+    };
+    let most = text.lines().skip(1).map(reach).fold(0.0, f64::max);
+    (most / 0.2448).round().max(1.0) * 0.2448
+}
+
+/// 20 × 20 × 25 spheres in hexagonal close packing, the lowest layer held, a smooth motion at the start.
+fn bonded(formulation: &str, threads: usize) -> Source {
+    let spacing = 2.0 * 0.005 * 1.001;
+    let height = spacing * (6.0_f64).sqrt() / 3.0 * 24.0;
+    let mut rows = String::from("id,x,y,z,radius,vx,vy,vz\n");
+    for place in 0..10_000_u32 {
+        let (i, j, k) = (place % 20, place / 20 % 20, place / 400);
+        let x = spacing * (f64::from(i) + 0.5 * f64::from((j + k) % 2));
+        let y = spacing * 3.0_f64.sqrt() / 2.0 * (f64::from(j) + f64::from(k % 2) / 3.0);
+        let z = spacing * 6.0_f64.sqrt() / 3.0 * f64::from(k);
+        let s = if k == 0 { 0.0 } else { (0.5 * std::f64::consts::PI * z / height).sin() };
+        let v = [0.005 * s, 0.002 * s * s, -0.0015 * s];
+        let _ = writeln!(rows, "{},{x:?},{y:?},{z:?},0.005,{:?},{:?},{:?}", place + 1, v[0], v[1], v[2]);
+    }
+    let text = format!(
+        r#"[run]
+step = 2.0e-6
+end = 1.0
+threads = {threads}
+{MATERIALS}
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+[particles.block]
+material = "grain"
+file = "block.csv"
+[boundary.base]
+particles = {{ set = "block", box = [[-1.0, -1.0, -0.001], [1.0, 1.0, 0.001]] }}
+[bond.glue]
+formulation = "{formulation}"
+between = ["block", "block"]
+create_distance = 0.0105
+normal_stiffness = 1.0e10
+tangential_stiffness = 4.0e9
+[bond.glue.breakage]
+max_distance = 0.012
+"#
+    );
+    Source { name: "bonded".into(), text, files: BTreeMap::from([("block.csv".into(), rows.into_bytes())]) }
+}
 
 /// User CPU time of this process \[s\].
 fn user_time() -> f64 {
@@ -21,100 +148,108 @@ fn user_time() -> f64 {
     ticks.unwrap_or(0.0) / 100.0
 }
 
-/// The scene `s1_20k` of the common scenes, from its packing.
-fn scene(path: &str, threads: usize) -> Scene {
-    let mut text = String::new();
-    let file = std::fs::File::open(path).expect("the packing can be read");
-    flate2::read::GzDecoder::new(file).read_to_string(&mut text).expect("the packing is text");
-    let particles = text.lines().skip(1).map(|line| {
-        let n: Vec<f64> = line.split(',').map(|part| part.parse().expect("a number")).collect();
-        Particle {
-            id: ParticleId(n[0] as u32),
-            set: SetIndex(0),
-            material: MaterialIndex(0),
-            radius: n[4],
-            density: n[5],
-            position: [n[1], n[2], n[3]],
-            velocity: [0.0; 3],
-            angular_velocity: [0.0; 3],
-        }
-    });
-    let particles: Vec<Particle> = particles.collect();
-    let width = particles.iter().fold(0.0_f64, |most, p| most.max(p.position[0] + p.radius));
-    let width = (width / 0.2448).round().max(1.0) * 0.2448;
-    let plane = |name: &str, point: [f64; 3], normal: [f64; 3]| Boundary {
-        name: name.into(),
-        shape: Shape::Plane { material: MaterialIndex(0), point, normal },
-        axes: [AxisMotion::Fixed; 6],
-        input: InputCourse::Ramp,
-        reference: point,
-    };
-    Scene {
-        run: Run { step: Step::Given(1.548_071_586_785_98e-5), threads: Some(threads), ..Run::default() },
-        gravity: [0.0, 0.0, -9.81],
-        materials: vec![Material {
-            name: "glass".into(),
-            density: 2500.0,
-            youngs_modulus: Some(5e7),
-            poissons_ratio: Some(0.3),
-        }],
-        pairs: vec![PairProperties {
-            restitution: Restitution::new(0.5),
-            friction: NonNegative::new(0.5),
-            ..PairProperties::default()
-        }],
-        contacts: vec![ContactLaw {
-            name: "grains".into(),
-            between: vec![true],
-            normal: NormalChoice::Hertz(Default::default()),
-            tangential: TangentialChoice::History(Default::default()),
-            rolling: RollingChoice::None(Default::default()),
-            cohesion: CohesionChoice::None(Default::default()),
-            switches: Switches::of(false, true),
-        }],
-        bonds: Vec::new(),
-        sets: vec!["bed".into()],
-        particles,
-        boundaries: vec![
-            plane("x_low", [0.0; 3], [1.0, 0.0, 0.0]),
-            plane("x_high", [width, 0.0, 0.0], [-1.0, 0.0, 0.0]),
-            plane("y_low", [0.0; 3], [0.0, 1.0, 0.0]),
-            plane("y_high", [0.0, 0.2448, 0.0], [0.0, -1.0, 0.0]),
-            plane("floor", [0.0; 3], [0.0, 0.0, 1.0]),
-            plane("lid", [0.0, 0.0, 0.4], [0.0, 0.0, -1.0]),
-        ],
-        damping: Vec::new(),
-        forces: Vec::new(),
-        domain: None,
-        output: Output::default(),
-        fingerprint: 0,
-    }
+/// What the arguments say.
+struct Options {
+    /// Part of the names of the scenes to run.
+    name: String,
+    /// Time steps.
+    steps: usize,
+    /// Threads.
+    threads: usize,
+    /// Whether to run every lane width.
+    widths: bool,
+    /// Whether to print the parts of a step.
+    parts: bool,
+    /// The dense packing.
+    packing: String,
 }
 
-#[allow(clippy::print_stdout, reason = "a benchmark prints")]
-fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
-    let path = arguments.first().map_or("models/loaded_beam/dense_20k.csv.gz", String::as_str);
-    let number = |place: usize, other: usize| arguments.get(place).and_then(|n| n.parse().ok()).unwrap_or(other);
-    let (steps, threads) = (number(1, 500), number(2, 1));
-    let scene = Arc::new(scene(path, threads));
-    for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+impl Options {
+    /// Reads the arguments.
+    fn read() -> Self {
+        let mut options = Self {
+            name: String::new(),
+            steps: 1000,
+            threads: 1,
+            widths: false,
+            parts: false,
+            packing: "models/loaded_beam/dense_20k.csv.gz".into(),
+        };
+        let mut arguments = std::env::args().skip(1);
+        while let Some(argument) = arguments.next() {
+            let mut value = || arguments.next().expect("a value follows");
+            match argument.as_str() {
+                "--bench" => {}
+                "--steps" => options.steps = value().parse().expect("a number of steps"),
+                "--threads" => options.threads = value().parse().expect("a number of threads"),
+                "--widths" => options.widths = true,
+                "--parts" => options.parts = true,
+                "--packing" => options.packing = value(),
+                name => options.name = name.into(),
+            }
+        }
+        options
+    }
+
+    /// Runs one scene in one lane width and prints what it cost.
+    #[allow(clippy::print_stdout, reason = "a benchmark prints")]
+    fn run(&self, name: &str, scene: &Arc<Scene>, width: Width) {
         let mut simulation = Simulation::new(scene.clone()).expect("the scene starts");
         simulation.set_width(width);
         let step = simulation.state().clock.step;
         simulation.advance(20.0 * step).expect("it runs");
-        let (wall, user) = (std::time::Instant::now(), user_time());
-        simulation.advance(steps as f64 * step).expect("it runs");
+        let (wall, user) = (Instant::now(), user_time());
+        simulation.advance(self.steps as f64 * step).expect("it runs");
         let (wall, user) = (wall.elapsed().as_secs_f64(), user_time() - user);
-        let work = (steps * simulation.contact_count()) as f64 * 1e-9;
+        let bonds: usize = simulation.state().bonds.iter().map(|list| list.first.len()).sum();
+        let (count, what) = if bonds > 0 { (bonds, "bonds") } else { (simulation.contact_count(), "contacts") };
+        let work = (self.steps * count) as f64 * 1e-9;
         println!(
-            "{width:?}: {:.1} ns user, {:.1} ns wall per contact and step; {} contacts, {} rebuilds, state {:016x}, energy {:.6e} J",
+            "{name:22} {:6}: {:5.2} ns user, {:5.2} ns wall; {count} {what}, {} lists, state {:016x}, energy {:.6e} J",
+            format!("{width:?}"),
             user / work,
             wall / work,
-            simulation.contact_count(),
             simulation.state().clock.rebuilds,
             simulation.state().fingerprint(),
             simulation.kinetic_energy(),
         );
+        if self.parts {
+            self.watch(&mut simulation, work);
+        }
+    }
+
+    /// Goes on with a clock beside it, and prints the wall time of each part of a step.
+    #[allow(clippy::print_stdout, reason = "a benchmark prints")]
+    fn watch(&self, simulation: &mut Simulation, work: f64) {
+        let parts: Arc<Mutex<BTreeMap<&str, f64>>> = Arc::default();
+        let (told, mut before) = (parts.clone(), Instant::now());
+        simulation.watch(Box::new(move |part| {
+            *told.lock().expect("one thread tells").entry(part).or_default() += before.elapsed().as_secs_f64();
+            before = Instant::now();
+        }));
+        let step = simulation.state().clock.step;
+        simulation.advance(self.steps as f64 * step).expect("it runs");
+        for (part, seconds) in parts.lock().expect("nobody tells any more").iter() {
+            println!("    {part:21} {:5.2} ns wall", seconds / work);
+        }
+    }
+}
+
+fn main() {
+    let options = Options::read();
+    for (name, kind) in SCENES.into_iter().filter(|(name, _)| name.contains(&options.name)) {
+        let source = match kind {
+            Kind::Dense { normal, tangential, rolling, cohesion } => {
+                let packing = std::fs::read(&options.packing).expect("the packing can be read");
+                dense(packing, [normal, tangential, rolling, cohesion], options.threads)
+            }
+            Kind::Bonded { formulation } => bonded(formulation, options.threads),
+        };
+        let scene = Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")));
+        for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+            if options.widths || width == Width::widest() {
+                options.run(name, &scene, width);
+            }
+        }
     }
 }

@@ -53,9 +53,16 @@ pub fn arctangent_ratio<N: Number>(square: N) -> N {
 /// Off by less than 1e-16 up to √x = 0.1, 1e-9 up to ½, 3e-7 up to 1.
 #[inline(always)]
 pub fn tangent_ratio<N: Number>(square: N) -> N {
+    let [above, below] = tangent_fraction(square);
+    above / below
+}
+
+/// Numerator and denominator of [`tangent_ratio`].
+#[inline(always)]
+pub fn tangent_fraction<N: Number>(square: N) -> [N; 2] {
     let above = N::splat(945.0) - square * (N::splat(105.0) - square);
     let below = N::splat(945.0) - square * (N::splat(420.0) - N::splat(15.0) * square);
-    above / below
+    [above, below]
 }
 
 /// Twice the angle of the vector (x, y) from the x axis, in −2π … 2π.

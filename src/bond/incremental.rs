@@ -1,7 +1,7 @@
 //! The document's rate equations, with stored vectors that turn with the bond.
 
-use super::angle::tangent_ratio;
-use super::engine_exact::{relaxation_loss, spring_energy};
+use super::angle::tangent_fraction;
+use super::engine_exact::relaxation_loss;
 use super::{Coefficients, Elastic, Formulation, Motion, Pair, Rows};
 use crate::number::{Number, Vector};
 
@@ -32,12 +32,6 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct Incremental;
 
-/// The direction of a vector.
-#[inline(always)]
-fn direction<N: Number>(vector: Vector<N>) -> Vector<N> {
-    vector * (N::splat(1.0) / vector.length())
-}
-
 /// What turns stored vectors over one time step.
 #[derive(Clone, Copy)]
 struct Turn<N: Number> {
@@ -56,23 +50,31 @@ struct Turn<N: Number> {
 }
 
 impl<N: Number> Turn<N> {
-    /// Between the axes of the last step and of this one.
+    /// Between the axes of the last step and of this one. Divisions are shared, as they are dear.
     #[inline(always)]
     fn of(law: &Coefficients<N>, pair: &Pair<N>, axis: Vector<N>) -> Self {
         let one = N::splat(1.0);
-        let last = direction(pair.connection - pair.velocity * law.step);
-        let middle = direction(pair.connection - pair.velocity * (law.step * N::splat(0.5)));
+        let last = pair.connection - pair.velocity * law.step;
+        let middle = pair.connection - pair.velocity * (law.step * N::splat(0.5));
+        let (last_length, middle_length) = (last.length(), middle.length());
+        let shared = one / (last_length * middle_length);
+        let last = last * (middle_length * shared);
+        let middle = middle * (last_length * shared);
         // A quarter of the spins' sum times Δt is half of the mean spin's turn; its half tangent takes half of that.
         let quarter = (pair.spin_i + pair.spin_j).dot(middle) * (law.step * N::splat(0.125));
-        let tangent = quarter * tangent_ratio(quarter * quarter);
-        let share = one / (one + tangent * tangent);
+        let [above, below] = tangent_fraction(quarter * quarter);
+        let above = quarter * above;
+        let (above_square, below_square) = (above * above, below * below);
+        let [inwards, onwards, whole] = [one + last.dot(middle), one + middle.dot(axis), below_square + above_square];
+        let shared = one / (inwards * onwards * whole);
+        let share = inwards * onwards * shared;
         Self {
-            first: (last + middle) * (one / (one + last.dot(middle))),
+            first: (last + middle) * (onwards * whole * shared),
             middle,
-            second: (middle + axis) * (one / (one + middle.dot(axis))),
+            second: (middle + axis) * (inwards * whole * shared),
             axis,
-            cosine: (one - tangent * tangent) * share,
-            sine: N::splat(2.0) * tangent * share,
+            cosine: (below_square - above_square) * share,
+            sine: N::splat(2.0) * above * below * share,
         }
     }
 
@@ -95,6 +97,22 @@ impl<N: Number> Turn<N> {
         let turned = about - self.second * about.dot(self.axis);
         turned - self.axis * turned.dot(self.axis)
     }
+}
+
+/// ½ over each stiffness, 0 where there is none: energies of springs by their forces. The three share a division.
+#[inline(always)]
+fn halves<N: Number>(shear: N, twist: N, bending: N) -> [N; 3] {
+    let (zero, one) = (N::zero(), N::splat(1.0));
+    let (bears_shear, bears_twist, bears_bending) = (shear.greater(zero), twist.greater(zero), bending.greater(zero));
+    let shear = N::select(bears_shear, shear, one);
+    let twist = N::select(bears_twist, twist, one);
+    let bending = N::select(bears_bending, bending, one);
+    let shared = N::splat(0.5) / (shear * twist * bending);
+    [
+        N::select(bears_shear, twist * bending * shared, zero),
+        N::select(bears_twist, shear * bending * shared, zero),
+        N::select(bears_bending, shear * twist * shared, zero),
+    ]
 }
 
 impl Formulation for Incremental {
@@ -131,25 +149,27 @@ impl Formulation for Incremental {
 
         let shear = Vector::new(fx, fy, fz);
         let shear_stiffness = law.shear * section.area;
-        let shear_before = spring_energy(shear.dot(shear), shear_stiffness);
+        let shear_before = shear.dot(shear);
         let grown = turn.inwards(shear) * left[1] - slip * (shear_stiffness * law.step);
         let shear = turn.onwards(grown);
 
         let twist_stiffness = law.torsion * section.polar;
-        let torsion_before = spring_energy(torsion * torsion, twist_stiffness);
+        let torsion_before = torsion * torsion;
         let torsion = torsion * left[2] - twist_rate * (twist_stiffness * law.step);
 
         let bending = Vector::new(tx, ty, tz);
         let bending_stiffness = law.bending * section.axial;
-        let bending_before = spring_energy(bending.dot(bending), bending_stiffness);
+        let bending_before = bending.dot(bending);
         let grown = turn.inwards(bending) * left[3] - bending_rate * (bending_stiffness * law.step);
         let bending = turn.onwards(grown);
 
         let shifted = reference + (motion.distance - reference) * law.relaxed[0];
+        let [per_shear, per_twist, per_bending] = halves(shear_stiffness, twist_stiffness, bending_stiffness);
         let energy = axial_before * left[0] * left[0]
-            + spring_energy(shear.dot(shear), shear_stiffness)
-            + spring_energy(torsion * torsion, twist_stiffness)
-            + spring_energy(bending.dot(bending), bending_stiffness);
+            + shear.dot(shear) * per_shear
+            + torsion * torsion * per_twist
+            + bending.dot(bending) * per_bending;
+        let before = [axial_before, shear_before * per_shear, torsion_before * per_twist, bending_before * per_bending];
         let couple = shear.cross(axis) * motion.distance;
         let moment = axis * torsion + bending;
         Elastic {
@@ -162,7 +182,7 @@ impl Formulation for Incremental {
             torque_i: couple * pair.share_i + moment,
             torque_j: couple * pair.share_j - moment,
             energy,
-            relaxed: relaxation_loss(left, [axial_before, shear_before, torsion_before, bending_before]),
+            relaxed: relaxation_loss(left, before),
             overbent: N::zero().greater(N::zero()),
             rows: [[shear.x, shear.y, shear.z, shifted], [bending.x, bending.y, bending.z, torsion], rows[2]],
         }

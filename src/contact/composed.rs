@@ -51,6 +51,8 @@ pub trait Law: Send + Sync + 'static {
     const HAS_ROLLING: bool;
     /// Whether a tangential spring is carried.
     const HAS_SPRING: bool;
+    /// Whether [`Contact::section_area`] and [`Contact::section_radius`] are looked at.
+    const HAS_SECTION: bool;
     /// What speaks against this law, if anything.
     fn objection(&self) -> Option<Objection>;
     /// The coefficients of two materials, [`Law::COUNT`] of them.
@@ -125,6 +127,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed
     const HAS_TORQUE: bool = B::ACTIVE || C::ACTIVE;
     const HAS_ROLLING: bool = C::ACTIVE;
     const HAS_SPRING: bool = B::HAS_SPRING;
+    const HAS_SECTION: bool = D::ACTIVE;
 
     fn objection(&self) -> Option<Objection> {
         if !B::ACTIVE && self.reduces_friction {

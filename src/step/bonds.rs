@@ -1,9 +1,10 @@
 //! Bonds between particles: one pass for each bond law.
 //!
-//! As the contacts, in slabs of even and odd number, batch by batch: the law on several bonds at once, results added
-//! one by one in the order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
+//! As the contacts, slab by slab and batch by batch: the law on several bonds at once, results added one by one in the
+//! order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
 //! through.
 
+use super::batch;
 use super::error::RunError;
 use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
 use super::near::Near;
@@ -135,15 +136,12 @@ impl<L: BondLaw> Pass for BondPass<L> {
         };
         let ends = &list.slabs;
         let mut results = vec![Done::default(); slabs];
-        for parity in 0..2 {
-            let done = context.collect((slabs + 1 - parity) / 2, |piece| {
-                let slab = 2 * piece + parity;
-                work.slab(ends[slab] as usize, ends[slab + 1] as usize, context.width)
-            });
-            for (piece, done) in done.into_iter().enumerate() {
-                results[2 * piece + parity] = done;
-            }
-        }
+        let places = Shared::new(&mut results);
+        context.slabs(slabs, |slab| {
+            let done = work.slab(ends[slab] as usize, ends[slab + 1] as usize, context.width);
+            // SAFETY: each slab is done once, and has a place of its own.
+            unsafe { *places.at(slab) = done };
+        });
         for done in &mut results {
             done.release(context.step, |bond| self.carried(state, bond).power);
         }
@@ -399,78 +397,136 @@ struct Work<'a, L> {
     law: PhantomData<fn() -> L>,
 }
 
+/// Room for a batch and what a register writes beyond it.
+const ROOM: usize = BATCH + 8;
+
+/// Energies of the bonds of a slab, summed in eight places in turn: the sum does not depend on the lane width, and no
+/// addition waits for the one before.
+type Energies = [f64; 8];
+
 /// Results of a batch.
+#[repr(align(64))]
 struct Buffer {
     /// Force on i.
-    force: [Row; BATCH + 8],
+    force: [Row; ROOM],
     /// Torque on i.
-    first_torque: [Row; BATCH + 8],
+    first_torque: [Row; ROOM],
     /// Torque on j.
-    second_torque: [Row; BATCH + 8],
+    second_torque: [Row; ROOM],
     /// 0, or why the bond broke.
-    cause: [f64; BATCH + 8],
+    cause: [f64; ROOM],
     /// Elastic energy, or what is released.
-    elastic: [f64; BATCH + 8],
+    elastic: [f64; ROOM],
     /// Elastic energy that relaxation took.
-    relaxed: [f64; BATCH + 8],
+    relaxed: [f64; ROOM],
     /// Energy that damping took.
-    damped: [f64; BATCH + 8],
+    damped: [f64; ROOM],
+    /// Whether a bond of the batch broke.
+    broken: bool,
     /// A bond bent beyond what can be followed.
     overbent: Option<u32>,
+}
+
+impl Buffer {
+    /// An empty one.
+    fn new() -> Self {
+        let (rows, numbers) = ([[0.0; 4]; ROOM], [0.0; ROOM]);
+        Self {
+            force: rows,
+            first_torque: rows,
+            second_torque: rows,
+            cause: numbers,
+            elastic: numbers,
+            relaxed: numbers,
+            damped: numbers,
+            broken: false,
+            overbent: None,
+        }
+    }
+
+    /// Notes the bonds that broke and sums the energies, elastic ones of those that hold, of a batch of `count` bonds
+    /// from `first`.
+    fn sum(&mut self, first: usize, count: usize, energies: &mut [Energies; 3], done: &mut Done) {
+        if self.broken {
+            for place in (0..count).filter(|&place| self.cause[place] != 0.0) {
+                done.broken.push(((first + place) as u32, self.cause[place], self.elastic[place]));
+                self.elastic[place] = 0.0;
+            }
+        }
+        let filled = count.next_multiple_of(8);
+        let [elastic, relaxed, damped] = energies;
+        for (sum, energy) in [(elastic, &mut self.elastic), (relaxed, &mut self.relaxed), (damped, &mut self.damped)] {
+            energy[count..filled].fill(0.0);
+            for part in energy[..filled].chunks_exact(8) {
+                for (sum, part) in sum.iter_mut().zip(part) {
+                    *sum += part;
+                }
+            }
+        }
+    }
 }
 
 impl<L: BondLaw> Work<'_, L> {
     /// Works through a slab, batch by batch.
     fn slab(&self, from: usize, to: usize, width: Width) -> Done {
         let mut done = Done::default();
-        let mut buffer = Buffer {
-            force: [[0.0; 4]; BATCH + 8],
-            first_torque: [[0.0; 4]; BATCH + 8],
-            second_torque: [[0.0; 4]; BATCH + 8],
-            cause: [0.0; BATCH + 8],
-            elastic: [0.0; BATCH + 8],
-            relaxed: [0.0; BATCH + 8],
-            damped: [0.0; BATCH + 8],
-            overbent: None,
-        };
+        let mut buffer = Buffer::new();
+        let mut energies = [[0.0; 8]; 3];
         let mut batch = from;
         while batch < to {
             let end = (batch + BATCH).min(to);
+            buffer.broken = false;
             lanes::run(width, React { work: self, from: batch, to: end, buffer: &mut buffer });
-            self.scatter(batch, end, &buffer, &mut done);
+            lanes::run(width, Spread { work: self, from: batch, to: end, buffer: &buffer });
+            buffer.sum(batch, end - batch, &mut energies, &mut done);
+            self.lose(batch, end, &buffer);
             batch = end;
         }
+        done.elastic = energies[0].iter().sum();
+        done.relaxed = energies[1].iter().sum();
+        done.damped = energies[2].iter().sum();
         done.overbent = buffer.overbent;
         done
     }
 
-    /// Adds the results of a batch to both bodies of each bond.
-    fn scatter(&self, from: usize, to: usize, buffer: &Buffer, done: &mut Done) {
+    /// Notes what each bond of a batch lost, where any does.
+    fn lose(&self, from: usize, to: usize, buffer: &Buffer) {
+        if self.lost.length() == 0 {
+            return;
+        }
         for bond in from..to {
-            let (i, j, place) = (self.first[bond] as usize, self.second[bond] as usize, bond - from);
-            // SAFETY: slabs of one parity do not share particles.
+            let place = bond - from;
+            // SAFETY: there is one for each bond, and this bond belongs to this slab alone.
+            unsafe { *self.lost.at(bond) += buffer.relaxed[place] + buffer.damped[place] };
+        }
+    }
+}
+
+/// Adds the results of a batch to both bodies of each bond.
+struct Spread<'a, 'b, L> {
+    /// What all slabs share.
+    work: &'a Work<'a, L>,
+    /// First bond.
+    from: usize,
+    /// Behind the last bond.
+    to: usize,
+    /// The results.
+    buffer: &'b Buffer,
+}
+
+impl<L: BondLaw> Kernel for Spread<'_, '_, L> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { work, from, to, buffer } = self;
+        let (firsts, seconds) = (&work.first[from..to], &work.second[from..to]);
+        let results = buffer.force.iter().zip(&buffer.first_torque).zip(&buffer.second_torque);
+        for ((&i, &j), ((force, first_torque), second_torque)) in firsts.iter().zip(seconds).zip(results) {
+            // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
-                let (on_i, on_j) = (self.force.at(i), self.torque.at(i));
-                for axis in 0..3 {
-                    on_i[axis] += buffer.force[place][axis];
-                    on_j[axis] += buffer.first_torque[place][axis];
-                }
-                let (on_i, on_j) = (self.force.at(j), self.torque.at(j));
-                for axis in 0..3 {
-                    on_i[axis] -= buffer.force[place][axis];
-                    on_j[axis] += buffer.second_torque[place][axis];
-                }
-            }
-            if self.lost.length() > 0 {
-                // SAFETY: there is one for each bond, and this bond belongs to this slab alone.
-                unsafe { *self.lost.at(bond) += buffer.relaxed[place] + buffer.damped[place] };
-                done.damped += buffer.damped[place];
-            }
-            done.relaxed += buffer.relaxed[place];
-            if buffer.cause[place] == 0.0 {
-                done.elastic += buffer.elastic[place];
-            } else {
-                done.broken.push((bond as u32, buffer.cause[place], buffer.elastic[place]));
+                batch::add(work.force.at(i as usize), force);
+                batch::subtract(work.force.at(j as usize), force);
+                batch::add(work.torque.at(i as usize), first_torque);
+                batch::add(work.torque.at(j as usize), second_torque);
             }
         }
     }
@@ -497,17 +553,31 @@ impl<L: BondLaw> Kernel for React<'_, '_, L> {
         while bond < to {
             let here = if to - bond < N::WIDTH { to - bond } else { N::WIDTH };
             let mut index = [0_u32; 8];
-            let mut first = [0_u32; 8];
-            let mut second = [0_u32; 8];
+            let (mut some_first, mut some_second) = ([0_u32; 8], [0_u32; 8]);
+            // SAFETY: bonds up to `to` are in the list.
+            let (mut first, mut second) = unsafe { (work.first.as_ptr().add(bond), work.second.as_ptr().add(bond)) };
             let mut lane = 0;
             while lane < N::WIDTH {
-                let listed = if lane < here { bond + lane } else { bond };
-                index[lane] = listed as u32;
-                first[lane] = work.first[listed];
-                second[lane] = work.second[listed];
+                index[lane] = (bond + lane) as u32;
                 lane += 1;
             }
-            let pair = Pair::of_spheres(&load_body::<L, N>(work, &first), &load_body::<L, N>(work, &second));
+            if here < N::WIDTH {
+                // The first one is repeated, and its rows are written twice with the same.
+                let mut lane = 0;
+                while lane < N::WIDTH {
+                    let listed = if lane < here { lane } else { 0 };
+                    index[lane] = (bond + listed) as u32;
+                    // SAFETY: as above.
+                    unsafe {
+                        some_first[lane] = *first.add(listed);
+                        some_second[lane] = *second.add(listed);
+                    }
+                    lane += 1;
+                }
+                (first, second) = (some_first.as_ptr(), some_second.as_ptr());
+            }
+            // SAFETY: both point to as many slots as there are lanes.
+            let pair = unsafe { Pair::of_spheres(&load_body::<L, N>(work, first), &load_body::<L, N>(work, second)) };
             let mut rows: Rows<N> = [[N::zero(); 4]; MOST_ROWS];
             let mut row = 0;
             while row < L::ROWS {
@@ -531,11 +601,12 @@ impl<L: BondLaw> Kernel for React<'_, '_, L> {
                 if work.step > 0.0 {
                     let mut row = L::FIXED_ROWS;
                     while row < L::ROWS {
-                        N::store_rows(reaction.rows[row], work.rows[row].pointer(), index.as_ptr(), here);
+                        N::store_rows(reaction.rows[row], work.rows[row].pointer(), index.as_ptr());
                         row += 1;
                     }
                 }
             }
+            buffer.broken |= N::any(reaction.cause.greater(N::zero()));
             if N::any(reaction.overbent) && buffer.overbent.is_none() {
                 let lane = N::bits(reaction.overbent).trailing_zeros() as usize;
                 buffer.overbent = Some(index[lane]);
@@ -546,9 +617,11 @@ impl<L: BondLaw> Kernel for React<'_, '_, L> {
 }
 
 /// Loads a body in each lane.
+///
+/// # Safety
+/// `slots` points to [`Lane::WIDTH`] slots of the list.
 #[inline(always)]
-fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: &[u32; 8]) -> Body<N> {
-    let slots = slots.as_ptr();
+unsafe fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: *const u32) -> Body<N> {
     // SAFETY: a list holds slots of particles, below their number; attitudes are there where a law needs them.
     unsafe {
         let position = N::load_rows(work.position.as_ptr(), slots);

@@ -1,24 +1,21 @@
 //! Contacts between particles: one pass for each contact law.
 //!
-//! Three phases on each batch of listed pairs. A: which pairs touch, several at a time; the touching ones are
-//! compacted. B: the law on the touching ones, several at a time, results in a buffer that stays in the cache.
-//! C: results added to the particles, one by one, in the order of the list. Slabs of even and odd number follow
-//! each other; within one parity no two slabs share a particle.
+//! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
+//! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
+use super::batch::{self, Batches, Bodies, Entries, Meeting, Touching};
 use super::error::RunError;
-use super::lanes::{self, Kernel, Lane, Shared, Width, columns, vector};
+use super::lanes::{self, Lane, Shared, vector};
 use super::observe::{self, ContactRecord};
 use super::pass::{Context, Link, Pass};
-use super::table::{MOST_COEFFICIENTS, Table};
+use super::table::Table;
 use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
-use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State};
 use std::marker::PhantomData;
-
-/// Listed pairs in one batch; its buffers fill about half of a first-level cache.
-const BATCH: usize = 128;
+use std::ops::Range;
 
 /// The pass of one contact law.
 pub(super) struct ContactPass<L> {
@@ -34,35 +31,34 @@ impl<L: Law> Pass for ContactPass<L> {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
-        let slabs = list.slabs.len().saturating_sub(1);
-        let shared = Pairs {
-            first: &list.first,
-            second: &list.second,
-            position: &particles.position,
-            velocity: &particles.velocity,
-            angular_velocity: &particles.angular_velocity,
-            material: &particles.material,
-            force: Shared::new(&mut particles.force),
-            torque: Shared::new(&mut particles.torque),
-        };
-        let work = Work::<L> {
-            shared: &shared,
+        let batches = Batches {
+            bodies: Pairs {
+                first: &list.first,
+                second: &list.second,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut particles.force),
+                torque: Shared::new(&mut particles.torque),
+            },
+            entries: Entries {
+                flags: Shared::new(&mut list.flags),
+                spring: Shared::new(&mut list.spring),
+                pair_constant: &list.pair_constant,
+            },
             table: &self.table,
-            flags: Shared::new(&mut list.flags),
-            spring: Shared::new(&mut list.spring),
-            pair_constant: &list.pair_constant,
+            uniform: self.table.uniform(),
             step: context.step,
-            law: PhantomData,
+            width: context.width,
         };
-        let ends = &list.slabs;
-        for parity in 0..2 {
-            let count = (slabs + 1 - parity) / 2;
-            context.each(count, |piece| {
-                let slab = 2 * piece + parity;
-                let (from, to) = (ends[slab] as usize, ends[slab + 1] as usize);
-                Slab { work, from, to }.run(context.width);
-            });
-        }
+        let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
+        context.slabs(ends.len().saturating_sub(1), |slab| {
+            // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
+            let next = slab + if slab % 2 == 0 { 2 } else { 4 };
+            let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
+            batches.run::<L>(ends[slab] as usize, ends[slab + 1] as usize, ahead);
+        });
         self.apply_hidden(state, context.step);
         Ok(())
     }
@@ -127,11 +123,12 @@ impl<L: Law> Pass for ContactPass<L> {
             let ((v, w), (u, z)) = (before(i), before(j));
             let positions = &state.particles.position;
             let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
-            let (contact, arm, _) = meet(positions[i as usize], positions[j as usize], v, u, w, z, constant);
+            let positions = [positions[i as usize], positions[j as usize]];
+            let Meeting { contact, first_arm, .. } = meet(positions, [v, u], [w, z], constant);
             let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
             let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
             let (reaction, sliding) = observe::react::<L>(row, &contact, spring, list.flags[pair]);
-            let point = Vector::from(positions[i as usize]) - contact.normal * arm;
+            let point = Vector::from(positions[0]) - contact.normal * first_arm;
             let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
             tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
         }
@@ -169,38 +166,34 @@ pub(super) fn pair_contact(particles: &Particles, list: &ContactList, pair: usiz
         return None;
     }
     let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
-    let (contact, first_arm, second_arm) = meet(
-        particles.position[i],
-        particles.position[j],
-        particles.velocity[i],
-        particles.velocity[j],
-        particles.angular_velocity[i],
-        particles.angular_velocity[j],
-        constant,
-    );
+    let rows = |rows: &[Row]| [rows[i], rows[j]];
+    let Particles { position, velocity, angular_velocity, .. } = particles;
+    let Meeting { contact, first_arm, second_arm } =
+        meet(rows(position), rows(velocity), rows(angular_velocity), constant);
     Some((contact, [first_arm, second_arm]))
 }
 
-/// Geometry and relative motion of two overlapping spheres, with the arms at i and j \[m\].
+/// Geometry and relative motion of two overlapping spheres i and j: positions and radii, velocities and masses,
+/// angular velocities.
 #[inline(always)]
 pub(super) fn meet<N: Number>(
-    position_i: [N; 4],
-    position_j: [N; 4],
-    velocity_i: [N; 4],
-    velocity_j: [N; 4],
-    spin_i: [N; 4],
-    spin_j: [N; 4],
+    [position_i, position_j]: [[N; 4]; 2],
+    [velocity_i, velocity_j]: [[N; 4]; 2],
+    [spin_i, spin_j]: [[N; 4]; 2],
     pair_constant: N,
-) -> (Contact<N>, N, N) {
-    let half = N::splat(0.5);
+) -> Meeting<N> {
+    let (half, one) = (N::splat(0.5), N::splat(1.0));
     let apart = vector(position_i) - vector(position_j);
     let distance = apart.length();
-    let normal = apart * (N::splat(1.0) / distance);
+    let per_distance = one / distance;
+    let normal = apart * per_distance;
     let (radius_i, radius_j) = (position_i[3], position_j[3]);
     let reach = radius_i + radius_j;
     let overlap = reach - distance;
-    let radius = radius_i * radius_j / reach;
     let (mass_i, mass_j) = (velocity_i[3], velocity_j[3]);
+    let mass = mass_i + mass_j;
+    // Effective radius and mass share their division, which is dear.
+    let shared = one / (reach * mass);
     let arm_i = radius_i - half * overlap;
     let arm_j = radius_j - half * overlap;
     let relative = vector(velocity_i) - vector(velocity_j);
@@ -208,17 +201,17 @@ pub(super) fn meet<N: Number>(
     let turning = vector(spin_i) * arm_i + vector(spin_j) * arm_j;
     let slip = relative - normal * normal_velocity - turning.cross(normal);
     let difference = radius_i - radius_j;
-    let section_area = N::splat(std::f64::consts::FRAC_PI_4)
-        * overlap
-        * (distance + difference)
-        * (distance - difference)
-        * (distance + reach)
-        / (distance * distance);
+    let radius = radius_i * radius_j * (mass * shared);
     let contact = Contact {
         overlap,
         radius,
-        mass: mass_i * mass_j / (mass_i + mass_j),
-        section_area,
+        mass: mass_i * mass_j * (reach * shared),
+        section_area: N::splat(std::f64::consts::FRAC_PI_4)
+            * overlap
+            * (distance + difference)
+            * (distance - difference)
+            * (distance + reach)
+            * (per_distance * per_distance),
         section_radius: radius + radius,
         normal,
         normal_velocity,
@@ -226,10 +219,11 @@ pub(super) fn meet<N: Number>(
         relative_spin: vector(spin_i) - vector(spin_j),
         pair_constant,
     };
-    (contact, arm_i, arm_j)
+    Meeting { contact, first_arm: arm_i, second_arm: arm_j }
 }
 
-/// Pairs and particles: what all phases share, whatever the law.
+/// Pairs of particles.
+#[derive(Clone, Copy)]
 struct Pairs<'a> {
     /// First particle of each pair.
     first: &'a [u32],
@@ -249,334 +243,68 @@ struct Pairs<'a> {
     torque: Shared<Row>,
 }
 
-/// What all slabs of a pass share.
-struct Work<'a, L> {
-    /// Pairs and particles.
-    shared: &'a Pairs<'a>,
-    /// Coefficients.
-    table: &'a Table,
-    /// Bits of each pair.
-    flags: Shared<u8>,
-    /// Spring of each pair.
-    spring: Shared<Row>,
-    /// Pair constant of each pair.
-    pair_constant: &'a [f64],
-    /// Time since springs were last advanced.
-    step: f64,
-    /// The law.
-    law: PhantomData<fn() -> L>,
-}
+impl Bodies for Pairs<'_> {
+    type Sum = ();
 
-impl<L> Clone for Work<'_, L> {
-    fn clone(&self) -> Self {
-        *self
+    fn first(&self) -> &[u32] {
+        self.first
     }
-}
 
-impl<L> Copy for Work<'_, L> {}
-
-/// The pairs of one slab.
-struct Slab<'a, L> {
-    /// What it shares with the others.
-    work: Work<'a, L>,
-    /// First pair.
-    from: usize,
-    /// Behind the last pair.
-    to: usize,
-}
-
-/// Results of a batch, in the order of its touching pairs.
-struct Buffer {
-    /// Touching pairs, with room for a register beyond the end.
-    touching: [u32; BATCH + 8],
-    /// Force on the first particle.
-    force: [Row; BATCH + 8],
-    /// n × F_t.
-    couple: [Row; BATCH + 8],
-    /// Rolling torque.
-    rolling: [Row; BATCH + 8],
-    /// Arm at the first particle.
-    first_arm: [f64; BATCH + 8],
-    /// Arm at the second particle.
-    second_arm: [f64; BATCH + 8],
-}
-
-impl Buffer {
-    /// An empty buffer.
-    fn new() -> Self {
-        Self {
-            touching: [0; BATCH + 8],
-            force: [[0.0; 4]; BATCH + 8],
-            couple: [[0.0; 4]; BATCH + 8],
-            rolling: [[0.0; 4]; BATCH + 8],
-            first_arm: [0.0; BATCH + 8],
-            second_arm: [0.0; BATCH + 8],
-        }
+    fn second(&self) -> &[u32] {
+        self.second
     }
-}
 
-impl<L: Law> Slab<'_, L> {
-    /// Works through the slab, batch by batch.
-    fn run(self, width: Width) {
-        let Self { work, from, to } = self;
-        let mut buffer = Buffer::new();
-        let mut batch = from;
-        while batch < to {
-            let end = (batch + BATCH).min(to);
-            let (shared, flags) = (&work.shared, work.flags);
-            let mut count = 0;
-            let (buffer, count) = (&mut buffer, &mut count);
-            if L::HAS_SPRING {
-                lanes::run(
-                    width,
-                    Touch::<true> { shared, flags, spring: work.spring, from: batch, to: end, buffer, count },
-                );
-            } else {
-                lanes::run(
-                    width,
-                    Touch::<false> { shared, flags, spring: work.spring, from: batch, to: end, buffer, count },
-                );
-            }
-            let count = *count;
-            lanes::run(width, React { work, count, buffer });
-            match (L::HAS_TORQUE, L::HAS_ROLLING) {
-                (false, _) => lanes::run(width, Scatter::<false, false> { shared, count, buffer }),
-                (true, false) => lanes::run(width, Scatter::<true, false> { shared, count, buffer }),
-                (true, true) => lanes::run(width, Scatter::<true, true> { shared, count, buffer }),
-            }
-            batch = end;
-        }
-    }
-}
-
-/// Phase A on one batch: writes the touching pairs into the buffer and ends the contacts that came apart.
-struct Touch<'a, 'b, const SPRING: bool> {
-    /// Pairs and particles.
-    shared: &'a Pairs<'a>,
-    /// Bits of each pair.
-    flags: Shared<u8>,
-    /// Spring of each pair.
-    spring: Shared<Row>,
-    /// First pair.
-    from: usize,
-    /// Behind the last pair.
-    to: usize,
-    /// Where the touching pairs go.
-    buffer: &'b mut Buffer,
-    /// How many touch.
-    count: &'b mut usize,
-}
-
-impl<const SPRING: bool> Kernel for Touch<'_, '_, SPRING> {
     #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { shared, flags, spring, from, to, buffer, count } = self;
-        *count = find_touching::<N, SPRING>(shared, (flags, spring), (from, to), buffer);
-    }
-}
-
-/// Phase B on one batch: the law.
-struct React<'a, 'b, L> {
-    /// What all slabs share.
-    work: Work<'a, L>,
-    /// How many pairs touch.
-    count: usize,
-    /// The touching pairs, and where their results go.
-    buffer: &'b mut Buffer,
-}
-
-impl<L: Law> Kernel for React<'_, '_, L> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        react_batch::<L, N>(&self.work, self.count, self.buffer);
-    }
-}
-
-/// Phase C on one batch: adds the results to both particles of each touching pair.
-struct Scatter<'a, 'b, const TORQUE: bool, const ROLLING: bool> {
-    /// Pairs and particles.
-    shared: &'a Pairs<'a>,
-    /// How many pairs touch.
-    count: usize,
-    /// Their results.
-    buffer: &'b Buffer,
-}
-
-impl<const TORQUE: bool, const ROLLING: bool> Kernel for Scatter<'_, '_, TORQUE, ROLLING> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        scatter::<TORQUE, ROLLING>(self.shared, self.count, self.buffer);
-    }
-}
-
-/// Phase A. Returns how many pairs touch.
-#[inline(always)]
-fn find_touching<N: Lane, const SPRING: bool>(
-    work: &Pairs,
-    (all_flags, spring): (Shared<u8>, Shared<Row>),
-    (from, to): (usize, usize),
-    buffer: &mut Buffer,
-) -> usize {
-    let positions = work.position.as_ptr();
-    let mut count = 0;
-    let mut pair = from;
-    while pair < to {
-        let lanes = if to - pair < N::WIDTH { to - pair } else { N::WIDTH };
-        let mut first = [0_u32; 8];
-        let mut second = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            let listed = if lane < lanes { pair + lane } else { pair };
-            first[lane] = work.first[listed];
-            second[lane] = work.second[listed];
-            lane += 1;
-        }
+    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> u32 {
+        let positions = self.position.as_ptr();
         // SAFETY: a list holds slots of particles, below their number.
-        let (i, j) = unsafe { (N::load_rows(positions, first.as_ptr()), N::load_rows(positions, second.as_ptr())) };
+        let (i, j) = unsafe { (N::load_rows(positions, first), N::load_rows(positions, second)) };
         let apart = vector(i) - vector(j);
         let reach = i[3] + j[3];
-        let touch = N::bits((reach * reach).greater(apart.dot(apart)));
-        // SAFETY: these pairs belong to this slab alone.
-        let flags = unsafe { all_flags.part(pair, pair + lanes) };
-        let mut lane = 0;
-        while lane < lanes {
-            let now = ((touch >> lane) & 1) as u8;
-            buffer.touching[count] = (pair + lane) as u32;
-            count += now as usize;
-            if flags[lane] & TOUCHING > now {
-                flags[lane] = 0;
-                if SPRING {
-                    // SAFETY: this pair belongs to this slab alone.
-                    unsafe { *spring.at(pair + lane) = [0.0; 4] };
+        N::bits((reach * reach).greater(apart.dot(apart)))
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(&self, first: *const u32, second: *const u32) -> Meeting<N> {
+        let (x, v, w) = (self.position.as_ptr(), self.velocity.as_ptr(), self.angular_velocity.as_ptr());
+        // SAFETY: a list holds slots of particles, below their number.
+        unsafe {
+            let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+            let positions = [N::load_rows(x, first), N::load_rows(x, second)];
+            meet(positions, [N::load_rows(v, first), N::load_rows(v, second)], spins, N::zero())
+        }
+    }
+
+    fn row(&self, table: &Table, first: u32, second: u32) -> u32 {
+        table.entry(self.material[first as usize], self.material[second as usize])
+    }
+
+    fn prefetch(&self, slots: Range<usize>) {
+        let (force, torque) = (self.force.pointer(), self.torque.pointer());
+        // A line of the cache holds two rows.
+        for slot in slots.step_by(2) {
+            lanes::prefetch(self.position.as_ptr().wrapping_add(slot));
+            lanes::prefetch(self.velocity.as_ptr().wrapping_add(slot));
+            lanes::prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+            lanes::prefetch(force.wrapping_add(slot));
+            lanes::prefetch(torque.wrapping_add(slot));
+        }
+    }
+
+    #[inline(always)]
+    fn spread(&self, touching: &Touching, torque: bool, _sum: &mut ()) {
+        let Touching { first, second, force, first_torque, second_torque, .. } = *touching;
+        for place in 0..first.len() {
+            let (i, j) = (first[place] as usize, second[place] as usize);
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                batch::add(self.force.at(i), &force[place]);
+                batch::subtract(self.force.at(j), &force[place]);
+                if torque {
+                    batch::add(self.torque.at(i), &first_torque[place]);
+                    batch::add(self.torque.at(j), &second_torque[place]);
                 }
             }
-            lane += 1;
         }
-        pair += N::WIDTH;
-    }
-    let last = buffer.touching[count.saturating_sub(1)];
-    let mut lane = 0;
-    while lane < 8 {
-        buffer.touching[count + lane] = last;
-        lane += 1;
-    }
-    count
-}
-
-/// Phase B.
-#[inline(always)]
-fn react_batch<L: Law, N: Lane>(work: &Work<L>, count: usize, buffer: &mut Buffer) {
-    let mut row = [N::zero(); MOST_COEFFICIENTS];
-    if let Some(entry) = work.table.uniform() {
-        let mut k = 0;
-        while k < L::COUNT {
-            row[k] = N::splat(entry[k]);
-            k += 1;
-        }
-    }
-    let Pairs { first: firsts, second: seconds, position, velocity, angular_velocity, material, .. } = work.shared;
-    let step = N::splat(work.step);
-    let mut done = 0;
-    while done < count {
-        let mut first = [0_u32; 8];
-        let mut second = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            let pair = buffer.touching[done + lane] as usize;
-            first[lane] = firsts[pair];
-            second[lane] = seconds[pair];
-            lane += 1;
-        }
-        if work.table.uniform().is_none() {
-            let mut materials = [0_u32; 8];
-            let mut lane = 0;
-            while lane < N::WIDTH {
-                materials[lane] = material[second[lane] as usize];
-                lane += 1;
-            }
-            work.table.gather::<L, N>(material, &first, &materials, &mut row);
-        }
-        let pairs = buffer.touching[done..].as_ptr();
-        // SAFETY: a list holds slots of particles, below their number.
-        let (contact, first_arm, second_arm) = unsafe {
-            let (i, j) = (first.as_ptr(), second.as_ptr());
-            let (x, v, w) = (position.as_ptr(), velocity.as_ptr(), angular_velocity.as_ptr());
-            let constant =
-                if L::HAS_PAIR_CONSTANT { N::gather(work.pair_constant.as_ptr(), pairs, 1) } else { N::zero() };
-            meet(
-                N::load_rows(x, i),
-                N::load_rows(x, j),
-                N::load_rows(v, i),
-                N::load_rows(v, j),
-                N::load_rows(w, i),
-                N::load_rows(w, j),
-                constant,
-            )
-        };
-        let spring = if L::HAS_SPRING {
-            // SAFETY: these pairs belong to this slab alone, and there is a spring for each.
-            vector(unsafe { N::load_rows(work.spring.pointer(), pairs) })
-        } else {
-            Vector::zero()
-        };
-        let reaction = L::react(&row[..L::COUNT], &contact, spring, step);
-        let here = if count - done < N::WIDTH { count - done } else { N::WIDTH };
-        // SAFETY: the buffer has room for a register beyond the batch; springs as above.
-        unsafe {
-            N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(done));
-            if L::HAS_TORQUE {
-                N::store_block(columns(reaction.couple), buffer.couple.as_mut_ptr().add(done));
-                first_arm.store(buffer.first_arm.as_mut_ptr().add(done));
-                second_arm.store(buffer.second_arm.as_mut_ptr().add(done));
-            }
-            if L::HAS_ROLLING {
-                N::store_block(columns(reaction.rolling), buffer.rolling.as_mut_ptr().add(done));
-            }
-            if L::HAS_SPRING {
-                N::store_rows(columns(reaction.spring), work.spring.pointer(), pairs, here);
-            }
-            let sliding = N::bits(reaction.sliding);
-            let mut lane = 0;
-            while lane < here {
-                let slides = ((sliding >> lane) & 1) as u8 * SLIDING;
-                *work.flags.at(buffer.touching[done + lane] as usize) = TOUCHING | slides;
-                lane += 1;
-            }
-        }
-        done += N::WIDTH;
-    }
-}
-
-/// Phase C.
-#[inline(always)]
-fn scatter<const TORQUE: bool, const ROLLING: bool>(work: &Pairs, count: usize, buffer: &Buffer) {
-    let mut done = 0;
-    while done < count {
-        let pair = buffer.touching[done] as usize;
-        let (i, j) = (work.first[pair] as usize, work.second[pair] as usize);
-        // SAFETY: slabs of one parity do not share particles.
-        unsafe {
-            add(work.force.at(i), &buffer.force[done], 1.0);
-            add(work.force.at(j), &buffer.force[done], -1.0);
-            if TORQUE {
-                add(work.torque.at(i), &buffer.couple[done], -buffer.first_arm[done]);
-                add(work.torque.at(j), &buffer.couple[done], -buffer.second_arm[done]);
-            }
-            if ROLLING {
-                add(work.torque.at(i), &buffer.rolling[done], -1.0);
-                add(work.torque.at(j), &buffer.rolling[done], 1.0);
-            }
-        }
-        done += 1;
-    }
-}
-
-/// Adds a multiple of one row to another.
-#[inline(always)]
-fn add(sum: &mut Row, row: &Row, factor: f64) {
-    let mut k = 0;
-    while k < 4 {
-        sum[k] += factor * row[k];
-        k += 1;
     }
 }

@@ -78,6 +78,13 @@ impl Fields {
         !self.damping.is_empty()
     }
 
+    /// Gravity \[m/s²\], if nothing else acts and nobody asks for it by itself: it is then added by the kick that
+    /// follows.
+    pub(super) fn weight_alone(&self, state: &State) -> Option<[f64; 3]> {
+        let alone = self.damping.is_empty() && self.applied.is_empty() && state.ledger.is_none();
+        (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
+    }
+
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
     pub(super) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
         if self.damping.is_empty() && self.applied.is_empty() {

@@ -1,6 +1,7 @@
 //! What the pass of a contact law does with contacts that a bond hides or has hidden: one by one, in the order of
 //! their list, after its near pairs. A scene without a bond that hides contacts has no such list.
 
+use super::batch;
 use super::contacts::{ContactPass, effective, meet};
 use super::observe::ContactRecord;
 use super::pass::Link;
@@ -104,10 +105,10 @@ fn pair(particles: &Particles, entry: &HiddenContact) -> Option<Meeting> {
         return None;
     }
     let (v, w) = (&particles.velocity, &particles.angular_velocity);
-    let at = |y| meet(x, y, v[i], v[j], w[i], w[j], entry.pair_constant);
-    let (contact, first_arm, second_arm) = at(y);
+    let at = |y| meet([x, y], [v[i], v[j]], [w[i], w[j]], entry.pair_constant);
+    let batch::Meeting { contact, first_arm, second_arm } = at(y);
     let [a, b, c] = (Vector::from(x) - contact.normal * (reach - entry.offset.min(contact.overlap))).to_array();
-    Some(Meeting { contact, offset: at([a, b, c, y[3]]).0, first_arm, second_arm })
+    Some(Meeting { contact, offset: at([a, b, c, y[3]]).contact, first_arm, second_arm })
 }
 
 /// The slots of the two particles of an entry.
@@ -197,10 +198,10 @@ fn at_plane(plane: &Plane, particles: &Particles, entry: &HiddenContact) -> Opti
     }
     let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
     let at = |position| plane.meet(position, velocity, spin, entry.pair_constant);
-    let (contact, first_arm) = at(position);
+    let batch::Meeting { contact, first_arm, .. } = at(position);
     let raised = contact.overlap - entry.offset.min(contact.overlap);
     let [a, b, c] = (Vector::from(position) + plane.normal * raised).to_array();
-    Some(Meeting { contact, offset: at([a, b, c, position[3]]).0, first_arm, second_arm: 0.0 })
+    Some(Meeting { contact, offset: at([a, b, c, position[3]]).contact, first_arm, second_arm: 0.0 })
 }
 
 impl<L: Law> WallPass<L> {

@@ -5,7 +5,8 @@ use super::pass::{CHUNK, Context};
 use crate::bond::Quaternion;
 use crate::state::{Particles, Row};
 
-/// Moves free particles by half a kick and a drift of `step` \[s\]. Returns the largest speed \[m/s\].
+/// Moves free particles by half a kick and a drift of `step` \[s\] and sets all loads to zero. Returns the largest
+/// speed \[m/s\].
 pub(super) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
     let rows = Rows::of(particles);
     let squares = context.collect(rows.pieces(), |piece| {
@@ -34,21 +35,29 @@ impl Kernel for First<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { rows, piece, step, turning, fastest } = self;
+        let half = 0.5 * step;
+        let mut most = 0.0;
         for slot in rows.slots(piece) {
-            if rows.owner[slot] != 0 {
-                continue;
-            }
             // SAFETY: pieces do not overlap, and each is worked on by one thread.
             let body = unsafe { rows.body(slot) };
-            kick(body.velocity, body.force, 0.5 * step / body.velocity[3]);
-            let (v, x) = (*body.velocity, *body.position);
-            *body.position = [x[0] + step * v[0], x[1] + step * v[1], x[2] + step * v[2], x[3]];
-            if turning {
-                kick(body.spin, body.torque, 0.5 * step / body.spin[3]);
+            if rows.owner[slot] == 0 {
+                let (velocity, force) = (*body.velocity, *body.force);
+                let v = plus(velocity, force, half / velocity[3]);
+                *body.velocity = v;
+                *body.position = plus(*body.position, [v[0], v[1], v[2], 0.0], step);
+                if turning {
+                    let (spin, torque) = (*body.spin, *body.torque);
+                    *body.spin = plus(spin, torque, half / spin[3]);
+                }
+                let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+                most = if square > most { square } else { most };
             }
-            let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-            *fastest = if square > *fastest { square } else { *fastest };
+            *body.force = [0.0; 4];
+            if turning {
+                *body.torque = [0.0; 4];
+            }
         }
+        *fastest = most;
     }
 }
 
@@ -65,13 +74,20 @@ pub(super) fn turn(particles: &mut Particles, step: f64, context: &Context) {
     });
 }
 
-/// Moves free particles by the second half of the kick. Returns the largest speed at the middle of the next step,
-/// or something that is not finite where a force or velocity is not \[m/s\].
-pub(super) fn kick_again(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
+/// Adds the weight, where gravity \[m/s²\] is given, and moves free particles by the second half of the kick. Returns
+/// the largest speed at the middle of the next step, or something that is not finite where a force or velocity is not
+/// \[m/s\].
+pub(super) fn kick_again(
+    particles: &mut Particles,
+    gravity: Option<[f64; 3]>,
+    step: f64,
+    turning: bool,
+    context: &Context,
+) -> f64 {
     let rows = Rows::of(particles);
     let squares = context.collect(rows.pieces(), |piece| {
         let mut fastest = 0.0;
-        lanes::run(context.width, Second { rows, piece, step, turning, fastest: &mut fastest });
+        lanes::run(context.width, Second { rows, piece, gravity, step, turning, fastest: &mut fastest });
         fastest
     });
     squares.into_iter().fold(0.0_f64, |most, one| if one > most || one.is_nan() { one } else { most }).sqrt()
@@ -83,6 +99,8 @@ struct Second<'a, 'b> {
     rows: Rows<'a>,
     /// Which piece.
     piece: usize,
+    /// Gravity that is not yet among the forces \[m/s²\].
+    gravity: Option<[f64; 3]>,
     /// The time step \[s\].
     step: f64,
     /// Whether particles turn.
@@ -94,29 +112,37 @@ struct Second<'a, 'b> {
 impl Kernel for Second<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { rows, piece, step, turning, fastest } = self;
+        let Self { rows, piece, gravity, step, turning, fastest } = self;
+        let half = 0.5 * step;
         let mut most = 0.0;
         // Zero times what is finite is zero; times anything else it is not a number.
-        let mut sum = 0.0;
+        let mut sum = [0.0; 4];
         for slot in rows.slots(piece) {
+            // SAFETY: pieces do not overlap, and each is worked on by one thread.
+            let body = unsafe { rows.body(slot) };
+            let (velocity, mut force) = (*body.velocity, *body.force);
+            if let Some([x, y, z]) = gravity {
+                force = plus(force, [x, y, z, 0.0], velocity[3]);
+                *body.force = force;
+            }
             if rows.owner[slot] != 0 {
                 continue;
             }
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            let body = unsafe { rows.body(slot) };
-            let factor = 0.5 * step / body.velocity[3];
-            kick(body.velocity, body.force, factor);
-            let mut next = *body.velocity;
-            kick(&mut next, body.force, factor);
+            let factor = half / velocity[3];
+            let v = plus(velocity, force, factor);
+            *body.velocity = v;
+            let next = plus(v, force, factor);
             let square = next[0] * next[0] + next[1] * next[1] + next[2] * next[2];
-            if turning {
-                kick(body.spin, body.torque, 0.5 * step / body.spin[3]);
-                sum += (body.spin[0] + body.spin[1] + body.spin[2]) * 0.0;
-            }
-            sum += square * 0.0;
+            sum[3] += square * 0.0;
             most = if square > most { square } else { most };
+            if turning {
+                let (spin, torque) = (*body.spin, *body.torque);
+                let w = plus(spin, torque, half / spin[3]);
+                *body.spin = w;
+                sum = plus(sum, w, 0.0);
+            }
         }
-        *fastest = most + sum;
+        *fastest = most + (sum[0] + sum[1] + sum[2] + sum[3]);
     }
 }
 
@@ -124,19 +150,17 @@ impl Kernel for Second<'_, '_> {
 pub(super) fn coming_speed(particles: &Particles, step: f64) -> f64 {
     let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
     let squares = free.map(|slot| {
-        let mut next = particles.velocity[slot];
-        kick(&mut next, &particles.force[slot], 0.5 * step / particles.velocity[slot][3]);
+        let velocity = particles.velocity[slot];
+        let next = plus(velocity, particles.force[slot], 0.5 * step / velocity[3]);
         next[0] * next[0] + next[1] * next[1] + next[2] * next[2]
     });
     squares.fold(0.0, f64::max).sqrt()
 }
 
-/// Adds a multiple of a load to a velocity. The fourth number of a load is 0, that of a velocity stays.
+/// A row plus a multiple of another. The fourth number of a load is 0: that of a velocity stays.
 #[inline(always)]
-fn kick(velocity: &mut Row, load: &Row, factor: f64) {
-    for k in 0..4 {
-        velocity[k] += factor * load[k];
-    }
+fn plus(row: Row, other: Row, factor: f64) -> Row {
+    [row[0] + factor * other[0], row[1] + factor * other[1], row[2] + factor * other[2], row[3] + factor * other[3]]
 }
 
 /// The rows that integration reads and writes.
@@ -227,18 +251,8 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Sets forces, and torques where there are any, to zero.
-pub(super) fn clear_loads(particles: &mut Particles, turning: bool, context: &Context) {
-    let (force, torque) = (Shared::new(&mut particles.force), Shared::new(&mut particles.torque));
-    let count = force.length();
-    context.each(count.div_ceil(CHUNK), |piece| {
-        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
-        // SAFETY: pieces do not overlap.
-        unsafe {
-            force.part(from, to).fill([0.0; 4]);
-            if turning {
-                torque.part(from, to).fill([0.0; 4]);
-            }
-        }
-    });
+/// Sets all loads to zero.
+pub(super) fn clear_loads(particles: &mut Particles) {
+    particles.force.fill([0.0; 4]);
+    particles.torque.fill([0.0; 4]);
 }

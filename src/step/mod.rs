@@ -1,6 +1,7 @@
 //! One time step: the passes, in their order, over the state.
 
 mod assemble;
+mod batch;
 mod bodies;
 mod bonds;
 mod boundaries;
@@ -80,7 +81,12 @@ pub struct Simulation {
     workers: workers::Workers,
     /// Where the state came from.
     origin: Origin,
+    /// Who is told what has just been done, in benchmarks.
+    watch: Option<Watch>,
 }
+
+/// Is told the name of each part of a time step when it is done.
+pub type Watch = Box<dyn FnMut(&'static str) + Send>;
 
 /// Where the state of a simulation came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,6 +121,7 @@ impl Simulation {
             scene,
             state,
             origin: Origin::Reached,
+            watch: None,
         }
     }
 
@@ -169,6 +176,18 @@ impl Simulation {
     /// Damps every particle that the scene does not damp by this fraction (Cundall), gravity included.
     pub fn damp_rest(&mut self, fraction: f64) {
         self.fields.damp_rest(fraction, self.scene.particles.len());
+    }
+
+    /// Has somebody told, from now on, what has just been done in a time step: to see what each part costs.
+    pub fn watch(&mut self, watch: Watch) {
+        self.watch = Some(watch);
+    }
+
+    /// Tells that a part of a time step is done.
+    fn done(&mut self, part: &'static str) {
+        if let Some(watch) = &mut self.watch {
+            watch(part);
+        }
     }
 
     /// What is simulated.
@@ -261,6 +280,7 @@ impl Simulation {
         energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
         let speed = integrate::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integrate::turn(&mut self.state.particles, step, context);
+        self.done("kick and drift");
         let time = self.state.clock.time;
         let ways = boundaries::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress });
         bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
@@ -275,14 +295,17 @@ impl Simulation {
             let number = self.state.clock.steps;
             self.bond(&Moment { number, from: earlier, to: time }, step);
         }
+        self.done("lists and boundaries");
         let before = boundaries::clear_loads(&mut self.state);
         let damping_before = self.state.damping_force;
-        result = result.and(self.evaluate(context));
+        let gravity = self.fields.weight_alone(&self.state);
+        result = result.and(self.evaluate(gravity.is_none(), context));
         energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
-        let speed = integrate::kick_again(&mut self.state.particles, step, self.turning, context);
+        let speed = integrate::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = bodies::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
+        self.done("kick");
         boundaries::book(&self.scene, &mut self.state, &before, &ways, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
@@ -293,22 +316,24 @@ impl Simulation {
         result.and_then(|()| self.shorten_step())
     }
 
-    /// Evaluates all forces and torques at the present positions.
-    fn evaluate(&mut self, context: &Context) -> Result<(), RunError> {
-        let state = &mut self.state;
-        integrate::clear_loads(&mut state.particles, self.turning, context);
-        let (mut result, told) = (Ok(()), state.breaks.len());
+    /// Evaluates all forces and torques at the present positions, the fields among them if asked for. Loads of the
+    /// particles must be zero.
+    fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
+        let (mut result, told) = (Ok(()), self.state.breaks.len());
         let mut seen = Loads::default();
-        for (place, pass) in self.passes.iter().enumerate() {
-            result = result.and(pass.apply(state, context));
-            let next = self.passes.get(place + 1).map(|next| next.source());
-            if next != Some(pass.source()) {
-                energy::record(state, pass.source(), &mut seen);
+        for place in 0..self.passes.len() {
+            let pass = &self.passes[place];
+            result = result.and(pass.apply(&mut self.state, context));
+            let source = pass.source();
+            if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
+                energy::record(&mut self.state, source, &mut seen);
+                self.done(source.name());
             }
         }
+        let state = &mut self.state;
         self.hiding.broken(state, told);
         boundaries::sum_groups(&self.scene, state);
-        state.damping_force = self.fields.apply(state, context);
+        state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         if self.fields.damps() {
             energy::record(state, Source::Damping, &mut seen);
             energy::settle_damping(state, &self.fields);
@@ -317,6 +342,7 @@ impl Simulation {
         for (sum, part) in state.damping_force.iter_mut().zip(braking) {
             *sum += part;
         }
+        self.done("fields");
         result
     }
 
@@ -324,7 +350,8 @@ impl Simulation {
     fn start(&mut self) -> Result<(), RunError> {
         boundaries::clear_loads(&mut self.state);
         let context = Context { step: 0.0, width: self.width, parallel: false };
-        let result = self.evaluate(&context);
+        integrate::clear_loads(&mut self.state.particles);
+        let result = self.evaluate(true, &context);
         for boundary in &mut self.state.boundaries {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;

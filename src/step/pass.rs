@@ -9,6 +9,7 @@ use crate::number::Vector;
 use crate::state::State;
 use crate::state::ledger::Source;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
 /// depend on the number of threads.
@@ -33,6 +34,30 @@ impl Context {
         } else {
             (0..count).for_each(piece);
         }
+    }
+
+    /// Does slabs 0 to `count` − 1 of the work: those of even number in any order, each of odd number when both its
+    /// neighbours are done. What two neighbours add to one place thus always comes in the same order, and what is
+    /// near in space is near in time.
+    pub(super) fn slabs(&self, count: usize, work: impl Fn(usize) + Sync + Send) {
+        let done: Vec<AtomicU8> = (0..count).map(|_| AtomicU8::new(0)).collect();
+        let neighbour = |odd: usize| {
+            let awaited = if odd + 1 < count { 2 } else { 1 };
+            // What was done before is seen by who comes last.
+            if done[odd].fetch_add(1, Ordering::AcqRel) + 1 == awaited {
+                work(odd);
+            }
+        };
+        self.each(count.div_ceil(2), |piece| {
+            let even = 2 * piece;
+            work(even);
+            if even > 0 {
+                neighbour(even - 1);
+            }
+            if even + 1 < count {
+                neighbour(even + 1);
+            }
+        });
     }
 
     /// What the pieces 0 to `count` − 1 give, in order.

@@ -53,25 +53,22 @@ impl Table {
         Some(self.row(self.single?, material))
     }
 
-    /// The coefficients of each lane's two materials: that of a particle, and a given one.
+    /// The row of two materials.
     #[inline(always)]
-    pub(super) fn gather<L: Law, N: Lane>(
-        &self,
-        material: &[u32],
-        first: &[u32; 8],
-        second: &[u32; 8],
-        row: &mut [N; MOST_COEFFICIENTS],
-    ) {
-        let mut entry = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            entry[lane] = material[first[lane] as usize] * self.materials as u32 + second[lane];
-            lane += 1;
-        }
+    pub(super) fn entry(&self, a: u32, b: u32) -> u32 {
+        a * self.materials as u32 + b
+    }
+
+    /// The coefficients of each lane, of the rows with these numbers.
+    ///
+    /// # Safety
+    /// `entry` points to [`Lane::WIDTH`] results of [`Table::entry`].
+    #[inline(always)]
+    pub(super) unsafe fn gather<L: Law, N: Lane>(&self, entry: *const u32, row: &mut [N; MOST_COEFFICIENTS]) {
         let mut k = 0;
         while k < L::COUNT {
             // SAFETY: the table has a row of `L::COUNT` numbers for each two materials.
-            row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry.as_ptr(), L::COUNT) };
+            row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry, L::COUNT) };
             k += 1;
         }
     }

@@ -1,23 +1,21 @@
 //! Contacts of particles with planes: one pass for each plane and contact law that meet.
 //!
-//! The phases are those of the contacts between particles. A particle stands once in a list, so pieces of a list
-//! are worked on side by side; loads on the plane are summed piece by piece, in order.
+//! A particle stands once in a list, so pieces of a list are worked on side by side; loads on the plane are summed
+//! piece by piece, in order.
 
+use super::batch::{self, Batches, Bodies, Entries, Meeting, Touching};
 use super::error::RunError;
-use super::lanes::{self, Kernel, Lane, Shared, columns, vector};
+use super::lanes::{Lane, Shared, vector};
 use super::observe::{self, ContactRecord};
 use super::pass::{CHUNK, Context, Link, Pass};
-use super::table::{MOST_COEFFICIENTS, Table};
+use super::table::Table;
 use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
-use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{Particles, Row, State, WallContacts};
 use std::f64::consts::PI;
 use std::marker::PhantomData;
-
-/// Listed particles in one batch.
-const BATCH: usize = 128;
 
 /// The pass of one plane and one contact law.
 pub(super) struct WallPass<L> {
@@ -55,9 +53,9 @@ impl<N: Number> Plane<N> {
         (vector(position) - self.point).dot(self.normal)
     }
 
-    /// Geometry and relative motion of a sphere at the plane, with the sphere's arm \[m\].
+    /// Geometry and relative motion of a sphere at the plane.
     #[inline(always)]
-    pub(super) fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> (Contact<N>, N) {
+    pub(super) fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> Meeting<N> {
         let radius = position[3];
         let overlap = radius - self.distance(position);
         let arm = radius - N::splat(0.5) * overlap;
@@ -76,7 +74,7 @@ impl<N: Number> Plane<N> {
             relative_spin: vector(spin),
             pair_constant,
         };
-        (contact, arm)
+        Meeting { contact, first_arm: arm, second_arm: N::zero() }
     }
 }
 
@@ -110,7 +108,9 @@ impl<L: Law> WallPass<L> {
             return None;
         }
         let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-        Some(plane.meet(particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot], constant))
+        let Particles { position, velocity, angular_velocity, .. } = particles;
+        let meeting = plane.meet(position[slot], velocity[slot], angular_velocity[slot], constant);
+        Some((meeting.contact, meeting.first_arm))
     }
 }
 
@@ -121,29 +121,31 @@ impl<L: Law> Pass for WallPass<L> {
         let boundary = &mut state.boundaries[list.boundary as usize];
         let particles = &mut state.particles;
         let count = list.particle.len();
-        let work = Work::<L> {
+        let batches = Batches {
+            bodies: AtPlane {
+                plane,
+                reference: self.reference + boundary.displacement.into(),
+                particle: &list.particle,
+                wall_material: self.material,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut particles.force),
+                torque: Shared::new(&mut particles.torque),
+            },
+            entries: Entries {
+                flags: Shared::new(&mut list.flags),
+                spring: Shared::new(&mut list.spring),
+                pair_constant: &list.pair_constant,
+            },
             table: &self.table,
-            wall_material: self.material,
-            plane,
-            reference: self.reference + boundary.displacement.into(),
-            particle: &list.particle,
-            flags: Shared::new(&mut list.flags),
-            spring: Shared::new(&mut list.spring),
-            pair_constant: &list.pair_constant,
-            position: &particles.position,
-            velocity: &particles.velocity,
-            angular_velocity: &particles.angular_velocity,
-            material: &particles.material,
-            force: Shared::new(&mut particles.force),
-            torque: Shared::new(&mut particles.torque),
+            uniform: self.table.uniform_with(self.material),
             step: context.step,
-            law: PhantomData,
+            width: context.width,
         };
         let loads = context.collect(count.div_ceil(CHUNK), |piece| {
-            let mut load = Load::default();
-            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
-            lanes::run_least(Piece { work, from, to, load: &mut load });
-            load
+            batches.run::<L>(piece * CHUNK, ((piece + 1) * CHUNK).min(count), 0..0)
         });
         let mut behind = None;
         for load in loads {
@@ -224,7 +226,7 @@ impl<L: Law> Pass for WallPass<L> {
             let (velocity, spin) = observe::half_step_back(state, slot, step);
             let position = state.particles.position[slot];
             let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-            let (contact, arm) = plane.meet(position, velocity, spin, constant);
+            let Meeting { contact, first_arm: arm, .. } = plane.meet(position, velocity, spin, constant);
             let row = self.table.row(state.particles.material[slot], self.material);
             let spring = list.spring.get(entry).copied().unwrap_or([0.0; 4]);
             let (reaction, sliding) = observe::react::<L>(row, &contact, spring, list.flags[entry]);
@@ -259,24 +261,17 @@ struct Load {
     behind: Option<u32>,
 }
 
-/// What all pieces share.
-struct Work<'a, L> {
-    /// Coefficients.
-    table: &'a Table,
-    /// The plane's material.
-    wall_material: u32,
+/// Particles at a plane.
+#[derive(Clone, Copy)]
+struct AtPlane<'a> {
     /// The plane, where it stands.
     plane: Plane,
     /// The moved reference point.
     reference: Vector,
     /// Listed particles.
     particle: &'a [u32],
-    /// Bits of each.
-    flags: Shared<u8>,
-    /// Spring of each.
-    spring: Shared<Row>,
-    /// Pair constant of each.
-    pair_constant: &'a [f64],
+    /// The plane's material.
+    wall_material: u32,
     /// Positions and radii.
     position: &'a [Row],
     /// Velocities and masses.
@@ -289,228 +284,69 @@ struct Work<'a, L> {
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
-    /// Time since springs were last advanced.
-    step: f64,
-    /// The law.
-    law: PhantomData<fn() -> L>,
 }
 
-impl<L> Clone for Work<'_, L> {
-    fn clone(&self) -> Self {
-        *self
+impl Bodies for AtPlane<'_> {
+    type Sum = Load;
+
+    fn first(&self) -> &[u32] {
+        self.particle
     }
-}
 
-impl<L> Copy for Work<'_, L> {}
+    fn second(&self) -> &[u32] {
+        self.particle
+    }
 
-/// A piece of the list.
-struct Piece<'a, 'b, L> {
-    /// What it shares with the others.
-    work: Work<'a, L>,
-    /// First entry.
-    from: usize,
-    /// Behind the last entry.
-    to: usize,
-    /// What it does to the plane.
-    load: &'b mut Load,
-}
-
-/// Results of a batch, in the order of its touching entries.
-struct Buffer {
-    /// Touching entries, with room for a register beyond the end.
-    touching: [u32; BATCH + 8],
-    /// Force on the particle.
-    force: [Row; BATCH + 8],
-    /// n × F_t.
-    couple: [Row; BATCH + 8],
-    /// Rolling torque.
-    rolling: [Row; BATCH + 8],
-    /// Arm at the particle.
-    arm: [f64; BATCH + 8],
-}
-
-impl<L: Law> Kernel for Piece<'_, '_, L> {
     #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { work, from, to, load } = self;
-        let mut buffer = Buffer {
-            touching: [0; BATCH + 8],
-            force: [[0.0; 4]; BATCH + 8],
-            couple: [[0.0; 4]; BATCH + 8],
-            rolling: [[0.0; 4]; BATCH + 8],
-            arm: [0.0; BATCH + 8],
-        };
-        let mut row = [N::zero(); MOST_COEFFICIENTS];
-        if let Some(entry) = work.table.uniform_with(work.wall_material) {
-            let mut k = 0;
-            while k < L::COUNT {
-                row[k] = N::splat(entry[k]);
-                k += 1;
-            }
+    unsafe fn touch<N: Lane>(&self, first: *const u32, _second: *const u32, load: &mut Load) -> u32 {
+        // SAFETY: a list holds slots of particles, below their number.
+        let position = unsafe { N::load_rows(self.position.as_ptr(), first) };
+        let distance = self.plane.lanes::<N>().distance(position);
+        let behind = N::bits(N::zero().greater(distance));
+        if behind != 0 && load.behind.is_none() {
+            // SAFETY: there are as many slots as lanes.
+            load.behind = Some(unsafe { *first.add(behind.trailing_zeros() as usize) });
         }
-        let plane = work.plane.lanes::<N>();
-        let mut batch = from;
-        while batch < to {
-            let end = if batch + BATCH < to { batch + BATCH } else { to };
-            let count = find_touching::<L, N>(&work, &plane, batch, end, &mut buffer, load);
-            react_batch::<L, N>(&work, &plane, &mut row, count, &mut buffer);
-            spread::<L>(&work, count, &buffer, load);
-            batch = end;
+        !N::bits(distance.greater(position[3]))
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(&self, first: *const u32, _second: *const u32) -> Meeting<N> {
+        // SAFETY: a list holds slots of particles, below their number.
+        unsafe {
+            let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), first) } else { [N::zero(); 4] };
+            let position = N::load_rows(self.position.as_ptr(), first);
+            let velocity = N::load_rows(self.velocity.as_ptr(), first);
+            self.plane.lanes::<N>().meet(position, velocity, spin, N::zero())
         }
     }
-}
 
-/// Writes the touching entries into the buffer and ends the contacts that came apart. Returns how many.
-#[inline(always)]
-fn find_touching<L: Law, N: Lane>(
-    work: &Work<L>,
-    plane: &Plane<N>,
-    from: usize,
-    to: usize,
-    buffer: &mut Buffer,
-    load: &mut Load,
-) -> usize {
-    let mut count = 0;
-    let mut entry = from;
-    while entry < to {
-        let lanes = if to - entry < N::WIDTH { to - entry } else { N::WIDTH };
-        let mut slots = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            slots[lane] = work.particle[if lane < lanes { entry + lane } else { entry }];
-            lane += 1;
-        }
-        // SAFETY: a list holds slots of particles, below their number.
-        let position = unsafe { N::load_rows(work.position.as_ptr(), slots.as_ptr()) };
-        let distance = plane.distance(position);
-        let apart = N::bits(distance.greater(position[3]));
-        let behind = N::bits(N::zero().greater(distance));
-        // SAFETY: these entries belong to this piece alone.
-        let flags = unsafe { work.flags.part(entry, entry + lanes) };
-        let mut lane = 0;
-        while lane < lanes {
-            let now = (!apart >> lane) as u8 & 1;
-            buffer.touching[count] = (entry + lane) as u32;
-            count += now as usize;
-            if flags[lane] & TOUCHING > now {
-                flags[lane] = 0;
-                if L::HAS_SPRING {
-                    // SAFETY: this entry belongs to this piece alone.
-                    unsafe { *work.spring.at(entry + lane) = [0.0; 4] };
+    fn row(&self, table: &Table, first: u32, _second: u32) -> u32 {
+        table.entry(self.material[first as usize], self.wall_material)
+    }
+
+    #[inline(always)]
+    fn spread(&self, touching: &Touching, torque: bool, load: &mut Load) {
+        let Touching { first, force, first_torque, second_torque, first_arm, .. } = *touching;
+        for place in 0..first.len() {
+            let slot = first[place] as usize;
+            // SAFETY: a particle stands once in a list.
+            unsafe {
+                batch::add(self.force.at(slot), &force[place]);
+                if torque {
+                    batch::add(self.torque.at(slot), &first_torque[place]);
                 }
             }
-            if (behind >> lane) & 1 == 1 && load.behind.is_none() {
-                load.behind = Some(slots[lane]);
+            let point = Vector::from(self.position[slot]) - self.plane.normal * first_arm[place];
+            let mut moment = (point - self.reference).cross(force[place].into());
+            if torque {
+                moment = moment - second_torque[place].into();
             }
-            lane += 1;
-        }
-        entry += N::WIDTH;
-    }
-    let last = buffer.touching[count.saturating_sub(1)];
-    let mut lane = 0;
-    while lane < 8 {
-        buffer.touching[count + lane] = last;
-        lane += 1;
-    }
-    count
-}
-
-/// The law on the touching entries of the buffer.
-#[inline(always)]
-fn react_batch<L: Law, N: Lane>(
-    work: &Work<L>,
-    plane: &Plane<N>,
-    row: &mut [N; MOST_COEFFICIENTS],
-    count: usize,
-    buffer: &mut Buffer,
-) {
-    let step = N::splat(work.step);
-    let mut done = 0;
-    while done < count {
-        let mut slots = [0_u32; 8];
-        let mut lane = 0;
-        while lane < N::WIDTH {
-            slots[lane] = work.particle[buffer.touching[done + lane] as usize];
-            lane += 1;
-        }
-        if work.table.uniform_with(work.wall_material).is_none() {
-            let wall = [work.wall_material; 8];
-            work.table.gather::<L, N>(work.material, &slots, &wall, row);
-        }
-        let entries = buffer.touching[done..].as_ptr();
-        // SAFETY: a list holds slots of particles, below their number.
-        let (contact, arm) = unsafe {
-            let slots = slots.as_ptr();
-            let constant =
-                if L::HAS_PAIR_CONSTANT { N::gather(work.pair_constant.as_ptr(), entries, 1) } else { N::zero() };
-            plane.meet(
-                N::load_rows(work.position.as_ptr(), slots),
-                N::load_rows(work.velocity.as_ptr(), slots),
-                N::load_rows(work.angular_velocity.as_ptr(), slots),
-                constant,
-            )
-        };
-        let spring = if L::HAS_SPRING {
-            // SAFETY: these entries belong to this piece alone, and there is a spring for each.
-            vector(unsafe { N::load_rows(work.spring.pointer(), entries) })
-        } else {
-            Vector::zero()
-        };
-        let reaction = L::react(&row[..L::COUNT], &contact, spring, step);
-        let here = if count - done < N::WIDTH { count - done } else { N::WIDTH };
-        // SAFETY: the buffer has room for a register beyond the batch; springs and flags as above.
-        unsafe {
-            N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(done));
-            arm.store(buffer.arm.as_mut_ptr().add(done));
-            if L::HAS_TORQUE {
-                N::store_block(columns(reaction.couple), buffer.couple.as_mut_ptr().add(done));
-            }
-            if L::HAS_ROLLING {
-                N::store_block(columns(reaction.rolling), buffer.rolling.as_mut_ptr().add(done));
-            }
-            if L::HAS_SPRING {
-                N::store_rows(columns(reaction.spring), work.spring.pointer(), entries, here);
-            }
-            let sliding = N::bits(reaction.sliding);
-            let mut lane = 0;
-            while lane < here {
-                let slides = ((sliding >> lane) & 1) as u8 * SLIDING;
-                *work.flags.at(buffer.touching[done + lane] as usize) = TOUCHING | slides;
-                lane += 1;
+            for (axis, part) in moment.to_array().into_iter().enumerate() {
+                load.force[axis] -= force[place][axis];
+                load.moment[axis] -= part;
             }
         }
-        done += N::WIDTH;
-    }
-}
-
-/// Adds the results to the particles and to the load on the plane.
-#[inline(always)]
-fn spread<L: Law>(work: &Work<L>, count: usize, buffer: &Buffer, load: &mut Load) {
-    let mut done = 0;
-    while done < count {
-        let slot = work.particle[buffer.touching[done] as usize] as usize;
-        let (force, arm) = (Vector::from(buffer.force[done]), buffer.arm[done]);
-        let point = Vector::from(work.position[slot]) - work.plane.normal * arm;
-        let mut moment = -(point - work.reference).cross(force);
-        // SAFETY: a particle stands once in a list.
-        let (sum, turn) = unsafe { (work.force.at(slot), work.torque.at(slot)) };
-        for axis in 0..3 {
-            sum[axis] += buffer.force[done][axis];
-            load.force[axis] -= buffer.force[done][axis];
-            if L::HAS_TORQUE {
-                turn[axis] -= buffer.couple[done][axis] * arm;
-            }
-            if L::HAS_ROLLING {
-                turn[axis] -= buffer.rolling[done][axis];
-            }
-        }
-        if L::HAS_ROLLING {
-            moment += Vector::from(buffer.rolling[done]);
-        }
-        for (sum, part) in load.moment.iter_mut().zip(moment.to_array()) {
-            *sum += part;
-        }
-        done += 1;
     }
 }
 

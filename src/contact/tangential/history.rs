@@ -52,10 +52,15 @@ impl Tangential for History {
     ) -> (Vector<N>, Vector<N>, N::Mask) {
         let grown = spring + contact.slip * step;
         let spring = grown - contact.normal * grown.dot(contact.normal);
-        let elastic = response.tangential_stiffness * spring.length();
         let limit = law.friction * pressure;
-        let sliding = elastic.greater(limit);
-        let kept = N::select(sliding, limit / elastic, N::splat(1.0));
+        let stiffness = response.tangential_stiffness;
+        let square = stiffness * stiffness * spring.dot(spring);
+        let sliding = square.greater(limit * limit);
+        // Root and division are dear, and most contacts of a packing stick.
+        let mut kept = N::splat(1.0);
+        if N::any(sliding) {
+            kept = N::select(sliding, limit / square.sqrt(), kept);
+        }
         let damping = N::select(sliding, N::zero(), response.tangential_damping);
         let spring = spring * kept;
         let force = -(spring * response.tangential_stiffness) - contact.slip * damping;

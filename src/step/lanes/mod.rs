@@ -24,11 +24,11 @@ pub trait Lane: Number {
     /// `index` holds [`Lane::WIDTH`] numbers, each below the length of what `rows` points to.
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4];
 
-    /// Transposes back and writes the first `count` rows.
+    /// Transposes back and writes the rows, the last one last.
     ///
     /// # Safety
     /// As for [`Lane::load_rows`]; nobody else reads or writes these rows meanwhile.
-    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32, count: usize);
+    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32);
 
     /// Transposes back and writes all rows to consecutive places.
     ///
@@ -41,6 +41,19 @@ pub trait Lane: Number {
     /// # Safety
     /// `index` holds [`Lane::WIDTH`] numbers; each times `stride` is below the length of what `base` points to.
     unsafe fn gather(base: *const f64, index: *const u32, stride: usize) -> Self;
+
+    /// Reads the numbers from consecutive places.
+    ///
+    /// # Safety
+    /// `place` points to [`Lane::WIDTH`] numbers.
+    unsafe fn load(place: *const f64) -> Self;
+
+    /// Writes those of [`Lane::WIDTH`] consecutive indices whose bit is set, one after the other. What stands behind
+    /// them, up to [`Lane::WIDTH`] places in all, is lost.
+    ///
+    /// # Safety
+    /// `from` and `to` point to [`Lane::WIDTH`] indices each.
+    unsafe fn compact(from: *const u32, bits: u32, to: *mut u32);
 
     /// Writes the numbers to consecutive places.
     ///
@@ -62,6 +75,31 @@ pub fn vector<N: Number>([x, y, z, _]: [N; 4]) -> Vector<N> {
 #[inline(always)]
 pub fn columns<N: Number>(vector: Vector<N>) -> [N; 4] {
     [vector.x, vector.y, vector.z, N::zero()]
+}
+
+/// Tells the processor that something will be needed soon, where it can be told.
+#[inline(always)]
+pub fn prefetch<T>(_place: *const T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a prefetch of any place does no harm.
+    unsafe {
+        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(_place.cast());
+    }
+}
+
+/// Writes those of `width` consecutive indices whose bit is set, one after the other, without a branch.
+///
+/// # Safety
+/// As for [`Lane::compact`].
+#[inline(always)]
+unsafe fn compact_one_by_one(width: usize, from: *const u32, bits: u32, to: *mut u32) {
+    let (mut lane, mut count) = (0, 0);
+    while lane < width {
+        // SAFETY: the caller's promise; `count` never exceeds `lane`.
+        unsafe { *to.add(count) = *from.add(lane) };
+        count += (bits >> lane & 1) as usize;
+        lane += 1;
+    }
 }
 
 /// Lane widths that can be chosen at run time.
@@ -89,12 +127,13 @@ impl Width {
         match self {
             Self::Least => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Four => is_x86_feature_detected!("avx2"),
+            Self::Four => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt"),
             #[cfg(target_arch = "x86_64")]
             Self::Eight => {
                 is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("popcnt")
             }
             #[cfg(not(target_arch = "x86_64"))]
             _ => false,
@@ -135,13 +174,20 @@ pub fn run_least<K: Kernel>(kernel: K) {
 ///
 /// The passes divide particles and pairs by geometry such that no two parts worked on at the same time touch the
 /// same rows; the compiler cannot see that.
-#[derive(Clone, Copy)]
 pub struct Shared<T> {
     /// Where the slice begins.
     start: *mut T,
     /// How many there are, for debug assertions.
     length: usize,
 }
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Shared<T> {}
 
 // SAFETY: what is behind it is plain data; who writes where is the passes' promise, stated at each use.
 unsafe impl<T: Send> Send for Shared<T> {}

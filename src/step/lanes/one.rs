@@ -1,6 +1,6 @@
 //! One number at a time.
 
-use super::Lane;
+use super::{Lane, compact_one_by_one};
 use crate::state::Row;
 
 impl Lane for f64 {
@@ -13,11 +13,9 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32, count: usize) {
-        if count > 0 {
-            // SAFETY: the caller's promise.
-            unsafe { *rows.add(*index as usize) = values }
-        }
+    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32) {
+        // SAFETY: the caller's promise.
+        unsafe { *rows.add(*index as usize) = values }
     }
 
     #[inline(always)]
@@ -30,6 +28,18 @@ impl Lane for f64 {
     unsafe fn gather(base: *const f64, index: *const u32, stride: usize) -> Self {
         // SAFETY: the caller's promise.
         unsafe { *base.add(*index as usize * stride) }
+    }
+
+    #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { *place }
+    }
+
+    #[inline(always)]
+    unsafe fn compact(from: *const u32, bits: u32, to: *mut u32) {
+        // SAFETY: the caller's promise.
+        unsafe { compact_one_by_one(1, from, bits, to) }
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! SSE2, AVX2 and AVX-512 registers of x86-64.
 
-use super::{Kernel, Lane};
+use super::{Kernel, Lane, compact_one_by_one};
 use crate::number::Number;
 use crate::state::Row;
 use std::arch::x86_64::*;
@@ -21,8 +21,8 @@ pub struct Eight(__m512d);
 /// Runs a kernel with AVX2.
 ///
 /// # Safety
-/// The processor offers AVX2.
-#[target_feature(enable = "avx2")]
+/// The processor offers AVX2 and POPCNT.
+#[target_feature(enable = "avx2,popcnt")]
 pub(super) unsafe fn run_four<K: Kernel>(kernel: K) {
     kernel.run::<Four>();
 }
@@ -30,8 +30,8 @@ pub(super) unsafe fn run_four<K: Kernel>(kernel: K) {
 /// Runs a kernel with AVX-512.
 ///
 /// # Safety
-/// The processor offers AVX-512 F, VL and DQ.
-#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2")]
+/// The processor offers AVX-512 F, VL and DQ, and POPCNT.
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,popcnt")]
 pub(super) unsafe fn run_eight<K: Kernel>(kernel: K) {
     kernel.run::<Eight>();
 }
@@ -258,19 +258,15 @@ impl Lane for Two {
     }
 
     #[inline(always)]
-    unsafe fn store_rows([x, y, z, w]: [Self; 4], rows: *mut Row, index: *const u32, count: usize) {
+    unsafe fn store_rows([x, y, z, w]: [Self; 4], rows: *mut Row, index: *const u32) {
         // SAFETY: the caller's promise.
         unsafe {
-            if count > 0 {
-                let place = rows.add(*index as usize).cast::<f64>();
-                _mm_storeu_pd(place, _mm_unpacklo_pd(x.0, y.0));
-                _mm_storeu_pd(place.add(2), _mm_unpacklo_pd(z.0, w.0));
-            }
-            if count > 1 {
-                let place = rows.add(*index.add(1) as usize).cast::<f64>();
-                _mm_storeu_pd(place, _mm_unpackhi_pd(x.0, y.0));
-                _mm_storeu_pd(place.add(2), _mm_unpackhi_pd(z.0, w.0));
-            }
+            let place = rows.add(*index as usize).cast::<f64>();
+            _mm_storeu_pd(place, _mm_unpacklo_pd(x.0, y.0));
+            _mm_storeu_pd(place.add(2), _mm_unpacklo_pd(z.0, w.0));
+            let place = rows.add(*index.add(1) as usize).cast::<f64>();
+            _mm_storeu_pd(place, _mm_unpackhi_pd(x.0, y.0));
+            _mm_storeu_pd(place.add(2), _mm_unpackhi_pd(z.0, w.0));
         }
     }
 
@@ -290,6 +286,18 @@ impl Lane for Two {
     unsafe fn gather(base: *const f64, index: *const u32, stride: usize) -> Self {
         // SAFETY: the caller's promise.
         unsafe { Self(_mm_set_pd(*base.add(*index.add(1) as usize * stride), *base.add(*index as usize * stride))) }
+    }
+
+    #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm_loadu_pd(place)) }
+    }
+
+    #[inline(always)]
+    unsafe fn compact(from: *const u32, bits: u32, to: *mut u32) {
+        // SAFETY: the caller's promise.
+        unsafe { compact_one_by_one(2, from, bits, to) }
     }
 
     #[inline(always)]
@@ -321,6 +329,27 @@ unsafe fn transpose_four([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
     }
 }
 
+/// Lanes whose bit is set in the number of the row, in order, then any.
+static ORDER_OF_FOUR: [[u32; 4]; 16] = orders_of_four();
+
+/// The rows of [`ORDER_OF_FOUR`].
+const fn orders_of_four() -> [[u32; 4]; 16] {
+    let mut orders = [[0; 4]; 16];
+    let mut bits = 0;
+    while bits < 16 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 4 {
+            if bits >> lane & 1 == 1 {
+                orders[bits][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    orders
+}
+
 impl Lane for Four {
     const WIDTH: usize = 4;
 
@@ -339,22 +368,14 @@ impl Lane for Four {
     }
 
     #[inline(always)]
-    unsafe fn store_rows([x, y, z, w]: [Self; 4], rows: *mut Row, index: *const u32, count: usize) {
+    unsafe fn store_rows([x, y, z, w]: [Self; 4], rows: *mut Row, index: *const u32) {
         // SAFETY: the caller's promise.
         unsafe {
             let [a, b, c, d] = transpose_four([x.0, y.0, z.0, w.0]);
-            if count > 0 {
-                _mm256_storeu_pd(rows.add(*index as usize).cast(), a);
-            }
-            if count > 1 {
-                _mm256_storeu_pd(rows.add(*index.add(1) as usize).cast(), b);
-            }
-            if count > 2 {
-                _mm256_storeu_pd(rows.add(*index.add(2) as usize).cast(), c);
-            }
-            if count > 3 {
-                _mm256_storeu_pd(rows.add(*index.add(3) as usize).cast(), d);
-            }
+            _mm256_storeu_pd(rows.add(*index as usize).cast(), a);
+            _mm256_storeu_pd(rows.add(*index.add(1) as usize).cast(), b);
+            _mm256_storeu_pd(rows.add(*index.add(2) as usize).cast(), c);
+            _mm256_storeu_pd(rows.add(*index.add(3) as usize).cast(), d);
         }
     }
 
@@ -384,6 +405,21 @@ impl Lane for Four {
     }
 
     #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm256_loadu_pd(place)) }
+    }
+
+    #[inline(always)]
+    unsafe fn compact(from: *const u32, bits: u32, to: *mut u32) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let order = _mm_loadu_si128(ORDER_OF_FOUR[(bits & 15) as usize].as_ptr().cast());
+            _mm_storeu_ps(to.cast(), _mm_permutevar_ps(_mm_loadu_ps(from.cast()), order));
+        }
+    }
+
+    #[inline(always)]
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm256_storeu_pd(place, self.0) }
@@ -395,6 +431,29 @@ impl Lane for Four {
         unsafe { _mm256_movemask_pd(mask) as u32 }
     }
 }
+
+/// Orders of lanes, of two registers (8 and above: the second one). They are read as if they could change: knowing
+/// them, the compiler takes the transpositions apart into twice as many narrower ones.
+static ORDERS: [[i64; 8]; 6] = [
+    [0, 1, 8, 9, 4, 5, 12, 13],
+    [2, 3, 10, 11, 6, 7, 14, 15],
+    [0, 8, 1, 9, 2, 10, 3, 11],
+    [4, 12, 5, 13, 6, 14, 7, 15],
+    [0, 1, 8, 9, 2, 3, 10, 11],
+    [4, 5, 12, 13, 6, 7, 14, 15],
+];
+
+/// One of [`ORDERS`].
+#[inline(always)]
+unsafe fn order(which: usize) -> __m512i {
+    // SAFETY: called where AVX-512 is offered; an order has 64 bytes.
+    unsafe { std::ptr::read_volatile(ORDERS[which].as_ptr().cast::<Unaligned>()).0 }
+}
+
+/// A register that may stand anywhere.
+#[derive(Clone, Copy)]
+#[repr(C, packed)]
+struct Unaligned(__m512i);
 
 /// Turns eight rows (rows k and k + 4 in one register) into four columns of eight.
 #[inline(always)]
@@ -421,13 +480,30 @@ unsafe fn transpose_out([x, y, z, w]: [Eight; 4]) -> [__m512d; 4] {
     unsafe {
         let (xy_even, xy_odd) = (_mm512_unpacklo_pd(x.0, y.0), _mm512_unpackhi_pd(x.0, y.0));
         let (zw_even, zw_odd) = (_mm512_unpacklo_pd(z.0, w.0), _mm512_unpackhi_pd(z.0, w.0));
-        let low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
-        let high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+        let (low, high) = (order(0), order(1));
         [
             _mm512_permutex2var_pd(xy_even, low, zw_even),
             _mm512_permutex2var_pd(xy_odd, low, zw_odd),
             _mm512_permutex2var_pd(xy_even, high, zw_even),
             _mm512_permutex2var_pd(xy_odd, high, zw_odd),
+        ]
+    }
+}
+
+/// Turns four columns of eight into rows: register k holds rows 2 k and 2 k + 1.
+#[inline(always)]
+unsafe fn transpose_along([x, y, z, w]: [Eight; 4]) -> [__m512d; 4] {
+    // SAFETY: called where AVX-512 is offered.
+    unsafe {
+        let (first, last) = (order(2), order(3));
+        let (xy_first, xy_last) = (_mm512_permutex2var_pd(x.0, first, y.0), _mm512_permutex2var_pd(x.0, last, y.0));
+        let (zw_first, zw_last) = (_mm512_permutex2var_pd(z.0, first, w.0), _mm512_permutex2var_pd(z.0, last, w.0));
+        let (low, high) = (order(4), order(5));
+        [
+            _mm512_permutex2var_pd(xy_first, low, zw_first),
+            _mm512_permutex2var_pd(xy_first, high, zw_first),
+            _mm512_permutex2var_pd(xy_last, low, zw_last),
+            _mm512_permutex2var_pd(xy_last, high, zw_last),
         ]
     }
 }
@@ -460,21 +536,19 @@ impl Lane for Eight {
     }
 
     #[inline(always)]
-    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32, count: usize) {
+    unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32) {
         // SAFETY: the caller's promise.
         unsafe {
             let pairs = transpose_out(values);
             let mut lane = 0;
             while lane < 4 {
-                if lane < count {
-                    _mm256_storeu_pd(rows.add(*index.add(lane) as usize).cast(), _mm512_castpd512_pd256(pairs[lane]));
-                }
-                if lane + 4 < count {
-                    _mm256_storeu_pd(
-                        rows.add(*index.add(lane + 4) as usize).cast(),
-                        _mm512_extractf64x4_pd::<1>(pairs[lane]),
-                    );
-                }
+                _mm256_storeu_pd(rows.add(*index.add(lane) as usize).cast(), _mm512_castpd512_pd256(pairs[lane]));
+                lane += 1;
+            }
+            let mut lane = 0;
+            while lane < 4 {
+                let high = _mm512_extractf64x4_pd::<1>(pairs[lane]);
+                _mm256_storeu_pd(rows.add(*index.add(lane + 4) as usize).cast(), high);
                 lane += 1;
             }
         }
@@ -484,12 +558,11 @@ impl Lane for Eight {
     unsafe fn store_block(values: [Self; 4], rows: *mut Row) {
         // SAFETY: the caller's promise.
         unsafe {
-            let pairs = transpose_out(values);
-            let mut lane = 0;
-            while lane < 4 {
-                _mm256_storeu_pd(rows.add(lane).cast(), _mm512_castpd512_pd256(pairs[lane]));
-                _mm256_storeu_pd(rows.add(lane + 4).cast(), _mm512_extractf64x4_pd::<1>(pairs[lane]));
-                lane += 1;
+            let pairs = transpose_along(values);
+            let mut pair = 0;
+            while pair < 4 {
+                _mm512_storeu_pd(rows.add(2 * pair).cast(), pairs[pair]);
+                pair += 1;
             }
         }
     }
@@ -505,6 +578,21 @@ impl Lane for Eight {
                 lane += 1;
             }
             Self(_mm512_loadu_pd(values.as_ptr()))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm512_loadu_pd(place)) }
+    }
+
+    #[inline(always)]
+    unsafe fn compact(from: *const u32, bits: u32, to: *mut u32) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let all = _mm256_loadu_si256(from.cast());
+            _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, all));
         }
     }
 
