@@ -46,17 +46,6 @@ impl Creation {
         }
     }
 
-    /// Whether bonds can still be made by distance after this moment: as long as they can, the neighbour search
-    /// reaches as far as `create_distance`.
-    pub fn may_still_bond(&self, moment: &Moment) -> bool {
-        match *self {
-            Self::Always => true,
-            Self::Step(number) => moment.number < number,
-            Self::Time(time) => moment.to < time.get(),
-            Self::Start | Self::Pairs(_) | Self::File(_) => false,
-        }
-    }
-
     /// Whether there is a distance to be given.
     pub fn needs_distance(&self) -> bool {
         !matches!(self, Self::Pairs(_) | Self::File(_))
