@@ -3,6 +3,7 @@
 use super::bodies::{Body, sphere_inertia};
 use super::bonds::BondPass;
 use super::contacts::ContactPass;
+use super::neighbours;
 use super::pass::Pass;
 use super::table::{MOST_COEFFICIENTS, Table};
 use super::wall_bonds::WallBondPass;
@@ -16,17 +17,14 @@ use crate::state::{
 };
 use std::marker::PhantomData;
 
-/// Skin of the neighbour lists over the mean radius, where the scene does not say.
-const SKIN: f64 = 0.1;
-
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
     let particles = particles(scene);
     let mean = scene.particles.iter().map(|p| p.radius).sum::<f64>() / scene.particles.len().max(1) as f64;
-    let neighbours = Neighbours { skin: scene.run.skin.unwrap_or(SKIN * mean), ..Neighbours::default() };
+    let lists = Neighbours { skin: scene.run.skin.unwrap_or(neighbours::FIRST_SKIN * mean), ..Neighbours::default() };
     State {
         clock: Clock::default(),
-        neighbours,
+        neighbours: lists,
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
         hidden: Hidden::default(),
@@ -43,7 +41,14 @@ pub(super) fn state(scene: &Scene) -> State {
 /// The particles in the scene's order.
 fn particles(scene: &Scene) -> Particles {
     let bonds = if scene.bonds.is_empty() { Vec::new() } else { vec![[0; 2]; scene.particles.len()] };
-    let mut particles = Particles { bonds, ..Particles::default() };
+    let count = scene.particles.len();
+    let mut particles = Particles {
+        bonds,
+        position: Vec::with_capacity(count),
+        velocity: Vec::with_capacity(count),
+        angular_velocity: Vec::with_capacity(count),
+        ..Particles::default()
+    };
     for (index, particle) in scene.particles.iter().enumerate() {
         let [x, y, z] = particle.position;
         let [u, v, w] = particle.velocity;
@@ -56,7 +61,6 @@ fn particles(scene: &Scene) -> Particles {
         particles.id.push(index as u32);
         particles.slot.push(index as u32);
     }
-    let count = scene.particles.len();
     particles.force = vec![[0.0; 4]; count];
     particles.torque = vec![[0.0; 4]; count];
     particles.owner = vec![0; count];

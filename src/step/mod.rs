@@ -129,9 +129,10 @@ impl Simulation {
     fn begin(&mut self) -> Result<(), RunError> {
         self.give_attitudes();
         bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
-        self.rebuild();
+        let context = self.standing();
+        self.rebuild(&context);
         let time = self.state.clock.time;
-        self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, 0.0);
+        self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, &context);
         self.start()
     }
 
@@ -142,21 +143,34 @@ impl Simulation {
         }
     }
 
-    /// Makes the bonds that are to be made at this moment, in a time step of this length \[s\].
-    fn bond(&mut self, moment: &Moment, step: f64) {
+    /// Makes the bonds that are to be made at this moment.
+    fn bond(&mut self, moment: &Moment, context: &Context) {
         let (mut made, before) = (false, self.hiding.bonds(&self.state));
         for pass in &self.passes {
-            made |= pass.create(&mut self.state, moment, step);
+            made |= pass.create(&mut self.state, moment, context.step);
         }
         if made {
             self.hiding.made(&mut self.state, &before, moment);
-            self.rebuild();
+            self.rebuild(context);
         }
     }
 
+    /// Makes the neighbour lists anew, as motion does from time to time: results change by rounding only.
+    pub fn renew_lists(&mut self) {
+        let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
+        let context = Context { step: 0.0, width: self.width, parallel: workers.parallel() };
+        workers.run(|| self.rebuild(&context));
+        self.workers = workers;
+    }
+
+    /// What passes know where time stands still.
+    fn standing(&self) -> Context {
+        Context { step: 0.0, width: self.width, parallel: false }
+    }
+
     /// Makes the lists anew.
-    fn rebuild(&mut self) {
-        self.search.rebuild(&mut self.state);
+    fn rebuild(&mut self, context: &Context) {
+        self.search.rebuild(&mut self.state, context);
         self.hiding.sort_out(&mut self.state);
         for pass in &self.passes {
             pass.prepare(&mut self.state);
@@ -227,7 +241,7 @@ impl Simulation {
             return self.begin();
         }
         bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
-        self.rebuild();
+        self.rebuild(&self.standing());
         self.start()
     }
 
@@ -287,13 +301,13 @@ impl Simulation {
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
         self.state.neighbours.travel += (speed * step).max(carried);
         let mut result = Ok(());
-        if self.search.outdated(&mut self.state) {
+        if self.search.outdated(&mut self.state, context) {
             result = self.check_domain();
-            self.rebuild();
+            self.rebuild(context);
         }
         if !self.scene.bonds.is_empty() {
             let number = self.state.clock.steps;
-            self.bond(&Moment { number, from: earlier, to: time }, step);
+            self.bond(&Moment { number, from: earlier, to: time }, context);
         }
         self.done("lists and boundaries");
         let before = boundaries::clear_loads(&mut self.state);
@@ -349,7 +363,7 @@ impl Simulation {
     /// The evaluation before the first step, and what follows from it.
     fn start(&mut self) -> Result<(), RunError> {
         boundaries::clear_loads(&mut self.state);
-        let context = Context { step: 0.0, width: self.width, parallel: false };
+        let context = self.standing();
         integrate::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);
         for boundary in &mut self.state.boundaries {

@@ -80,7 +80,7 @@ impl Simulation {
         simulation.give_attitudes();
         let Self { scene, hiding, state, .. } = &mut simulation;
         hiding.placed(scene, state, &placement.springs);
-        simulation.rebuild();
+        simulation.rebuild(&simulation.standing());
         for spring in &placement.springs {
             put_spring(&mut simulation.state, spring);
         }

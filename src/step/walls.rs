@@ -13,7 +13,7 @@ use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{Particles, Row, State, WallContacts};
+use crate::state::{Row, State};
 use std::f64::consts::PI;
 use std::marker::PhantomData;
 
@@ -348,26 +348,4 @@ impl Bodies for AtPlane<'_> {
             }
         }
     }
-}
-
-/// The particles near a plane, with the springs of those that were listed before.
-pub(super) fn list(
-    old: &WallContacts,
-    old_slot_to_new: &[u32],
-    particles: &Particles,
-    near: impl Fn(usize) -> bool,
-) -> WallContacts {
-    let mut list = WallContacts { boundary: old.boundary, law: old.law, ..WallContacts::default() };
-    list.particle.extend((0..particles.len()).filter(|&slot| near(slot)).map(|slot| slot as u32));
-    list.flags = vec![0; list.particle.len()];
-    list.spring = vec![[0.0; 4]; list.particle.len()];
-    for (entry, &slot) in old.particle.iter().enumerate().filter(|&(entry, _)| old.flags[entry] & TOUCHING != 0) {
-        if let Ok(place) = list.particle.binary_search(&old_slot_to_new[slot as usize]) {
-            list.flags[place] = old.flags[entry];
-            if let Some(spring) = old.spring.get(entry) {
-                list.spring[place] = *spring;
-            }
-        }
-    }
-    list
 }

@@ -23,3 +23,4 @@ mod sjkr;
 mod sliding;
 mod spin_impact;
 mod stage;
+mod uniform_drift;

@@ -63,6 +63,29 @@ pub trait Lane: Number {
 
     /// The mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
+
+    /// Reads consecutive numbers.
+    ///
+    /// # Safety
+    /// `place` points to [`Lane::WIDTH`] numbers.
+    unsafe fn load(place: *const f64) -> Self;
+
+    /// Writes `first` plus the number of each lane whose bit is set, one behind the other. Returns how many.
+    ///
+    /// # Safety
+    /// `place` points to [`Lane::WIDTH`] numbers, all of which may be written.
+    #[inline(always)]
+    unsafe fn compress(bits: u32, first: u32, place: *mut u32) -> usize {
+        let mut count = 0;
+        let mut lane = 0;
+        while lane < Self::WIDTH {
+            // SAFETY: no more than one number for each lane.
+            unsafe { *place.add(count) = first + lane as u32 };
+            count += ((bits >> lane) & 1) as usize;
+            lane += 1;
+        }
+        count
+    }
 }
 
 /// The first three of four columns as a vector.

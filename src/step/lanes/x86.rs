@@ -307,6 +307,12 @@ impl Lane for Two {
     }
 
     #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm_loadu_pd(place)) }
+    }
+
+    #[inline(always)]
     fn bits(mask: __m128d) -> u32 {
         // SAFETY: SSE2 is part of x86-64.
         unsafe { _mm_movemask_pd(mask) as u32 }
@@ -423,6 +429,12 @@ impl Lane for Four {
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm256_storeu_pd(place, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm256_loadu_pd(place)) }
     }
 
     #[inline(always)]
@@ -600,6 +612,22 @@ impl Lane for Eight {
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm512_storeu_pd(place, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn load(place: *const f64) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe { Self(_mm512_loadu_pd(place)) }
+    }
+
+    #[inline(always)]
+    unsafe fn compress(bits: u32, first: u32, place: *mut u32) -> usize {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let numbers = _mm256_add_epi32(_mm256_set1_epi32(first as i32), _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0));
+            _mm256_storeu_si256(place.cast(), _mm256_maskz_compress_epi32(bits as u8, numbers));
+        }
+        (bits as u8).count_ones() as usize
     }
 
     #[inline(always)]

@@ -1,0 +1,208 @@
+//! Neighbour lists hold what they must, whatever the sizes; motion alone asks for new ones.
+
+use cograin::quantity::BoundaryIndex;
+use cograin::scene::{Scene, Source};
+use cograin::step::Simulation;
+use cograin::step::lanes::Width;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// Numbers between 0 and 1 that look random and are the same everywhere.
+struct Numbers(u64);
+
+impl Numbers {
+    /// The next one.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A simulation of a scene whose particles stand in `bed.csv`.
+fn simulation(text: &str, bed: String) -> Simulation {
+    let files = BTreeMap::from([("bed.csv".to_string(), bed.into_bytes())]);
+    let source = Source { name: "scene.toml".into(), text: text.into(), files };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(scene)).expect("the scene starts")
+}
+
+/// Spheres of four sizes, 1:20, anywhere in a box: they overlap as they like.
+const MIXTURE: &str = r#"
+[run]
+step = 1.0e-7
+threads = THREADS
+skin = 2.0e-4
+max_overlap = 1.0e9
+[material.grain]
+youngs_modulus = 1.0e5
+poissons_ratio = 0.3
+density = 2500.0
+[pair.grain.grain]
+restitution = 0.5
+friction = 0.5
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+[particles.bed]
+material = "grain"
+file = "bed.csv"
+"#;
+
+/// The mixture with this many threads.
+fn mixture(threads: usize) -> Simulation {
+    let mut numbers = Numbers(7);
+    let mut bed = String::from("x,y,z,radius\n");
+    for (radius, count) in [(2.0e-2, 4), (1.0e-2, 30), (4.0e-3, 400), (1.0e-3, 2600)] {
+        for _ in 0..count {
+            let [x, y, z] = [0.2, 0.05, 0.05].map(|width| width * numbers.next());
+            writeln!(bed, "{x},{y},{z},{radius}").expect("text grows");
+        }
+    }
+    simulation(&MIXTURE.replace("THREADS", &threads.to_string()), bed)
+}
+
+#[test]
+fn lists_of_a_mixture_hold_every_near_pair_once_and_reach_no_further_than_the_next_slab() {
+    let simulation = mixture(1);
+    let state = simulation.state();
+    let (list, position) = (&state.contacts[0], &state.particles.position);
+    let listed: Vec<(u32, u32)> = list.first.iter().copied().zip(list.second.iter().copied()).collect();
+    assert!(listed.is_sorted() && listed.iter().all(|(i, j)| i < j), "ordered by the first, then the second");
+    let mut near = BTreeSet::new();
+    for i in 0..position.len() {
+        for j in i + 1..position.len() {
+            let (a, b) = (position[i], position[j]);
+            let square: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
+            let reach = a[3] + b[3] + state.neighbours.skin;
+            if square < reach * reach {
+                near.insert((i as u32, j as u32));
+            }
+        }
+    }
+    assert!(near.len() > 2000, "{} pairs", near.len());
+    assert_eq!(listed.len(), near.len(), "pairs");
+    assert_eq!(listed.iter().copied().collect::<BTreeSet<_>>(), near);
+    let slabs = &state.neighbours.slabs;
+    let slab = |slot: u32| slabs.partition_point(|&first| first <= slot);
+    assert!(slabs.len() > 3, "{} slabs", slabs.len());
+    assert!(listed.iter().all(|&(i, j)| slab(j) - slab(i) < 2));
+}
+
+#[test]
+fn lists_of_a_mixture_are_the_same_for_threads_and_lane_widths() {
+    let mut first = mixture(1);
+    first.renew_lists();
+    let expected = first.state().fingerprint();
+    for threads in 2..=4 {
+        let mut other = mixture(threads);
+        other.renew_lists();
+        assert_eq!(other.state().fingerprint(), expected, "{threads} threads");
+    }
+    for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+        let mut other = mixture(1);
+        other.set_width(width);
+        other.renew_lists();
+        assert_eq!(other.state().fingerprint(), expected, "{width:?}");
+    }
+}
+
+/// A block of spheres in contact that falls apart between two planes.
+const BLOCK: &str = r#"
+[run]
+step = 1.0e-5
+threads = 2
+SKIN
+[material.grain]
+youngs_modulus = 1.0e7
+poissons_ratio = 0.3
+density = 2500.0
+[pair.grain.grain]
+restitution = 0.5
+friction = 0.5
+LAW
+[particles.bed]
+material = "grain"
+file = "bed.csv"
+velocity = [0.0, 0.0, -2.0]
+BONDS
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "grain"
+motion = { driven = ["z"] }
+"#;
+
+/// A contact law.
+const LAW: &str = "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]";
+
+/// A bond law.
+const BONDS: &str = "[bond.glue]\nformulation = \"incremental\"\nbetween = [\"bed\", \"bed\"]\ncreate_distance = 8.4e-3\n\
+                     normal_stiffness = 1.0e9\ntangential_stiffness = 4.0e8";
+
+/// The block with this skin, contact law and bonds.
+fn block(skin: &str, law: &str, bonds: &str) -> Simulation {
+    let mut numbers = Numbers(11);
+    let mut bed = String::from("x,y,z,radius\n");
+    for n in 0..14 * 14 * 12 {
+        let [x, y, z] = [n % 14, n / 14 % 14, n / 196].map(|k| 5.0e-3 + 8.0e-3 * f64::from(k));
+        let [dx, dy, dz] = [0; 3].map(|_| 1.0e-4 * numbers.next());
+        writeln!(bed, "{},{},{},4.0e-3", x + dx, y + dy, z + dz).expect("text grows");
+    }
+    simulation(&BLOCK.replace("SKIN", skin).replace("LAW", law).replace("BONDS", bonds), bed)
+}
+
+/// Runs so many time steps, with a floor that moves; lists are renewed after each `every`.
+fn run(simulation: &mut Simulation, steps: usize, every: usize) {
+    for step in 1..=steps {
+        simulation.set_displacement(BoundaryIndex(0), 2, 2.0e-6 * (step % 5) as f64);
+        simulation.advance(1.0e-5).expect("it runs");
+        if step % every == 0 {
+            simulation.renew_lists();
+        }
+    }
+}
+
+/// Largest distance of any particle in the two simulations \[m\].
+fn apart(a: &Simulation, b: &Simulation) -> f64 {
+    let at = |simulation: &Simulation, index: usize| {
+        let particles = &simulation.state().particles;
+        particles.position[particles.slot[index] as usize]
+    };
+    let differences = (0..a.scene().particles.len()).flat_map(|index| {
+        let (p, q) = (at(a, index), at(b, index));
+        (0..3).map(move |axis| (p[axis] - q[axis]).abs())
+    });
+    differences.fold(0.0, f64::max)
+}
+
+#[test]
+fn renewed_lists_and_another_skin_change_rounding_only() {
+    let mut plain = block("", LAW, "");
+    run(&mut plain, 100, usize::MAX);
+    for (skin, every) in [("", 3), ("skin = 2.0e-4", usize::MAX), ("skin = 3.0e-3", 7)] {
+        let mut other = block(skin, LAW, "");
+        run(&mut other, 100, every);
+        let apart = apart(&plain, &other);
+        // A hundred steps of 1e-5 s at 2 m/s, over which rounding of 1e-17 m grows.
+        assert!(apart < 1e-12, "{skin:?}, renewed after {every}: {apart:e} m");
+    }
+}
+
+#[test]
+fn the_chosen_skin_widens_with_fast_motion_and_is_kept_in_the_state() {
+    let mut block = block("", LAW, "");
+    let before = block.state().neighbours.skin;
+    run(&mut block, 400, usize::MAX);
+    let after = block.state().neighbours.skin;
+    assert!(after > 1.5 * before && after <= 4.0e-3, "skin {before:e} m became {after:e} m");
+    let (renewed, skin) = (block.state().clock.rebuilds, block.scene().run.skin);
+    assert!(renewed > 2 && renewed < 40 && skin.is_none(), "{renewed} lists");
+}
+
+#[test]
+fn no_lists_are_made_while_only_bonds_act() {
+    let mut block = block("", "", BONDS);
+    let before = block.state().clock.rebuilds;
+    run(&mut block, 300, usize::MAX);
+    assert_eq!(block.state().clock.rebuilds, before);
+    assert!(block.state().contacts.is_empty());
+}

@@ -1,0 +1,165 @@
+//! A jammed bed that drifts with its walls feels what it feels at rest: history survives every new order.
+//!
+//! Without gravity a uniform motion changes nothing but rounding. Spheres of two sizes are pressed and sheared between
+//! driven walls, which loads springs of particles and walls up to sliding, and damped to rest. Then everything moves
+//! 100 diameters while lists are made again and again, with wide skins and narrow ones: cells of other sizes put the
+//! particles in other orders.
+
+use cograin::quantity::BoundaryIndex;
+use cograin::scene::{Scene, Source};
+use cograin::state::contacts::SLIDING;
+use cograin::step::Simulation;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// Walls around the bed: name, axis, place \[m\], direction of the normal.
+const WALLS: [(&str, usize, f64, f64); 6] = [
+    ("west", 0, 0.0, 1.0),
+    ("east", 0, WIDTH, -1.0),
+    ("south", 1, 0.0, 1.0),
+    ("north", 1, WIDTH, -1.0),
+    ("floor", 2, 0.0, 1.0),
+    ("lid", 2, WIDTH, -1.0),
+];
+
+/// Spheres along each axis.
+const ALONG: usize = 5;
+
+/// Mean diameter \[m\].
+const DIAMETER: f64 = 0.01;
+
+/// Distance of opposite walls \[m\].
+const WIDTH: f64 = ALONG as f64 * DIAMETER;
+
+/// The time step \[s\].
+const STEP: f64 = 1.0e-5;
+
+/// Skins over the mean diameter: cells of other sizes.
+const SKINS: [f64; 4] = [0.05, 0.4, 0.9, 1.6];
+
+/// The scene: bed and walls.
+fn simulation() -> Simulation {
+    let mut text = format!(
+        r#"
+[run]
+step = {STEP:e}
+threads = 1
+[material.grain]
+youngs_modulus = 5.0e6
+poissons_ratio = 0.3
+density = 2500.0
+[pair.grain.grain]
+restitution = 0.3
+friction = 0.3
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+[particles.bed]
+material = "grain"
+file = "bed.csv"
+"#
+    );
+    for (name, axis, place, sign) in WALLS {
+        let (mut point, mut normal) = ([0.0; 3], [0.0; 3]);
+        (point[axis], normal[axis]) = (place, sign);
+        writeln!(
+            text,
+            "[boundary.{name}]\nplane = {{ point = {point:?}, normal = {normal:?} }}\nmaterial = \"grain\"\n\
+             motion = {{ driven = [\"x\", \"y\", \"z\"] }}"
+        )
+        .expect("text grows");
+    }
+    let mut bed = String::from("x,y,z,radius\n");
+    for n in 0..ALONG.pow(3) {
+        let [x, y, z] = [n % ALONG, n / ALONG % ALONG, n / ALONG / ALONG].map(|k| (k as f64 + 0.5) * DIAMETER);
+        let radius = 0.5 * DIAMETER * if n % 3 == 0 { 0.97 } else { 1.005 };
+        writeln!(bed, "{x},{y},{z},{radius}").expect("text grows");
+    }
+    let files = BTreeMap::from([("bed.csv".to_string(), bed.into_bytes())]);
+    let scene = Scene::from_source(&Source { name: "scene.toml".into(), text, files });
+    let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(scene)).expect("the scene starts")
+}
+
+/// Puts all walls where they end up after this drift, the bed being squeezed and sheared by these fractions.
+fn set_walls(simulation: &mut Simulation, drift: [f64; 3], squeezed: f64, sheared: f64) {
+    for (index, (_, axis, _, sign)) in WALLS.into_iter().enumerate() {
+        for along in 0..3 {
+            let squeeze = if along == axis { 0.5 * sign * squeezed * WIDTH } else { 0.0 };
+            let shear = if axis == 2 && along == 0 { -0.5 * sign * sheared * WIDTH } else { 0.0 };
+            simulation.set_displacement(BoundaryIndex(index as u32), along, drift[along] + squeeze + shear);
+        }
+    }
+}
+
+/// Forces on the bed's spheres in the scene's order, then on the walls \[N\].
+fn forces(simulation: &Simulation) -> Vec<[f64; 3]> {
+    let particles = &simulation.state().particles;
+    let bed = (0..ALONG.pow(3)).map(|index| {
+        let [x, y, z, _] = particles.force[particles.slot[index] as usize];
+        [x, y, z]
+    });
+    bed.chain(simulation.state().boundaries.iter().map(|boundary| boundary.force)).collect()
+}
+
+#[test]
+fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
+    let mut still = simulation();
+    let mut damped = simulation();
+    damped.damp_rest(0.7);
+    for step in 1..=100 {
+        let part = f64::from(step) / 100.0;
+        set_walls(&mut damped, [0.0; 3], 0.012 * part, 0.004 * part);
+        damped.advance(10.0 * STEP).expect("it runs");
+    }
+    damped.advance(20_000.0 * STEP).expect("it comes to rest");
+    still.restore(damped.state());
+    let mut drifting = simulation();
+    drifting.restore(damped.state());
+
+    // A tenth of a radius in each step, askew.
+    let way = [0.8, 0.48, -0.36].map(|part| part * 0.05 * DIAMETER);
+    let mut state = drifting.state().clone();
+    for slot in 0..state.particles.velocity.len() {
+        for axis in 0..3 {
+            state.particles.velocity[slot][axis] += way[axis] / STEP;
+        }
+    }
+    drifting.restore(&state);
+    let first = forces(&still);
+    let largest = first.iter().flatten().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let lists = &drifting.state().contacts[0];
+    let sliding = lists.flags.iter().filter(|&&flags| flags & SLIDING != 0).count();
+    let loaded = lists.spring.iter().filter(|spring| spring[..3].iter().any(|part| part.abs() > 1e-9)).count();
+    assert!(largest > 1.0 && loaded > 100, "{largest} N, {loaded} springs loaded, {sliding} slide");
+
+    let rebuilds = drifting.state().clock.rebuilds;
+    let mut orders = BTreeSet::new();
+    let steps = 2000;
+    for step in 1..=steps {
+        let drift = way.map(|way| way * f64::from(step));
+        set_walls(&mut drifting, drift, 0.012, 0.004);
+        drifting.advance(STEP).expect("it drifts");
+        if step % 40 == 0 {
+            let mut state = drifting.state().clone();
+            state.neighbours.skin = SKINS[step as usize / 40 % SKINS.len()] * DIAMETER;
+            drifting.restore(&state);
+            drifting.renew_lists();
+        }
+        orders.insert(drifting.state().particles.id.clone());
+    }
+    still.advance(f64::from(steps) * STEP).expect("it rests");
+    let distance = way.iter().map(|way| way * way).sum::<f64>().sqrt() * f64::from(steps) / DIAMETER;
+    let renewed = drifting.state().clock.rebuilds - rebuilds;
+    assert!(distance > 99.9 && renewed > 100, "{distance} diameters, lists made {renewed} times");
+    assert!(orders.len() > 2, "{} orders of the particles", orders.len());
+    for (moving, resting) in forces(&drifting).iter().zip(forces(&still)) {
+        for axis in 0..3 {
+            let change = (moving[axis] - resting[axis]).abs() / largest;
+            assert!(change < 1e-9, "{change:e} of the largest force, {moving:?} N and {resting:?} N");
+        }
+    }
+    for (after, before) in forces(&still).iter().zip(&first) {
+        assert!((0..3).all(|axis| (after[axis] - before[axis]).abs() < 1e-6 * largest), "{after:?} N, {before:?} N");
+    }
+}
