@@ -190,9 +190,10 @@ fn read(path: &Path) -> Result<(Scene, Source), Ending> {
     Scene::read(path).map_err(Ending::refused)
 }
 
-/// Reads a scene to be computed here.
+/// Reads a scene to be computed here. Its files are not needed any more.
 fn read_to_run(arguments: &SceneArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (mut scene, source) = read(&arguments.scene)?;
+    let (mut scene, mut source) = read(&arguments.scene)?;
+    source.files.clear();
     scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
     Ok((Arc::new(scene), source))
 }

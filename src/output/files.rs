@@ -4,7 +4,7 @@ use super::error::{OutputError, ResumeError};
 use crate::state::State;
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Ending of a file that is being written.
@@ -21,10 +21,19 @@ pub(super) enum Durability {
 
 /// Writes a file under another name and renames it: whoever looks finds the old one or the new one, whole.
 pub(super) fn write_whole(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), OutputError> {
+    write_whole_by(path, durability, |file| file.write_all(bytes))
+}
+
+/// The same, with a function that writes the contents.
+fn write_whole_by(
+    path: &Path,
+    durability: Durability,
+    contents: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let unfinished = unfinished(path);
     let write = || -> io::Result<()> {
         let mut file = File::create(&unfinished)?;
-        file.write_all(bytes)?;
+        contents(&mut file)?;
         if durability == Durability::Machine {
             file.sync_all()?;
         }
@@ -60,7 +69,11 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 
 /// Writes a state to a file that is whole at any time.
 pub fn write_checkpoint(path: &Path, state: &State, scene_fingerprint: u64) -> Result<(), OutputError> {
-    write_whole(path, &state.to_bytes(scene_fingerprint), Durability::Machine)
+    write_whole_by(path, Durability::Machine, |file| {
+        let mut buffered = BufWriter::new(file);
+        state.write_to(scene_fingerprint, &mut buffered)?;
+        buffered.flush()
+    })
 }
 
 /// Reads a state that was written for the same scene.

@@ -1,6 +1,6 @@
 //! Living bonds, and what became of the others.
 
-use super::Row;
+use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// Living bonds of one law: between particles ordered by slab and first particle, at a plane by particle.
@@ -8,16 +8,21 @@ use serde::{Deserialize, Serialize};
 pub struct BondList {
     /// First bond of each slab, and behind the last one the number of bonds. A bond belongs to the slab of the
     /// particle that stands first in memory, and reaches no further than the next.
+    #[serde(with = "plain")]
     pub slabs: Vec<u32>,
     /// Body i of each bond (slot).
+    #[serde(with = "plain")]
     pub first: Vec<u32>,
     /// Body j of each bond (slot); empty at a plane.
+    #[serde(with = "plain")]
     pub second: Vec<u32>,
     /// At a plane: foot of each bond, where it was when the plane stood as at time 0 \[m\]; otherwise empty.
+    #[serde(with = "plain")]
     pub foot: Vec<Row>,
     /// State of the bonds: the rows of the law, each a column here.
     pub rows: Vec<Vec<Row>>,
     /// Energy that damping and relaxation took of each bond so far \[J\]; empty where the law takes none.
+    #[serde(with = "plain")]
     pub lost: Vec<f64>,
     /// Bonds made so far.
     pub made: u64,

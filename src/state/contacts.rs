@@ -1,6 +1,6 @@
 //! Pairs that may touch, with the history of those that do.
 
-use super::Row;
+use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// When the neighbour lists were made, and for where.
@@ -11,11 +11,13 @@ pub struct Neighbours {
     /// A bound of how far any particle has moved since the lists were made \[m\].
     pub travel: f64,
     /// Positions when the lists were made; empty where nothing can touch \[m\].
+    #[serde(with = "plain")]
     pub reference: Vec<Row>,
     /// Offset of each boundary when the lists were made \[m\].
     pub boundary_reference: Vec<[f64; 3]>,
     /// First particle of each slab, and behind the last one the number of particles. Pairs reach no
     /// further than the next slab, so slabs of one parity can be worked on side by side.
+    #[serde(with = "plain")]
     pub slabs: Vec<u32>,
     /// Time step when the lists were made.
     pub made_at: u64,
@@ -25,16 +27,22 @@ pub struct Neighbours {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactList {
     /// First pair of each slab, and behind the last one the number of pairs.
+    #[serde(with = "plain")]
     pub slabs: Vec<u32>,
     /// First particle of each pair (slot).
+    #[serde(with = "plain")]
     pub first: Vec<u32>,
     /// Second particle of each pair (slot).
+    #[serde(with = "plain")]
     pub second: Vec<u32>,
     /// Bits of each pair: [`TOUCHING`] and [`SLIDING`].
+    #[serde(with = "plain")]
     pub flags: Vec<u8>,
     /// Tangential spring, as `first` sees `second` \[m\]; empty where the law has none.
+    #[serde(with = "plain")]
     pub spring: Vec<Row>,
     /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
+    #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
 }
 
@@ -52,12 +60,16 @@ pub struct WallContacts {
     /// Index of the contact law.
     pub law: u32,
     /// The particles (slots), ascending.
+    #[serde(with = "plain")]
     pub particle: Vec<u32>,
     /// Bits of each: [`TOUCHING`] and [`SLIDING`].
+    #[serde(with = "plain")]
     pub flags: Vec<u8>,
     /// Tangential spring \[m\]; empty where the law has none.
+    #[serde(with = "plain")]
     pub spring: Vec<Row>,
     /// What the normal model keeps of each; empty where it keeps nothing.
+    #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! The algorithmic energy book.
 
-use super::Row;
+use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// The kinds of force that are booked.
@@ -43,8 +43,10 @@ impl Source {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Force \[N\]; empty where the scene has no such kind.
+    #[serde(with = "plain")]
     pub force: Vec<Row>,
     /// Torque \[N m\].
+    #[serde(with = "plain")]
     pub torque: Vec<Row>,
 }
 

@@ -10,6 +10,7 @@ pub mod contacts;
 pub mod hidden;
 pub mod ledger;
 pub mod particles;
+mod plain;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};

@@ -1,32 +1,43 @@
 //! The particles, laid out for the loops that read them.
 
-use super::Row;
+use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// Particles in the order of the neighbour list, rows of 32 bytes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
     /// x, y, z, radius \[m\].
+    #[serde(with = "plain")]
     pub position: Vec<Row>,
     /// Velocity \[m/s\] and mass \[kg\].
+    #[serde(with = "plain")]
     pub velocity: Vec<Row>,
     /// Angular velocity \[rad/s\] and moment of inertia \[kg m²\].
+    #[serde(with = "plain")]
     pub angular_velocity: Vec<Row>,
     /// Force \[N\]; the fourth number is 0.
+    #[serde(with = "plain")]
     pub force: Vec<Row>,
     /// Torque \[N m\]; the fourth number is 0.
+    #[serde(with = "plain")]
     pub torque: Vec<Row>,
     /// Attitude since time 0 as a unit quaternion: scalar, x, y, z. Empty where no bond needs it.
+    #[serde(with = "plain")]
     pub attitude: Vec<Row>,
     /// Index of the material.
+    #[serde(with = "plain")]
     pub material: Vec<u32>,
     /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs.
+    #[serde(with = "plain")]
     pub owner: Vec<u32>,
     /// Index into the scene's particles, of each slot here.
+    #[serde(with = "plain")]
     pub id: Vec<u32>,
     /// Slot here, of each of the scene's particles.
+    #[serde(with = "plain")]
     pub slot: Vec<u32>,
     /// Bonds made and bonds broken so far, of each of the scene's particles; empty in a scene without bonds.
+    #[serde(with = "plain")]
     pub bonds: Vec<[u32; 2]>,
 }
 

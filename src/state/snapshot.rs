@@ -1,7 +1,8 @@
 //! State as bytes: versioned, checksummed, tied to its scene.
 
 use super::State;
-use xxhash_rust::xxh3::xxh3_64;
+use std::io::{self, Seek, Write};
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 /// What every snapshot starts with.
 const MAGIC: &[u8; 8] = b"cograin\0";
@@ -11,6 +12,19 @@ const VERSION: u32 = 3;
 
 /// Length of what stands before the payload: magic, version, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8;
+
+/// Why serialising a state into memory cannot fail.
+const WRITABLE: &str = "a state holds nothing that postcard cannot write";
+
+/// What stands before the payload.
+fn header(scene_fingerprint: u64, checksum: u64) -> [u8; HEADER] {
+    let mut header = [0; HEADER];
+    header[..8].copy_from_slice(MAGIC);
+    header[8..12].copy_from_slice(&VERSION.to_le_bytes());
+    header[12..20].copy_from_slice(&scene_fingerprint.to_le_bytes());
+    header[20..].copy_from_slice(&checksum.to_le_bytes());
+    header
+}
 
 /// Why bytes are not a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -39,17 +53,89 @@ pub enum SnapshotError {
     Damaged,
 }
 
+/// Where the fields go one by one, list by list: into memory, a file, a checksum.
+struct Flowing<'a, T: Take>(&'a mut T);
+
+/// Takes bytes.
+trait Take {
+    /// These ones.
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()>;
+}
+
+impl Take for Vec<u8> {
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.extend_from_slice(bytes);
+        Ok(())
+    }
+}
+
+impl Take for Xxh3 {
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.update(bytes);
+        Ok(())
+    }
+}
+
+/// A file, the checksum of what it has got, and what went wrong.
+struct Checked<'a, W> {
+    /// The file.
+    file: &'a mut W,
+    /// Checksum so far.
+    checksum: Xxh3,
+    /// What went wrong.
+    failed: Option<io::Error>,
+}
+
+impl<W: Write> Take for Checked<'_, W> {
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.checksum.update(bytes);
+        self.file.write_all(bytes).map_err(|error| {
+            let kind = error.kind();
+            self.failed = Some(error);
+            kind.into()
+        })
+    }
+}
+
+impl<T: Take> postcard::ser_flavors::Flavor for Flowing<'_, T> {
+    type Output = ();
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.try_extend(&[byte])
+    }
+
+    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
+        self.0.take(bytes).map_err(|_| postcard::Error::SerializeBufferFull)
+    }
+
+    fn finalize(self) -> postcard::Result<()> {
+        Ok(())
+    }
+}
+
 impl State {
     /// The state as bytes that [`State::from_bytes`] takes back bit for bit.
     pub fn to_bytes(&self, scene_fingerprint: u64) -> Vec<u8> {
-        let payload = postcard::to_stdvec(self).expect("a state holds nothing that postcard cannot write");
-        let mut bytes = Vec::with_capacity(HEADER + payload.len());
-        bytes.extend_from_slice(MAGIC);
-        bytes.extend_from_slice(&VERSION.to_le_bytes());
-        bytes.extend_from_slice(&scene_fingerprint.to_le_bytes());
-        bytes.extend_from_slice(&xxh3_64(&payload).to_le_bytes());
-        bytes.extend_from_slice(&payload);
+        let mut bytes = Vec::with_capacity(self.size());
+        bytes.extend_from_slice(&header(scene_fingerprint, 0));
+        postcard::serialize_with_flavor(self, Flowing(&mut bytes)).expect(WRITABLE);
+        let checksum = xxh3_64(&bytes[HEADER..]);
+        bytes[..HEADER].copy_from_slice(&header(scene_fingerprint, checksum));
         bytes
+    }
+
+    /// Writes the same bytes to a file, list by list: memory for all of them is not needed.
+    pub fn write_to(&self, scene_fingerprint: u64, file: &mut (impl Write + Seek)) -> io::Result<()> {
+        file.write_all(&header(scene_fingerprint, 0))?;
+        let mut checked = Checked { file: &mut *file, checksum: Xxh3::new(), failed: None };
+        let written = postcard::serialize_with_flavor(self, Flowing(&mut checked));
+        if let Some(error) = checked.failed {
+            return Err(error);
+        }
+        written.expect(WRITABLE);
+        let checksum = checked.checksum.digest();
+        file.rewind()?;
+        file.write_all(&header(scene_fingerprint, checksum))
     }
 
     /// Reads what [`State::to_bytes`] wrote for the same scene.
@@ -79,6 +165,19 @@ impl State {
 
     /// A number that differs when any bit of the state differs.
     pub fn fingerprint(&self) -> u64 {
-        xxh3_64(&postcard::to_stdvec(self).expect("a state holds nothing that postcard cannot write"))
+        let mut hash = Xxh3::new();
+        postcard::serialize_with_flavor(self, Flowing(&mut hash)).expect(WRITABLE);
+        hash.digest()
+    }
+
+    /// About how many bytes a snapshot has: memory is then asked for once.
+    fn size(&self) -> usize {
+        let row = size_of::<super::Row>();
+        let particles = self.particles.len() * (8 * row + 24);
+        let lists = self.contacts.iter().map(|list| list.first.len());
+        let planes = self.walls.iter().map(|list| list.particle.len());
+        let bonds = self.bonds.iter().map(|list| list.first.len() * (list.rows.len() * row + 8));
+        let contacts = lists.chain(planes).sum::<usize>() * (row + 17);
+        4096 + 1024 * self.boundaries.len() + particles + contacts + bonds.sum::<usize>()
     }
 }

@@ -11,9 +11,13 @@ use super::pass::{Link, Pass};
 use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::{Particles, State};
+use std::collections::BTreeMap;
 
 /// A symmetric matrix over the six freedoms of a particle, scaled by its mass and moment of inertia.
 type Block = [[f64; 6]; 6];
+
+/// The rows of the lower triangle of such a matrix.
+type Triangle = [f64; 21];
 
 /// Squarings in the bound of the largest eigenvalue: the trace of the 32nd power.
 const SQUARINGS: u32 = 5;
@@ -38,25 +42,27 @@ pub(super) struct Network<'a> {
     state: &'a State,
     /// Groups, by their boundary.
     bodies: &'a [Option<Body>],
-    /// Stiffness of the own block of each particle, then of each boundary, doubled where the partner moves too
-    /// \[1/s²\].
-    stiffness: Vec<Block>,
-    /// The same, not doubled.
-    single: Vec<Block>,
-    /// Damping \[1/s\].
+    /// Stiffness of the own block of each particle, doubled where the partner moves too \[1/s²\].
+    stiffness: Vec<Triangle>,
+    /// The same of each boundary.
+    groups: Vec<Block>,
+    /// The share of interactions whose partner does not move, where there are any, by the place of the block.
+    unmoved: BTreeMap<usize, Block>,
+    /// Damping of each particle, then of each boundary \[1/s\].
     damping: Vec<f64>,
 }
 
 impl<'a> Network<'a> {
     /// Without any interaction.
     pub(super) fn of(state: &'a State, bodies: &'a [Option<Body>]) -> Self {
-        let count = state.particles.len() + bodies.len();
+        let count = state.particles.len();
         Self {
             state,
             bodies,
-            stiffness: vec![[[0.0; 6]; 6]; count],
-            single: vec![[[0.0; 6]; 6]; count],
-            damping: vec![0.0; count],
+            stiffness: vec![[0.0; 21]; count],
+            groups: vec![[[0.0; 6]; 6]; bodies.len()],
+            unmoved: BTreeMap::new(),
+            damping: vec![0.0; count + bodies.len()],
         }
     }
 
@@ -119,12 +125,15 @@ impl<'a> Network<'a> {
         }
         let (mobility, doubled) = (body.mobility(moved), if both { 2.0 } else { 1.0 });
         let place = self.state.particles.len() + group;
+        let mut block = [[0.0; 6]; 6];
         for p in 0..6 {
             for q in 0..6 {
-                let sum = (0..6).map(|k| mobility[p][k] * stiffness[k][q]).sum::<f64>();
-                self.single[place][p][q] += sum;
-                self.stiffness[place][p][q] += doubled * sum;
+                block[p][q] = doubled * (0..6).map(|k| mobility[p][k] * stiffness[k][q]).sum::<f64>();
             }
+        }
+        add(&mut self.groups[group], &block);
+        if !both {
+            add(self.unmoved.entry(place).or_default(), &block);
         }
         let damping = link.response.normal_damping.max(link.response.tangential_damping);
         self.damping[place] += doubled * damping * answer(&mobility, arm.length());
@@ -140,8 +149,10 @@ impl<'a> Network<'a> {
         let n = normal.to_array();
         let across = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
         let (kn, kt) = (link.response.normal_stiffness, link.response.tangential_stiffness);
+        let mut triangle = [0.0; 21];
+        let mut place = 0;
         for a in 0..6 {
-            for b in 0..6 {
+            for b in 0..=a {
                 let mut sum = 0.0;
                 for axis in 0..3 {
                     let gradient = |k: usize| {
@@ -161,9 +172,15 @@ impl<'a> Network<'a> {
                     let across = f64::from(u8::from(a == b)) - along;
                     sum += (link.torsion * along + link.bending * across) / inertia;
                 }
-                self.single[slot][a][b] += sum;
-                self.stiffness[slot][a][b] += doubled * sum;
+                triangle[place] = doubled * sum;
+                place += 1;
             }
+        }
+        for (sum, part) in self.stiffness[slot].iter_mut().zip(triangle) {
+            *sum += part;
+        }
+        if !both {
+            add(self.unmoved.entry(slot).or_default(), &whole(&triangle));
         }
         let damping = link.response.normal_damping.max(link.response.tangential_damping);
         let tangential = link.response.tangential_damping * (1.0 / mass + arm * arm / inertia);
@@ -181,23 +198,73 @@ impl<'a> Network<'a> {
     /// The limit over all particles.
     pub(super) fn limit(&self) -> Limit {
         let mut limit = Limit { safe: f64::INFINITY, unstable: f64::INFINITY, particle: None };
-        for (slot, block) in self.stiffness.iter().enumerate() {
-            let (k, c) = (largest_eigenvalue(block), self.damping[slot]);
+        // Root of k Δt² + 2 c Δt = 4, without cancellation.
+        let step = |k: f64, c: f64| 4.0 / (c + (c * c + 4.0 * k).sqrt());
+        for place in 0..self.damping.len() {
+            let (block, c) = (self.block(place), self.damping[place]);
+            // The eigenvalue is dear; most particles cannot be the one that limits the step.
+            let most = ROOT_OF_SIX * row_sum(&block);
+            if step(most, c) >= limit.safe && 2.0 / most.sqrt() >= limit.unstable {
+                continue;
+            }
+            let k = largest_eigenvalue(&block);
             if k <= 0.0 && c <= 0.0 {
                 continue;
             }
-            // Root of k Δt² + 2 c Δt = 4, without cancellation.
-            let safe = 4.0 / (c + (c * c + 4.0 * k).sqrt());
+            let safe = step(k, c);
             if safe < limit.safe {
                 limit.safe = safe;
-                limit.particle = self.named(slot);
+                limit.particle = self.named(place);
             }
             // Moving this particle alone gives a Rayleigh quotient, hence a bound from below.
-            let alone = largest_eigenvalue(&self.single[slot]) / ROOT_OF_SIX;
+            let alone = largest_eigenvalue(&self.single(place)) / ROOT_OF_SIX;
             limit.unstable = limit.unstable.min(2.0 / alone.sqrt());
         }
         limit
     }
+
+    /// Stiffness of the own block of a particle or, behind them, a boundary.
+    fn block(&self, place: usize) -> Block {
+        match place.checked_sub(self.stiffness.len()) {
+            None => whole(&self.stiffness[place]),
+            Some(group) => self.groups[group],
+        }
+    }
+
+    /// The same, nothing doubled.
+    fn single(&self, place: usize) -> Block {
+        let mut block = self.block(place);
+        if let Some(unmoved) = self.unmoved.get(&place) {
+            add(&mut block, unmoved);
+        }
+        block.map(|row| row.map(|part| 0.5 * part))
+    }
+}
+
+/// Adds one block to another.
+fn add(sum: &mut Block, block: &Block) {
+    for (sum, part) in sum.iter_mut().flatten().zip(block.iter().flatten()) {
+        *sum += part;
+    }
+}
+
+/// The matrix of which this is the lower triangle.
+fn whole(triangle: &Triangle) -> Block {
+    let mut block = [[0.0; 6]; 6];
+    let mut place = 0;
+    for a in 0..6 {
+        for b in 0..=a {
+            block[a][b] = triangle[place];
+            block[b][a] = triangle[place];
+            place += 1;
+        }
+    }
+    block
+}
+
+/// The largest sum of magnitudes in a row, which no eigenvalue exceeds (Gershgorin).
+fn row_sum(block: &Block) -> f64 {
+    block.iter().map(|row| row.iter().map(|part| part.abs()).sum::<f64>()).fold(0.0, f64::max)
 }
 
 /// An upper bound of the largest eigenvalue of a positive semidefinite matrix: the 32nd root of the trace of its

@@ -76,6 +76,8 @@ fn number(
         let right = "numbers up to 4294967295".to_owned();
         faults.add("particles", "", Mistake::Wrong { found: format!("particle {id}"), right });
     }
+    born.particles.reserve_exact(all.len());
+    born.rows.reserve_exact(all.len());
     for (id, row, mut particle) in all {
         particle.id = ParticleId(id as u32);
         born.particles.push(particle);

@@ -1,0 +1,227 @@
+"""Common scenes, written for cograin, LIGGGHTS and LAMMPS: the same particles, laws, walls and time step for all."""
+
+import gzip
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+PACKING = Path(__file__).resolve().parents[1] / "models/loaded_beam/dense_20k.csv.gz"
+BOX = ((0.0, 0.2448), (0.0, 0.2448), (0.0, 0.4))  # walls of the packing [m]
+YOUNGS_MODULUS, POISSONS_RATIO, DENSITY, RESTITUTION, FRICTION = 5.0e7, 0.3, 2500.0, 0.5, 0.5
+ROLLING_FRICTION, COHESION_ENERGY_DENSITY = 0.1, 5.0e3
+SKIN = 0.001  # of the peers, the best found for them [m]; cograin chooses its own
+STEP = 1.54807158678598e-5  # 10 % of the Rayleigh time of the smallest sphere [s]
+MEAN_RADIUS = 0.005  # [m]
+
+# Bonded block: hexagonal close packing without contact, lowest layer held.
+BLOCK = (20, 20, 25)
+BLOCK_STEP, BLOCK_RADIUS, BLOCK_SPACING = 2.0e-6, 0.005, 0.01001
+BOND_STIFFNESS, SHEAR_STIFFNESS, BOND_REACH = 1.0e10, 4.0e9, 0.0105
+BLOCK_SPEED = 0.005  # [m/s]
+
+
+class Scene(NamedTuple):
+    """A scene and how long it is run to be timed."""
+
+    name: str
+    steps: tuple  # short and long run
+    copies: int = 1  # of the packing along x, every second one mirrored
+    rolling: bool = False  # with rolling friction and cohesion
+    wide: float = 1.0  # how far the wall at high x stands away, over the width of the packing
+    factor: float = 1.0  # time step over STEP
+    bonds: str = ""  # formulation, in the bonded block
+    peers: bool = True  # whether the peers run it
+
+
+SCENES = [
+    Scene("s1_20k", (100, 1100)),
+    Scene("s1_100k", (20, 220), copies=5),
+    Scene("s1_1M", (2, 22), copies=50, peers=False),
+    Scene("s2_20k", (100, 1100), rolling=True),
+    Scene("s3_incremental", (100, 1100), bonds="incremental"),
+    Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation"),
+    Scene("s4_20k", (500, 5500), wide=3.0, factor=2.0),
+]
+
+
+def packing(copies):
+    """Rows x, y, z, radius of the packing and its mirrored copies."""
+    lines = gzip.decompress(PACKING.read_bytes()).decode().splitlines()[1:]
+    rows = [tuple(map(float, line.split(",")[1:5])) for line in lines]
+    width = BOX[0][1]
+    return [
+        (copy * width + (width - x if copy % 2 else x), y, z, radius)
+        for copy in range(copies)
+        for x, y, z, radius in rows
+    ]
+
+
+def block():
+    """Rows x, y, z, radius and velocities of the bonded block."""
+    height = BLOCK_SPACING * math.sqrt(6) / 3 * (BLOCK[2] - 1)
+    rows = []
+    for k in range(BLOCK[2]):
+        for j in range(BLOCK[1]):
+            for i in range(BLOCK[0]):
+                x = BLOCK_SPACING * (i + 0.5 * ((j + k) % 2))
+                y = BLOCK_SPACING * math.sqrt(3) / 2 * (j + (k % 2) / 3)
+                z = BLOCK_SPACING * math.sqrt(6) / 3 * k
+                s = math.sin(0.5 * math.pi * z / height) if k else 0.0
+                velocity = (BLOCK_SPEED * s, 0.4 * BLOCK_SPEED * s * s, -0.3 * BLOCK_SPEED * s)
+                rows.append((x, y, z, BLOCK_RADIUS, *velocity))
+    return rows
+
+
+def box(scene):
+    """Walls of a scene [m]."""
+    (low, high), *others = BOX
+    return [(low, high * scene.copies * scene.wide), *others]
+
+
+def time_step(scene):
+    """Its time step [s]."""
+    return BLOCK_STEP if scene.bonds else STEP * scene.factor
+
+
+def cograin(scene, steps, threads, folder):
+    """Scene file and particles; returns the arguments of the program."""
+    rows = block() if scene.bonds else packing(scene.copies)
+    columns = "x,y,z,radius,vx,vy,vz" if scene.bonds else "x,y,z,radius"
+    if not (folder / "bed.csv").exists():
+        (folder / "bed.csv").write_text("\n".join([columns, *(",".join(map(repr, row)) for row in rows), ""]))
+    step = time_step(scene)
+    text = f"gravity = [0.0, 0.0, {0.0 if scene.bonds else -9.81}]\n[run]\nend = {steps * step!r}\nstep = {step!r}\n"
+    text += f"threads = {threads}\n[material.grain]\nyoungs_modulus = {YOUNGS_MODULUS!r}\n"
+    text += f"poissons_ratio = {POISSONS_RATIO}\ndensity = {DENSITY}\n"
+    text += '[particles.bed]\nmaterial = "grain"\nfile = "bed.csv"\n'
+    text += cograin_bonds(scene) if scene.bonds else cograin_contacts(scene)
+    text += f"[output]\nhistory_interval = {steps * step!r}\n"
+    (folder / f"{steps}.toml").write_text(text)
+    return ["run", f"{steps}.toml", "-o", "out"]
+
+
+def cograin_contacts(scene):
+    """Contact law and walls."""
+    text = f"[pair.grain.grain]\nrestitution = {RESTITUTION}\nfriction = {FRICTION}\n"
+    if scene.rolling:
+        text += f"rolling_friction = {ROLLING_FRICTION}\ncohesion_energy_density = {COHESION_ENERGY_DENSITY}\n"
+    text += "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]\n"
+    if scene.rolling:
+        text += "[contact.touch.rolling.cdt]\n[contact.touch.cohesion.sjkr]\n"
+    for axis, (low, high) in zip("xyz", box(scene)):
+        for name, place, sign in (("low", low, 1.0), ("high", high, -1.0)):
+            point = [place if other == axis else 0.0 for other in "xyz"]
+            normal = [sign if other == axis else 0.0 for other in "xyz"]
+            text += f"[boundary.{axis}_{name}]\nplane = {{ point = {point}, normal = {normal} }}\nmaterial = \"grain\"\n"
+    return text
+
+
+def cograin_bonds(scene):
+    """Bonds and the layer that is held."""
+    return (
+        f'[bond.glue]\nformulation = "{scene.bonds}"\nbetween = ["bed", "bed"]\ncreate_distance = {BOND_REACH}\n'
+        f"normal_stiffness = {BOND_STIFFNESS!r}\ntangential_stiffness = {SHEAR_STIFFNESS!r}\n"
+        '[boundary.base]\nparticles = { set = "bed", box = [[-1.0, -1.0, -0.001], [1.0, 1.0, 0.001]] }\n'
+    )
+
+
+def data_file(path, rows, walls, style, held=None):
+    """Data file of both peers; particles of the held layer are of type 2."""
+    with open(path, "w") as file:
+        file.write(f"particles\n\n{len(rows)} atoms\n{2 if held else 1} atom types\n")
+        if held:
+            file.write("1 bond types\n14 extra bond per atom\n60 extra special per atom\n")
+        file.write("\n")
+        for (low, high), axis in zip(walls, "xyz"):
+            file.write(f"{low - 0.01!r} {high + 0.01!r} {axis}lo {axis}hi\n")
+        file.write(f"\nAtoms{style}\n\n")
+        for number, (x, y, z, radius, *_) in enumerate(rows, 1):
+            kind = f"1 {2 if held(z) else 1}" if held else "1"
+            file.write(f"{number} {kind} {2 * radius!r} {DENSITY} {x!r} {y!r} {z!r}\n")
+        if held:
+            file.write("\nVelocities\n\n")
+            for number, row in enumerate(rows, 1):
+                file.write(f"{number} {row[4]!r} {row[5]!r} {row[6]!r} 0 0 0\n")
+
+
+def liggghts(scene, steps, _threads, folder):
+    """Deck of LIGGGHTS; returns the arguments of the program."""
+    data_file(folder / "particles.data", packing(scene.copies), box(scene), "")
+    style = "model hertz tangential history"
+    properties = [
+        ("youngsModulus", "peratomtype", YOUNGS_MODULUS),
+        ("poissonsRatio", "peratomtype", POISSONS_RATIO),
+        ("coefficientRestitution", "peratomtypepair 1", RESTITUTION),
+        ("coefficientFriction", "peratomtypepair 1", FRICTION),
+    ]
+    if scene.rolling:
+        style += " cohesion sjkr rolling_friction cdt"
+        properties.append(("cohesionEnergyDensity", "peratomtypepair 1", COHESION_ENERGY_DENSITY))
+        properties.append(("coefficientRollingFriction", "peratomtypepair 1", ROLLING_FRICTION))
+    text = "atom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\nunits si\n"
+    text += f"read_data particles.data\nneighbor {SKIN} bin\nneigh_modify delay 0\n"
+    for number, (name, kind, value) in enumerate(properties):
+        text += f"fix m{number} all property/global {name} {kind} {value}\n"
+    text += f"pair_style gran {style}\npair_coeff * *\n"
+    for axis, ends in zip("xyz", box(scene)):
+        for name, place in zip(("lo", "hi"), ends):
+            text += f"fix w{axis}{name} all wall/gran {style} primitive type 1 {axis}plane {place!r}\n"
+    text += f"fix g all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\ntimestep {time_step(scene)!r}\n"
+    text += f"thermo {steps}\nthermo_style custom step atoms ke\nrun {steps}\n"
+    (folder / f"{steps}.lig").write_text(text)
+    return ["-in", f"{steps}.lig", "-log", "none"]
+
+
+def lammps(scene, steps, threads, folder):
+    """Deck of LAMMPS; returns the arguments of the program."""
+    text = lammps_bonds(folder) if scene.bonds else lammps_contacts(scene, folder)
+    text += f"timestep {time_step(scene)!r}\nthermo {steps}\nthermo_style custom step atoms ke\nrun {steps}\n"
+    (folder / f"{steps}.lmp").write_text(text)
+    several = ["-sf", "omp", "-pk", "omp", str(threads)] if threads > 1 else []
+    return ["-in", f"{steps}.lmp", "-log", "none", *several]
+
+
+def lammps_contacts(scene, folder):
+    """`gran/hertz/history`, its damping that of a typical contact; with rolling `granular`, which costs as much as the
+    same physics would."""
+    data_file(folder / "particles.data", packing(scene.copies), box(scene), " # sphere")
+    modulus, ratio = YOUNGS_MODULUS, POISSONS_RATIO
+    tangential = math.sqrt(2 * (1 - ratio) / (2 - ratio))
+    if scene.rolling:
+        spring = 2.25 * ROLLING_FRICTION**2 * 4 / 3 * modulus / (2 * (1 - ratio**2)) * MEAN_RADIUS * 0.1
+        wall = f"granular hertz/material {modulus} {RESTITUTION} {ratio} tangential mindlin NULL {tangential} {FRICTION}"
+        wall += f" rolling sds {spring} 0.0 {ROLLING_FRICTION} damping coeff_restitution"
+        pair = f"pair_style granular\npair_coeff * * {wall.removeprefix('granular ')}\n"
+    else:
+        beta = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
+        radius, overlap = MEAN_RADIUS / 2, 2e-6
+        mass = 0.5 * 4 / 3 * math.pi * MEAN_RADIUS**3 * DENSITY
+        stiffness = modulus / (1 - ratio**2) * math.sqrt(radius * overlap)
+        damping = 2 * math.sqrt(5 / 6) * beta * math.sqrt(stiffness * mass) / (mass * math.sqrt(radius * overlap))
+        normal, shear = 2 * modulus / (3 * (1 - ratio**2)), 4 * modulus / (2 * (1 + ratio)) / (2 - ratio)
+        law = f"hertz/history {normal} {shear} {damping} {damping * tangential} {FRICTION} 1"
+        wall, pair = law, f"pair_style gran/{law}\npair_coeff * *\n"
+    text = "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
+    text += f"read_data particles.data\nneighbor {SKIN} bin\nneigh_modify delay 0 every 1 check yes\n{pair}"
+    for axis, (low, high) in zip("xyz", box(scene)):
+        text += f"fix w{axis} all wall/gran {wall} {axis}plane {low!r} {high!r}\n"
+    return text + "fix g all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\n"
+
+
+def lammps_bonds(folder):
+    """`bpm/rotational` with the stiffness of our bonds."""
+    rows = block()
+    walls = [(min(row[k] for row in rows) - 0.02, max(row[k] for row in rows) + 0.02) for k in range(3)]
+    data_file(folder / "particles.data", rows, walls, " # bpm/sphere", held=lambda z: z < 0.001)
+    area, polar = math.pi * BLOCK_RADIUS**2, math.pi * BLOCK_RADIUS**4 / 2
+    stiffness = (BOND_STIFFNESS * area, SHEAR_STIFFNESS * area, SHEAR_STIFFNESS * polar, BOND_STIFFNESS * polar / 2)
+    return (
+        "units si\natom_style bpm/sphere\natom_modify map array\nspecial_bonds lj 0.0 1.0 1.0 coul 0.0 1.0 1.0\n"
+        "newton on off\nboundary f f f\ncomm_modify vel yes cutoff 0.02\nread_data particles.data\n"
+        "neighbor 0.0005 bin\nneigh_modify delay 0 every 1 check yes\n"
+        "pair_style gran/hertz/history 1e7 NULL 50 NULL 0.5 1\npair_coeff * *\n"
+        "bond_style bpm/rotational break no smooth no\n"
+        f"bond_coeff 1 {' '.join(map(repr, stiffness))} 1e20 1e20 1e20 1e20 0 0 0 0\n"
+        f"create_bonds many all all 1 {1.9 * BLOCK_RADIUS!r} {BOND_REACH!r}\n"
+        "group mobile type 1\nfix integrate mobile nve/bpm/sphere\n"
+    )
