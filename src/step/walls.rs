@@ -13,7 +13,7 @@ use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{Row, State};
+use crate::state::{Particles, Row, State};
 use std::f64::consts::PI;
 use std::marker::PhantomData;
 

@@ -64,12 +64,6 @@ pub trait Lane: Number {
     /// The mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
 
-    /// Reads consecutive numbers.
-    ///
-    /// # Safety
-    /// `place` points to [`Lane::WIDTH`] numbers.
-    unsafe fn load(place: *const f64) -> Self;
-
     /// Writes `first` plus the number of each lane whose bit is set, one behind the other. Returns how many.
     ///
     /// # Safety

@@ -49,12 +49,6 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    unsafe fn load(place: *const f64) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe { *place }
-    }
-
-    #[inline(always)]
     fn bits(mask: bool) -> u32 {
         u32::from(mask)
     }

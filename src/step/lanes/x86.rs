@@ -307,12 +307,6 @@ impl Lane for Two {
     }
 
     #[inline(always)]
-    unsafe fn load(place: *const f64) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe { Self(_mm_loadu_pd(place)) }
-    }
-
-    #[inline(always)]
     fn bits(mask: __m128d) -> u32 {
         // SAFETY: SSE2 is part of x86-64.
         unsafe { _mm_movemask_pd(mask) as u32 }
@@ -429,12 +423,6 @@ impl Lane for Four {
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm256_storeu_pd(place, self.0) }
-    }
-
-    #[inline(always)]
-    unsafe fn load(place: *const f64) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe { Self(_mm256_loadu_pd(place)) }
     }
 
     #[inline(always)]
@@ -612,12 +600,6 @@ impl Lane for Eight {
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm512_storeu_pd(place, self.0) }
-    }
-
-    #[inline(always)]
-    unsafe fn load(place: *const f64) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe { Self(_mm512_loadu_pd(place)) }
     }
 
     #[inline(always)]
