@@ -1,6 +1,7 @@
 //! The table that a scene gives.
 
 use super::*;
+use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::scene::{InputCourse, Output, Particle};
 use crate::state::BoundaryState;
@@ -25,8 +26,11 @@ fn scene() -> Scene {
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],
     };
+    let stone = Material { name: "stone".to_owned(), density: 6.0, youngs_modulus: None, poissons_ratio: None };
     use AxisMotion::{Driven, Fixed, Prescribed};
     Scene {
+        materials: vec![stone],
+        pairs: vec![PairProperties::default()],
         particles: vec![sphere],
         boundaries: vec![
             boundary("floor", &plane, [Fixed, Fixed, Driven, Fixed, Fixed, Fixed]),
