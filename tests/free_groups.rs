@@ -590,3 +590,18 @@ fn a_group_that_is_put_elsewhere_at_once_meets_what_is_there() {
     simulation.advance(2e-5).expect("it runs");
     assert!(apart(group(&simulation).force, [0.0; 3]) > 0.0, "it stands in the bed and feels nothing");
 }
+
+#[test]
+fn a_free_group_goes_on_from_a_state_that_was_reached_before() {
+    let mut first = start(&format!("gravity = [0.3, 0.0, -1.0]\n{}", top(1e-3, FREE, "")));
+    first.advance(0.4).expect("it runs");
+    let mut second = Simulation::settled(first.scene().clone(), first.state().clone()).expect("it starts");
+    for simulation in [&mut first, &mut second] {
+        simulation.advance(0.2).expect("it runs");
+    }
+    for (a, b) in first.state().particles.position.iter().zip(&second.state().particles.position) {
+        let (a, b) = ([a[0], a[1], a[2]], [b[0], b[1], b[2]]);
+        assert!(apart(a, b) < 1e-14, "{a:?} and {b:?}");
+    }
+    assert_eq!(group(&second).displacement, group(&first).displacement);
+}

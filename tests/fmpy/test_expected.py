@@ -36,7 +36,7 @@ def test_the_piston_gives_its_expected_numbers(unit, tmp_path):
     command = [sys.executable, "-m", "fmpy", "simulate", unit("piston"), "--input-file", folder / "input.csv"]
     command += ["--stop-time", "0.1", "--output-interval", "1e-3", "--output-file", result]
     subprocess.run(command, check=True, capture_output=True)
-    # A hundred milliseconds of collisions turn a last bit into less than a billionth.
+    # The same bits everywhere; another order of operations would grow from a last bit to some 1e-7 in this time.
     compare(table(result), table(folder / "expected.csv"), 1e-9)
 
 
