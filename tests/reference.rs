@@ -4,6 +4,7 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::verify::{Options, Report, find, replay};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Where the cases of contacts lie.
 const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/contact");
@@ -18,9 +19,11 @@ const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/hidde
 struct Scratch(PathBuf);
 
 impl Scratch {
-    /// An empty folder.
+    /// An empty folder, of which no other test knows.
     fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("cograin-reference-{}-{name}", std::process::id()));
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let (process, number) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(format!("cograin-reference-{process}-{number}-{name}"));
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
