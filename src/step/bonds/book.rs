@@ -1,0 +1,79 @@
+//! What a pass over bonds came to: energies, and the bonds that broke.
+
+use super::list::remove;
+use crate::bond::Reaction;
+use crate::state::State;
+use crate::state::bonds::Break;
+use crate::step::error::RunError;
+
+/// Sums energies of the bonds of a law, takes out what broke and tells of it.
+pub(in crate::step) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<(), RunError> {
+    let (list, particles, time) = (&mut state.bonds[law], &state.particles, state.clock.time);
+    list.elastic = 0.0;
+    let mut outcome = Ok(());
+    let mut gone = Vec::new();
+    let told = state.breaks.len();
+    let id = |slot: u32| particles.id[slot as usize];
+    for done in results {
+        list.elastic += done.elastic;
+        list.relaxed += done.relaxed;
+        list.damped += done.damped;
+        gone.extend(done.broken);
+        if let Some(bond) = done.overbent {
+            let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
+            outcome = outcome.and(Err(RunError::Overbent { first, second, time }));
+        }
+    }
+    for &(bond, cause, energy) in &gone {
+        let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
+        state.breaks.push(Break { time, law: law as u32, first, second, cause, energy });
+        list.released += energy;
+        list.broken += 1;
+    }
+    for broken in &state.breaks[told..] {
+        state.particles.count_break([broken.first].into_iter().chain(broken.second));
+    }
+    if !gone.is_empty() {
+        remove(list, &gone);
+    }
+    outcome
+}
+
+/// What a part of a list came to.
+#[derive(Clone, Debug, Default)]
+pub(in crate::step) struct Done {
+    /// Elastic energy \[J\].
+    pub(super) elastic: f64,
+    /// Elastic energy that relaxation took \[J\].
+    pub(super) relaxed: f64,
+    /// Energy that damping took \[J\].
+    pub(super) damped: f64,
+    /// Bonds that broke: bond, cause, released energy \[J\].
+    pub(super) broken: Vec<(u32, f64, f64)>,
+    /// A bond bent beyond what can be followed.
+    pub(super) overbent: Option<u32>,
+}
+
+impl Done {
+    /// Takes the energy of broken bonds to the middle of the step: up to there their force acted, and what they then held
+    /// is what the books lose, to second order in the step. `power` says at which rate a bond worked on its bodies \[W\].
+    pub(in crate::step) fn release(&mut self, step: f64, power: impl Fn(usize) -> f64) {
+        for (bond, _, energy) in &mut self.broken {
+            *energy += 0.5 * step * power(*bond as usize);
+        }
+    }
+
+    /// Adds what one bond did.
+    pub(in crate::step) fn add(&mut self, bond: u32, reaction: &Reaction<f64>) {
+        self.relaxed += reaction.relaxed;
+        self.damped += reaction.damped;
+        if reaction.cause == 0.0 {
+            self.elastic += reaction.elastic;
+        } else {
+            self.broken.push((bond, reaction.cause, reaction.elastic));
+        }
+        if reaction.overbent && self.overbent.is_none() {
+            self.overbent = Some(bond);
+        }
+    }
+}
