@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """What LIGGGHTS needs to make neighbour lists of the mixtures of `cargo bench --bench neighbours`.
 
-  mixtures.py [--liggghts FILE] [--style bin] [--steps 3 13]
-
 Large spheres on a cubic lattice, small ones of 1 mm on a finer lattice in what is left. Lists are made in every step;
 cost = (user CPU of the longer run - that of the shorter) / (difference of steps), as nothing touches almost all of it.
+LIGGGHTS: apt-get install liggghts.
 """
 
 import argparse
@@ -13,6 +12,8 @@ import os
 import subprocess
 import tempfile
 from pathlib import Path
+
+import peers
 
 SMALL = 1e-3  # radius [m]
 MIXTURES = [(1.0, 100_000), (2.0, 100_000), (5.0, 100_000), (20.0, 100_000)]
@@ -58,11 +59,12 @@ def mixture(ratio, count):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--liggghts", default="liggghts")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--liggghts", metavar="FILE", help="LIGGGHTS; by default `liggghts`")
     parser.add_argument("--style", default="bin")
     parser.add_argument("--steps", type=int, nargs=2, default=(3, 13))
     options = parser.parse_args()
+    liggghts = peers.found("LIGGGHTS", options.liggghts or "liggghts", "liggghts", "it comes with apt-get install liggghts")
     for ratio, count in MIXTURES:
         rows, width = mixture(ratio, count)
         with tempfile.TemporaryDirectory() as name:
@@ -75,7 +77,7 @@ def main():
             for steps in options.steps:
                 (folder / "deck").write_text(DECK.format(steps=steps, style=options.style))
                 before = os.times().children_user
-                subprocess.run([options.liggghts, "-in", "deck", "-log", "none"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+                subprocess.run([liggghts, "-in", "deck", "-log", "none"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
                 times.append(os.times().children_user - before)
         short, long = options.steps
         cost = (times[1] - times[0]) / (long - short)

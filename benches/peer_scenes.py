@@ -1,4 +1,4 @@
-"""Common scenes, written for cograin, LIGGGHTS and LAMMPS: the same particles, laws, walls and time step for all."""
+"""Common scenes, written for cograin, LIGGGHTS, LAMMPS and YADE: the same particles, laws, walls and time step for all."""
 
 import gzip
 import math
@@ -30,17 +30,17 @@ class Scene(NamedTuple):
     wide: float = 1.0  # how far the wall at high x stands away, over the width of the packing
     factor: float = 1.0  # time step over STEP
     bonds: str = ""  # formulation, in the bonded block
-    peers: bool = True  # whether the peers run it
+    peers: tuple = ()  # those that can run it
 
 
 SCENES = [
-    Scene("s1_20k", (100, 1100)),
-    Scene("s1_100k", (20, 220), copies=5),
-    Scene("s1_1M", (2, 22), copies=50, peers=False),
-    Scene("s2_20k", (100, 1100), rolling=True),
-    Scene("s3_incremental", (100, 1100), bonds="incremental"),
-    Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation"),
-    Scene("s4_20k", (500, 5500), wide=3.0, factor=2.0),
+    Scene("s1_20k", (100, 1100), peers=("liggghts", "lammps", "yade")),
+    Scene("s1_100k", (20, 220), copies=5, peers=("liggghts", "lammps", "yade")),
+    Scene("s1_1M", (2, 22), copies=50),
+    Scene("s2_20k", (100, 1100), rolling=True, peers=("liggghts", "lammps")),
+    Scene("s3_incremental", (100, 1100), bonds="incremental", peers=("lammps", "yade")),
+    Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation", peers=("lammps", "yade")),
+    Scene("s4_20k", (500, 5500), wide=3.0, factor=2.0, peers=("liggghts", "lammps", "yade")),
 ]
 
 
@@ -224,4 +224,61 @@ def lammps_bonds(folder):
         f"bond_coeff 1 {' '.join(map(repr, stiffness))} 1e20 1e20 1e20 1e20 0 0 0 0\n"
         f"create_bonds many all all 1 {1.9 * BLOCK_RADIUS!r} {BOND_REACH!r}\n"
         "group mobile type 1\nfix integrate mobile nve/bpm/sphere\n"
+    )
+
+
+def yade(scene, steps, threads, folder):
+    """Script of YADE; returns the arguments of the program."""
+    rows = block() if scene.bonds else packing(scene.copies)
+    (folder / "particles.txt").write_text("\n".join(" ".join(map(repr, row)) for row in rows))
+    text = 'rows = [tuple(map(float, line.split())) for line in open("particles.txt")]\n'
+    text += f"O.dt = {time_step(scene)!r}\n{yade_bonds() if scene.bonds else yade_contacts(scene)}"
+    text += f"O.run({steps}, True)\nprint(O.iter, utils.kineticEnergy(), flush=True)\n"
+    (folder / f"{steps}.py").write_text(text)
+    return ["-n", "-x", f"-j{threads}", f"{steps}.py"]
+
+
+def yade_contacts(scene):
+    """Hertz-Mindlin with the damping of the others. YADE takes R/2 for the effective radius at a wall instead of R: a
+    stiffer material of the walls makes up for that, to 3 % along the wall and exactly across it."""
+    beta = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION)) * math.sqrt(5 / 6)
+    wall_ratio = 0.5
+    wall_modulus = YOUNGS_MODULUS * (1 - wall_ratio**2) / (1 - POISSONS_RATIO**2) / (math.sqrt(2) - 1)
+    text = ""
+    for name, modulus, ratio in (("grain", YOUNGS_MODULUS, POISSONS_RATIO), ("wall", wall_modulus, wall_ratio)):
+        text += f"{name} = O.materials.append(FrictMat(young={modulus!r}, poisson={ratio}, density={DENSITY}, "
+        text += f"frictionAngle={math.atan(FRICTION)!r}))\n"
+    text += "O.bodies.append([utils.sphere(row[:3], row[3], material=grain) for row in rows])\n"
+    for axis, ends in enumerate(box(scene)):
+        for place, side in zip(ends, (1, -1)):
+            text += f"O.bodies.append(utils.wall({place!r}, {axis}, sense={side}, material=wall))\n"
+    return text + (
+        "O.engines = [\n    ForceResetter(),\n"
+        f"    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist={SKIN / 2}),\n"
+        "    InteractionLoop([Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Wall_Sphere_ScGeom()],\n"
+        f"        [Ip2_FrictMat_FrictMat_MindlinPhys(betan={beta!r}, betas={beta!r})], [Law2_ScGeom_MindlinPhys_Mindlin()]),\n"
+        "    NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),\n]\n"
+    )
+
+
+def yade_bonds():
+    """Cohesive contacts with a law for moments, its stiffnesses those of our bonds. They are made in the first step, in which
+    nothing moves, by spheres that reach further than their radius; the gap of that step is where they are free of force."""
+    modulus = BOND_STIFFNESS * math.pi * BLOCK_RADIUS  # stiffness of a pair over its radius
+    ratio = SHEAR_STIFFNESS / BOND_STIFFNESS  # what YADE calls Poisson's ratio: shear over normal stiffness
+    reach = BOND_REACH / (2 * BLOCK_RADIUS)
+    return (
+        f"ice = O.materials.append(CohFrictMat(young={modulus!r}, poisson={ratio}, density={DENSITY}, frictionAngle=0.5,\n"
+        "    isCohesive=True, normalCohesion=1e30, shearCohesion=1e30, momentRotationLaw=True, etaRoll=-1, etaTwist=-1,\n"
+        f"    alphaKr={0.25 / ratio}, alphaKtw=0.5))\n"
+        "O.bodies.append([utils.sphere(row[:3], row[3], material=ice, fixed=row[2] < 0.001) for row in rows])\n"
+        f"reach, meet = Bo1_Sphere_Aabb(aabbEnlargeFactor={reach}), Ig2_Sphere_Sphere_ScGeom6D(interactionDetectionFactor={reach})\n"
+        "O.engines = [\n    ForceResetter(),\n    InsertionSortCollider([reach], verletDist=0.0005),\n"
+        "    InteractionLoop([meet], [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)],\n"
+        "        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True)]),\n"
+        "    NewtonIntegrator(damping=0),\n]\n"
+        "step, O.dt = O.dt, 0.0\nO.step()\n"
+        "O.dt, reach.aabbEnlargeFactor, meet.interactionDetectionFactor = step, 1.0, 1.0\n"
+        "for bond in O.interactions:\n    bond.phys.unp = bond.geom.penetrationDepth\n"
+        "for body, row in zip(O.bodies, rows):\n    body.state.vel = row[4:]\n"
     )

