@@ -92,8 +92,9 @@ fn threads_and_lane_widths_give_the_same_bits() {
         let broken = run(&mut first, 25);
         assert!(broken > 100, "{formulation}: {broken} bonds broke");
         let expected = first.state().fingerprint();
-        for threads in [2, 3] {
+        for threads in 2..=4 {
             let mut other = simulation(threads, formulation);
+            assert_eq!(other.threads(), threads);
             assert_eq!(run(&mut other, 25), broken, "{formulation}, {threads} threads");
             assert_eq!(other.state().fingerprint(), expected, "{formulation}, {threads} threads");
         }

@@ -245,13 +245,19 @@ fn the_summary_closes_its_books() {
 #[test]
 fn any_number_of_threads_leaves_the_same_bytes() {
     let place = Place::new("threads");
-    let scene = place.scene("end = 0.05\nstep = 2e-5", ALL_OUTPUTS);
-    let folders = ["1", "2"].map(|threads| {
-        let out = place.at(threads);
-        complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--threads", &threads]).output().unwrap(), 0);
+    let scene = place.scene("end = 4e-3\nstep = 2e-5", ALL_OUTPUTS);
+    // A few spheres are not worth a second thread.
+    let many = "[particles.many]\nmaterial = \"glass\"\nvelocity = [0.0, 0.0, -2.0]\nlattice = { kind = \"simple_cubic\", \
+                origin = [-0.01, 0.02, 0.006], counts = [4, 20, 28], spacing = 9.9e-3, radius = 5e-3 }\n";
+    fs::write(&scene, format!("{}{many}", fs::read_to_string(&scene).unwrap())).unwrap();
+    let folders = [1, 2, 3, 4].map(|threads| {
+        let (out, count) = (place.at(&threads.to_string()), threads.to_string());
+        complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--threads", &count]).output().unwrap(), 0);
+        assert_eq!(summary(&out)["threads"], threads, "enough spheres for them");
+        assert!(summary(&out)["counts"]["mean_contacts"].as_f64().unwrap() > 1000.0);
         out
     });
-    assert_same(&folders[0], &folders[1]);
+    folders[1..].iter().for_each(|folder| assert_same(&folders[0], folder));
 }
 
 /// Starts a run of many steps, stops it as told, and returns the folder; also the folder of a run that was left alone.

@@ -202,11 +202,11 @@ rolling_friction = 0.1
 [contact.touch.cohesion.sjkr]
 [particles.slow]
 material = "ice"
-lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.0], counts = [9, 9, 5], spacing = 2.0e-3, radius = 1.01e-3 }
+lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.0], counts = [15, 15, 5], spacing = 2.0e-3, radius = 1.01e-3 }
 velocity = [1.0, 0.3, 0.0]
 [particles.fast]
 material = "ice"
-lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.01], counts = [9, 9, 4], spacing = 2.0e-3, radius = 1.01e-3 }
+lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.01], counts = [15, 15, 4], spacing = 2.0e-3, radius = 1.01e-3 }
 velocity = [3.0, -1.0, -0.5]
 [boundary.floor]
 plane = { point = [0.0, 0.0, -1.0e-3], normal = [0.0, 0.0, 1.0] }
@@ -260,9 +260,9 @@ fn run(simulation: &mut Simulation, steps: usize) -> usize {
 fn threads_widths_and_saved_states_give_the_same_bits_and_the_book_closes() {
     let mut first = block(1);
     let hidden = first.state().hidden.clone();
-    let spheres_below = 9 * 9;
+    let spheres_below = 15 * 15;
     assert_eq!(hidden.planes.iter().flatten().count(), spheres_below);
-    assert_eq!(hidden.pairs.iter().flatten().count(), 2 * 8 * 9 * 5 + spheres_below * 4 + spheres_below);
+    assert_eq!(hidden.pairs.iter().flatten().count(), 2 * 14 * 15 * 5 + spheres_below * 4 + spheres_below);
     let broken = run(&mut first, 12);
     let bytes = first.state().to_bytes(first.scene().fingerprint);
     let broken = broken + run(&mut first, 12);
@@ -278,11 +278,16 @@ fn threads_widths_and_saved_states_give_the_same_bits_and_the_book_closes() {
     let mut resumed = Simulation::resume(first.scene().clone(), state);
     run(&mut resumed, 12);
     assert_eq!(resumed.state().fingerprint(), expected, "through bytes");
-    let mut other = block(2);
-    assert_eq!(run(&mut other, 24), broken);
-    assert_eq!(other.state().fingerprint(), expected, "two threads");
-    let mut narrow = block(1);
-    narrow.set_width(Width::ALL.into_iter().find(|width| width.offered()).expect("there is a width"));
-    run(&mut narrow, 24);
-    assert_eq!(narrow.state().fingerprint(), expected, "another width");
+    for threads in 2..=4 {
+        let mut other = block(threads);
+        assert_eq!(other.threads(), threads, "enough particles for them");
+        assert_eq!(run(&mut other, 24), broken);
+        assert_eq!(other.state().fingerprint(), expected, "{threads} threads");
+    }
+    for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+        let mut other = block(1);
+        other.set_width(width);
+        run(&mut other, 24);
+        assert_eq!(other.state().fingerprint(), expected, "{width:?}");
+    }
 }

@@ -1,4 +1,4 @@
-//! The modules of `src` import in one direction only.
+//! The modules of `src` import in one direction only, and some words stand in some of them only.
 
 use std::fs;
 use std::path::Path;
@@ -103,6 +103,98 @@ fn no_module_has_a_name_that_says_nothing() {
         search(&path, &mut faults);
     }
     assert!(faults.is_empty(), "{faults:?}");
+}
+
+/// Words that only some places of the sources may say.
+struct Rule {
+    /// The places that may.
+    kept: &'static [&'static str],
+    /// Where they are looked for.
+    searched: &'static [&'static str],
+    /// The words.
+    words: &'static [&'static str],
+    /// Why.
+    why: &'static str,
+}
+
+/// Lane widths and threads.
+const LANES: Rule = Rule {
+    kept: &["src/step"],
+    searched: &["src", "fmu/src"],
+    words: &["lanes::", "Width::", "Shared<", "Lane>", ": Lane", "rayon"],
+    why: "lane widths and threads are the business of the time step",
+};
+
+/// Intrinsics.
+const INTRINSICS: Rule = Rule {
+    kept: &["src/step/lanes"],
+    searched: &["src", "fmu/src"],
+    words: &["std::arch", "core::arch", "std::simd", "is_x86_feature_detected", "target_feature", "_mm"],
+    why: "intrinsics stand with the lanes",
+};
+
+/// Functions that are not exactly rounded, and the fused operation.
+#[rustfmt::skip]
+const FUNCTIONS: Rule = Rule {
+    kept: &[],
+    searched: &["src", "fmu/src"],
+    words: &[
+        ".sin()", ".cos()", ".tan()", ".sin_cos()", ".asin()", ".acos()", ".atan()", ".atan2(", ".sinh()", ".cosh()",
+        ".tanh()", ".exp()", ".exp2()", ".exp_m1()", ".ln()", ".ln_1p()", ".log(", ".log2()", ".log10()", ".powf(",
+        ".cbrt()", ".hypot(", ".mul_add(", "f64::sin", "f64::cos", "f64::tan", "f64::exp", "f64::ln", "f64::powf",
+        "f64::cbrt", "f64::hypot", "f64::mul_add", "f64::atan",
+    ],
+    why: "the platform's own functions differ from one processor to the next; those of libm do not",
+};
+
+/// What would make results depend on when and where they are computed.
+const CHANCE: Rule = Rule {
+    kept: &[],
+    searched: &["src/number.rs", "src/contact", "src/bond", "src/scene", "src/state", "src/step"],
+    words: &["Instant", "SystemTime", "std::env", "HashMap", "HashSet"],
+    why: "the same scene gives the same bits, whenever and wherever",
+};
+
+/// Adds the lines of a file, or of the files of a folder, that say one of the words; tests may.
+fn find_words(path: &Path, rule: &Rule, faults: &mut Vec<String>) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let of_tests = ["trials", "tests.rs"].iter().any(|name| path.ends_with(name));
+    if of_tests || rule.kept.iter().any(|place| path == root.join(place)) {
+        return;
+    }
+    if path.is_dir() {
+        for entry in fs::read_dir(path).unwrap() {
+            find_words(&entry.unwrap().path(), rule, faults);
+        }
+        return;
+    }
+    let text = fs::read_to_string(path).unwrap();
+    for (number, line) in (1..).zip(text.lines().take_while(|line| !line.starts_with("#[cfg(test)]"))) {
+        let code = line.split("//").next().unwrap_or("");
+        for word in rule.words.iter().filter(|word| code.contains(**word)) {
+            faults.push(format!("{}:{number}: {word} stands here, and {}", path.display(), rule.why));
+        }
+    }
+}
+
+#[test]
+fn words_stand_where_they_belong() {
+    let mut faults = Vec::new();
+    for rule in [LANES, INTRINSICS, FUNCTIONS, CHANCE] {
+        for place in rule.searched {
+            find_words(&Path::new(env!("CARGO_MANIFEST_DIR")).join(place), &rule, &mut faults);
+        }
+    }
+    assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+}
+
+#[test]
+fn a_word_in_the_wrong_place_is_seen() {
+    for (rule, most) in [(LANES, 20), (INTRINSICS, 100)] {
+        let mut faults = Vec::new();
+        find_words(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/step"), &Rule { kept: &[], ..rule }, &mut faults);
+        assert!(faults.len() > most, "{} places", faults.len());
+    }
 }
 
 #[test]

@@ -95,6 +95,7 @@ fn lists_of_a_mixture_are_the_same_for_threads_and_lane_widths() {
     let expected = first.state().fingerprint();
     for threads in 2..=4 {
         let mut other = mixture(threads);
+        assert_eq!(other.threads(), threads);
         other.renew_lists();
         assert_eq!(other.state().fingerprint(), expected, "{threads} threads");
     }

@@ -1,6 +1,7 @@
 //! The same scene and inputs give the same bits: for any number of threads, any lane width, after save and restore.
 //!
-//! Hashes are of the whole state: positions alone would forgive what has not yet moved them.
+//! Hashes are of the whole state: positions alone would forgive what has not yet moved them. `every_law.rs` looks at
+//! every law, and at what the platform brings along.
 
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
@@ -148,107 +149,6 @@ fn more_neighbour_lists_change_rounding_only() {
     let apart = largest_difference(&often, &seldom);
     // A hundred steps of 2e-5 s at about 1 m/s, over which rounding of 1e-16 m grows.
     assert!(apart < 1e-12, "{apart:e} m");
-}
-
-/// A bonded block, glued to a plane, that breaks: both formulations that turn vectors and angles.
-const BONDED: &str = r#"
-[run]
-step = 2.0e-7
-threads = 1
-[material.ice]
-youngs_modulus = 1.0e9
-poissons_ratio = 0.3
-density = 1000.0
-[pair.ice.ice]
-restitution = 0.5
-friction = 0.5
-[contact.touch.normal.NORMAL]
-[contact.touch.tangential.history]
-[particles.slow]
-material = "ice"
-lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.0], counts = [6, 6, 4], spacing = 2.0e-3, radius = 1.0e-3 }
-velocity = [1.0, 0.3, 0.0]
-[particles.fast]
-material = "ice"
-lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.008], counts = [6, 6, 4], spacing = 2.0e-3, radius = 1.0e-3 }
-velocity = [40.0, -10.0, 5.0]
-[boundary.floor]
-plane = { point = [0.0, 0.0, -1.0e-3], normal = [0.0, 0.0, 1.0] }
-material = "ice"
-motion = { prescribed = { z = -0.2 } }
-[bond.slow]
-formulation = "FORMULATION"
-between = ["slow", "slow"]
-create_distance = 2.1e-3
-normal_stiffness = 1.0e12
-tangential_stiffness = 4.0e11
-[bond.slow.breakage]
-max_normal_stress = 4.0e6
-max_shear_stress = 4.0e6
-[bond.fast]
-formulation = "FORMULATION"
-between = ["slow", "fast"]
-create_distance = 2.1e-3
-normal_stiffness = 1.0e12
-tangential_stiffness = 4.0e11
-[bond.fast.breakage]
-max_normal_stress = 4.0e6
-max_shear_stress = 4.0e6
-[bond.glue]
-formulation = "FORMULATION"
-between = ["slow", "floor"]
-create_distance = 2.1e-3
-normal_stiffness = 1.0e12
-tangential_stiffness = 4.0e11
-"#;
-
-/// Name and hash of states that contacts, bonds, planes and everything else of this program have made.
-fn hashes() -> Vec<String> {
-    let mut hashes = Vec::new();
-    let mut contacts = simulation(1);
-    run(&mut contacts, 0..8);
-    hashes.push(format!("contacts {:016x}", contacts.state().fingerprint()));
-    for (formulation, normal) in [
-        ("finite_rotation", "hertz]"),
-        ("incremental", "hooke]\ncharacteristic_velocity = 1.0"),
-        ("engine_exact", "hertz]"),
-    ] {
-        let text = BONDED.replace("FORMULATION", formulation).replace("NORMAL]", normal);
-        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-        let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-        let mut bonds = Simulation::new(Arc::new(scene)).expect("the scene starts");
-        for _ in 0..25 {
-            bonds.advance(2.0e-6).expect("it runs");
-        }
-        let broken: u64 = bonds.state().bonds.iter().map(|list| list.broken).sum();
-        assert!(broken > 10, "{formulation}: {broken} bonds broke");
-        hashes.push(format!("{formulation} {:016x}", bonds.state().fingerprint()));
-    }
-    hashes
-}
-
-#[test]
-#[allow(clippy::print_stdout, reason = "the process that started this one reads it")]
-fn hashes_are_told_to_another_process() {
-    for hash in hashes() {
-        println!("hash {hash}");
-    }
-}
-
-#[test]
-fn the_platforms_own_functions_do_not_matter() {
-    let here = hashes();
-    for tunables in ["-AVX2,-FMA", "-AVX2,-FMA,-AVX512F,-AVX512VL,-AVX512DQ,-AVX", "-ERMS,-AVX512F"] {
-        let output = std::process::Command::new(std::env::current_exe().expect("a test is a file"))
-            .args(["--exact", "hashes_are_told_to_another_process", "--nocapture"])
-            .env("GLIBC_TUNABLES", format!("glibc.cpu.hwcaps={tunables}"))
-            .output()
-            .expect("a process starts");
-        let text = String::from_utf8_lossy(&output.stdout);
-        let told = |line: &str| line.split_once("hash ").map(|(_, hash)| hash.to_string());
-        let there: Vec<String> = text.lines().filter_map(told).collect();
-        assert_eq!(there, here, "{tunables}: {text}");
-    }
 }
 
 /// Largest distance of any particle in the two simulations \[m\].
