@@ -5,7 +5,7 @@
 use super::error::OutputError;
 use super::folder::{Folder, Job};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
 /// Jobs that may wait: a frame and what comes with it, and one more.
@@ -23,14 +23,21 @@ pub(super) struct Writer {
 
 impl Writer {
     /// Starts the thread.
-    pub(super) fn start(folder: Folder) -> Result<Self, OutputError> {
-        let path = folder.path().to_owned();
-        let (jobs, queue) = sync_channel(QUEUE);
+    pub(super) fn start(mut folder: Folder) -> Result<Self, OutputError> {
+        Self::with(folder.path().to_owned(), move |job| folder.write(job))
+    }
+
+    /// Starts a thread that does jobs so, until there are no more or one fails.
+    fn with(
+        folder: PathBuf,
+        write: impl FnMut(Job) -> Result<(), OutputError> + Send + 'static,
+    ) -> Result<Self, OutputError> {
+        let (jobs, queue) = sync_channel::<Job>(QUEUE);
         let thread = thread::Builder::new()
             .name("writer".to_owned())
-            .spawn(move || write_all(folder, &queue))
-            .map_err(OutputError::at(&path))?;
-        Ok(Self { jobs: Some(jobs), thread: Some(thread), folder: path })
+            .spawn(move || queue.iter().try_for_each(write))
+            .map_err(OutputError::at(&folder))?;
+        Ok(Self { jobs: Some(jobs), thread: Some(thread), folder })
     }
 
     /// Hands over a job. An error is that of an earlier one.
@@ -59,7 +66,61 @@ impl Drop for Writer {
     }
 }
 
-/// Does jobs until there are no more or one fails.
-fn write_all(mut folder: Folder, queue: &Receiver<Job>) -> Result<(), OutputError> {
-    queue.iter().try_for_each(|job| folder.write(job))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::mpsc::channel;
+    use std::sync::{Arc, Mutex};
+    use std::time::{Duration, Instant};
+
+    /// A row of this time \[s\].
+    fn row(time: usize) -> Job {
+        Job::Row { time: time as f64, values: Vec::new() }
+    }
+
+    #[test]
+    fn a_disk_that_stands_still_holds_the_run_back_and_keeps_no_more_than_the_queue() {
+        let (gate, wait) = channel::<()>();
+        let (written, sent) = (Arc::new(Mutex::new(Vec::new())), Arc::new(AtomicUsize::new(0)));
+        let kept = Arc::clone(&written);
+        let mut writer = Writer::with(PathBuf::new(), move |job| {
+            // Until the gate is dropped.
+            let _ = wait.recv();
+            if let Job::Row { time, .. } = job {
+                kept.lock().unwrap().push(time);
+            }
+            Ok(())
+        })
+        .unwrap();
+        let count = Arc::clone(&sent);
+        let run = thread::spawn(move || {
+            for time in 0..50 {
+                writer.send(row(time)).unwrap();
+                count.fetch_add(1, Ordering::SeqCst);
+            }
+            writer.finish()
+        });
+        let held = || sent.load(Ordering::SeqCst) > QUEUE;
+        let begun = Instant::now();
+        while !held() && begun.elapsed() < Duration::from_secs(60) {
+            thread::yield_now();
+        }
+        thread::sleep(Duration::from_millis(50));
+        assert_eq!(sent.load(Ordering::SeqCst), QUEUE + 1, "one in hand, the others in the queue");
+        drop(gate);
+        run.join().unwrap().unwrap();
+        assert_eq!(*written.lock().unwrap(), (0..50).map(f64::from).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_job_that_fails_is_told_at_the_next_one_and_ends_the_writing() {
+        let mut writer = Writer::with(PathBuf::from("here"), |_| {
+            Err(OutputError::at(&PathBuf::from("history.csv"))(std::io::Error::other("full")))
+        })
+        .unwrap();
+        let told = (0..50).find_map(|time| writer.send(row(time)).err()).unwrap();
+        assert!(told.to_string().contains("history.csv"), "{told}");
+        assert!(writer.finish().is_ok(), "told once");
+    }
 }

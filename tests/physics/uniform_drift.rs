@@ -1,15 +1,13 @@
 //! A jammed bed that drifts with its walls feels what it feels at rest: history survives every new order.
 //!
-//! Without gravity a uniform motion changes nothing but rounding. Spheres of two sizes are pressed and sheared between
-//! driven walls, which loads springs of particles and walls up to sliding, and damped to rest. Then everything moves
-//! 100 diameters while lists are made again and again, with wide skins and narrow ones: cells of other sizes put the
-//! particles in other orders.
+//! Without gravity a uniform motion changes nothing but rounding. A random packing is pressed and sheared between driven
+//! walls until it is jammed and its contacts have slid, and damped to rest. Then everything moves 100 diameters while
+//! lists are made again and again, with wide skins and narrow ones: cells of other sizes put the particles in other
+//! orders.
 
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
-use cograin::state::contacts::SLIDING;
-use cograin::step::Simulation;
-use std::collections::{BTreeMap, BTreeSet};
+use cograin::step::{ContactRecord, Simulation};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -23,20 +21,29 @@ const WALLS: [(&str, usize, f64, f64); 6] = [
     ("lid", 2, WIDTH, -1.0),
 ];
 
-/// Spheres along each axis.
-const ALONG: usize = 5;
-
 /// Mean diameter \[m\].
 const DIAMETER: f64 = 0.01;
 
 /// Distance of opposite walls \[m\].
-const WIDTH: f64 = ALONG as f64 * DIAMETER;
+const WIDTH: f64 = 7.0 * DIAMETER;
+
+/// Volume of the spheres over that between the walls.
+const FILLED: f64 = 0.52;
+
+/// How far opposite walls come nearer, over their distance: spheres then fill 0.61, and cannot but press.
+const SQUEEZED: f64 = 0.05;
+
+/// How far floor and lid are sheared, over their distance.
+const SHEARED: f64 = 0.03;
+
+/// Friction of the spheres.
+const FRICTION: f64 = 0.3;
 
 /// The time step \[s\].
 const STEP: f64 = 1.0e-5;
 
 /// Skins over the mean diameter: cells of other sizes.
-const SKINS: [f64; 4] = [0.05, 0.4, 0.9, 1.6];
+const SKINS: [f64; 7] = [0.05, 0.2, 0.4, 0.6, 0.9, 1.2, 1.6];
 
 /// The scene: bed and walls.
 fn simulation() -> Simulation {
@@ -51,12 +58,12 @@ poissons_ratio = 0.3
 density = 2500.0
 [pair.grain.grain]
 restitution = 0.3
-friction = 0.3
+friction = {FRICTION}
 [contact.touch.normal.hertz]
 [contact.touch.tangential.history]
 [particles.bed]
 material = "grain"
-file = "bed.csv"
+packing = {{ box = [[0.0, 0.0, 0.0], [{WIDTH}, {WIDTH}, {WIDTH}]], solid_fraction = {FILLED}, radius = [0.0045, 0.0055] }}
 "#
     );
     for (name, axis, place, sign) in WALLS {
@@ -69,14 +76,7 @@ file = "bed.csv"
         )
         .expect("text grows");
     }
-    let mut bed = String::from("x,y,z,radius\n");
-    for n in 0..ALONG.pow(3) {
-        let [x, y, z] = [n % ALONG, n / ALONG % ALONG, n / ALONG / ALONG].map(|k| (k as f64 + 0.5) * DIAMETER);
-        let radius = 0.5 * DIAMETER * if n % 3 == 0 { 0.97 } else { 1.005 };
-        writeln!(bed, "{x},{y},{z},{radius}").expect("text grows");
-    }
-    let files = BTreeMap::from([("bed.csv".to_string(), bed.into_bytes())]);
-    let scene = Scene::from_source(&Source { name: "scene.toml".into(), text, files });
+    let scene = Scene::from_source(&Source { name: "scene.toml".into(), text, files: Default::default() });
     let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
     Simulation::new(Arc::new(scene)).expect("the scene starts")
 }
@@ -92,10 +92,15 @@ fn set_walls(simulation: &mut Simulation, drift: [f64; 3], squeezed: f64, sheare
     }
 }
 
+/// Tangential force over the largest that friction allows.
+fn mobilised(contact: &ContactRecord) -> f64 {
+    contact.tangential_force.iter().map(|part| part * part).sum::<f64>().sqrt() / (FRICTION * contact.normal_force)
+}
+
 /// Forces on the bed's spheres in the scene's order, then on the walls \[N\].
 fn forces(simulation: &Simulation) -> Vec<[f64; 3]> {
     let particles = &simulation.state().particles;
-    let bed = (0..ALONG.pow(3)).map(|index| {
+    let bed = (0..particles.len()).map(|index| {
         let [x, y, z, _] = particles.force[particles.slot[index] as usize];
         [x, y, z]
     });
@@ -107,10 +112,12 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
     let mut still = simulation();
     let mut damped = simulation();
     damped.damp_rest(0.7);
+    let mut slid = 0;
     for step in 1..=100 {
         let part = f64::from(step) / 100.0;
-        set_walls(&mut damped, [0.0; 3], 0.012 * part, 0.004 * part);
-        damped.advance(10.0 * STEP).expect("it runs");
+        set_walls(&mut damped, [0.0; 3], SQUEEZED * part.min(0.5) * 2.0, SHEARED * (part - 0.5).max(0.0) * 2.0);
+        damped.advance(20.0 * STEP).expect("it runs");
+        slid = slid.max(damped.contacts().iter().filter(|contact| contact.sliding).count());
     }
     damped.advance(20_000.0 * STEP).expect("it comes to rest");
     still.restore(damped.state());
@@ -129,16 +136,22 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
     let first = forces(&still);
     let largest = first.iter().flatten().fold(0.0_f64, |most, part| most.max(part.abs()));
     let lists = &drifting.state().contacts[0];
-    let sliding = lists.flags.iter().filter(|&&flags| flags & SLIDING != 0).count();
     let loaded = lists.spring.iter().filter(|spring| spring[..3].iter().any(|part| part.abs() > 1e-9)).count();
-    assert!(largest > 1.0 && loaded > 100, "{largest} N, {loaded} springs loaded, {sliding} slide");
+    assert!(largest > 1.0 && loaded > 2 * first.len(), "{largest} N, {loaded} springs loaded");
+    for plane in [false, true] {
+        let shares: Vec<f64> =
+            still.contacts().iter().filter(|at| at.boundary.is_some() == plane).map(mobilised).collect();
+        let (count, most) = (shares.len(), shares.iter().copied().fold(0.0, f64::max));
+        assert!(count > 150 && most > 0.99, "{count} contacts, planes: {plane}; up to {most} of their friction acts");
+    }
+    assert!(slid > 200, "{slid} contacts slid at once");
 
     let rebuilds = drifting.state().clock.rebuilds;
-    let mut orders = BTreeSet::new();
+    let (mut order, mut resorted) = (drifting.state().particles.id.clone(), 0);
     let steps = 2000;
     for step in 1..=steps {
         let drift = way.map(|way| way * f64::from(step));
-        set_walls(&mut drifting, drift, 0.012, 0.004);
+        set_walls(&mut drifting, drift, SQUEEZED, SHEARED);
         drifting.advance(STEP).expect("it drifts");
         if step % 40 == 0 {
             let mut state = drifting.state().clone();
@@ -146,13 +159,16 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
             drifting.restore(&state);
             drifting.renew_lists();
         }
-        orders.insert(drifting.state().particles.id.clone());
+        let now = &drifting.state().particles.id;
+        if *now != order {
+            (order, resorted) = (now.clone(), resorted + 1);
+        }
     }
     still.advance(f64::from(steps) * STEP).expect("it rests");
     let distance = way.iter().map(|way| way * way).sum::<f64>().sqrt() * f64::from(steps) / DIAMETER;
     let renewed = drifting.state().clock.rebuilds - rebuilds;
     assert!(distance > 99.9 && renewed > 100, "{distance} diameters, lists made {renewed} times");
-    assert!(orders.len() > 2, "{} orders of the particles", orders.len());
+    assert!(resorted > 30, "the particles were put in another order {resorted} times");
     for (moving, resting) in forces(&drifting).iter().zip(forces(&still)) {
         for axis in 0..3 {
             let change = (moving[axis] - resting[axis]).abs() / largest;
