@@ -22,30 +22,43 @@ const SERIES: [f64; 9] = [
 ];
 
 /// arctan(√y)/√y for y ≥ 0; 1 at 0.
+#[inline(always)]
+pub fn arctangent_ratio<N: Number>(square: N) -> N {
+    arctangent_series(square)[0]
+}
+
+/// The ratio f = arctan(√y)/√y for y ≥ 0, 1 at 0, and (f − 1)/y, −1/3 at 0.
 ///
 /// Off by less than 3e-16 everywhere. Above 1/16 the angle is halved three times, which takes all of the
 /// half line below tan²(π/16) < 1/16; lanes below are not touched by that.
 #[inline(always)]
-pub fn arctangent_ratio<N: Number>(square: N) -> N {
+pub fn arctangent_series<N: Number>(square: N) -> [N; 2] {
+    let one = N::splat(1.0);
     let far = square.greater(N::splat(NEAR));
-    let mut near = square;
-    let mut factor = N::splat(1.0);
+    let mut sum = series(square);
+    let mut ratio = one + square * sum;
     // Seldom: a bond bent by more than 28 degrees. Lanes that are near keep their values whether or not it is taken.
     if N::any(far) {
-        let (mut reduced, mut shrunk) = (square, N::splat(1.0));
+        let (mut reduced, mut shrunk) = (square, one);
         for _ in 0..3 {
-            let below = N::splat(1.0) + (N::splat(1.0) + reduced).sqrt();
+            let below = one + (one + reduced).sqrt();
             reduced = reduced / (below * below);
             shrunk = shrunk * (N::splat(2.0) / below);
         }
-        near = N::select(far, reduced, square);
-        factor = N::select(far, shrunk, factor);
+        ratio = N::select(far, (one + reduced * series(reduced)) * shrunk, ratio);
+        sum = N::select(far, (ratio - one) / square, sum);
     }
+    [ratio, sum]
+}
+
+/// The polynomial of [`arctangent_series`].
+#[inline(always)]
+fn series<N: Number>(square: N) -> N {
     let mut sum = N::splat(SERIES[8]);
     for index in (0..8).rev() {
-        sum = sum * near + N::splat(SERIES[index]);
+        sum = sum * square + N::splat(SERIES[index]);
     }
-    (N::splat(1.0) + near * sum) * factor
+    sum
 }
 
 /// tan(√x)/√x from x: the Padé fraction of [`super::Quaternion::turned`].
@@ -53,36 +66,32 @@ pub fn arctangent_ratio<N: Number>(square: N) -> N {
 /// Off by less than 1e-16 up to √x = 0.1, 1e-9 up to ½, 3e-7 up to 1.
 #[inline(always)]
 pub fn tangent_ratio<N: Number>(square: N) -> N {
-    let [above, below] = tangent_fraction(square);
+    let above = N::splat(945.0) - square * (N::splat(105.0) - square);
+    let below = N::splat(945.0) - square * (N::splat(420.0) - N::splat(15.0) * square);
     above / below
 }
 
-/// Numerator and denominator of [`tangent_ratio`].
+/// Where the vector (x, y) lies within 14 degrees of the x axis.
 #[inline(always)]
-pub fn tangent_fraction<N: Number>(square: N) -> [N; 2] {
-    let above = N::splat(945.0) - square * (N::splat(105.0) - square);
-    let below = N::splat(945.0) - square * (N::splat(420.0) - N::splat(15.0) * square);
-    [above, below]
+pub fn is_flat<N: Number>(x: N, y: N) -> N::Mask {
+    N::both(x.greater(N::zero()), (x * N::splat(NEAR_TANGENT)).greater(y.abs()))
 }
 
-/// Twice the angle of the vector (x, y) from the x axis, in −2π … 2π.
+/// Twice the angle of the vector (x, y) from the x axis, in −2π … 2π. `tangent` is y/x where it [`is_flat`].
 #[inline(always)]
-pub fn twice_angle<N: Number>(x: N, y: N) -> N {
+pub fn twice_angle<N: Number>(x: N, y: N, flat: N::Mask, tangent: N) -> N {
     let zero = N::zero();
-    // Ahead and flat: 2 arctan(y/x), in the polynomial's near range. Elsewhere by the half angle, which needs a root.
-    let flat = N::both(x.greater(zero), (x * N::splat(NEAR_TANGENT)).greater(y.abs()));
+    let near = N::splat(2.0) * tangent * (N::splat(1.0) + tangent * tangent * series(tangent * tangent));
     let steep = N::select(flat, zero, N::splat(1.0)).greater(zero);
-    let mut tangent = y / N::select(flat, x, N::splat(1.0));
-    let mut factor = N::splat(2.0);
-    if N::any(steep) {
-        let length = (x * x + y * y).sqrt();
-        tangent = N::select(flat, tangent, y / (length + x.abs()));
-        factor = N::select(flat, factor, N::splat(4.0));
+    // Seldom: a bond twisted by more than 28 degrees. By the half angle, which needs a root.
+    if !N::any(steep) {
+        return near;
     }
-    let acute = factor * tangent * arctangent_ratio(tangent * tangent);
+    let tangent = y / ((x * x + y * y).sqrt() + x.abs());
+    let acute = N::splat(4.0) * tangent * arctangent_ratio(tangent * tangent);
     let turn = N::splat(std::f64::consts::TAU);
     let behind = N::select(zero.greater(y), -turn, turn) - acute;
-    N::select(zero.greater(x), behind, acute)
+    N::select(flat, near, N::select(zero.greater(x), behind, acute))
 }
 
 /// The angle that differs from `angle` by whole double turns (4π) and is nearest to `last`.
@@ -119,11 +128,16 @@ mod tests {
         }
     }
 
+    /// Twice the angle of a vector.
+    fn twice(x: f64, y: f64) -> f64 {
+        twice_angle(x, y, is_flat(x, y), y / x)
+    }
+
     #[test]
     fn twice_the_angle_in_all_quarters() {
         for step in -62..=62 {
             let angle = f64::from(step) * 0.05;
-            let found = twice_angle(3.0 * libm::cos(angle), 3.0 * libm::sin(angle));
+            let found = twice(3.0 * libm::cos(angle), 3.0 * libm::sin(angle));
             assert!((found - 2.0 * angle).abs() < 2e-15, "{angle}: {found}");
         }
     }
@@ -133,7 +147,7 @@ mod tests {
         let mut last = 0.0;
         for step in 0..1000 {
             let angle = f64::from(step) * 0.3;
-            last = continued(twice_angle(libm::cos(angle / 2.0), libm::sin(angle / 2.0)), last);
+            last = continued(twice(libm::cos(angle / 2.0), libm::sin(angle / 2.0)), last);
             assert!((last - angle).abs() < 1e-12, "{angle}: {last}");
         }
     }

@@ -52,6 +52,7 @@ impl Formulation for EngineExact {
     const ROWS: usize = 3;
     const FIXED_ROWS: usize = 0;
     const NEEDS_ATTITUDES: bool = false;
+    const RELAXES: bool = true;
 
     #[inline(always)]
     fn create<N: Number>(_law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {

@@ -1,6 +1,6 @@
 //! Force and moments as the gradient of one stored energy of positions and attitudes.
 
-use super::angle::{arctangent_ratio, continued, tangent_ratio, twice_angle};
+use super::angle::{arctangent_ratio, arctangent_series, continued, is_flat, tangent_ratio, twice_angle};
 use super::engine_exact::relaxation_loss;
 use super::{Coefficients, Elastic, Formulation, Motion, Pair, Quaternion, Rows};
 use crate::number::{Number, Vector};
@@ -44,17 +44,11 @@ pub struct FiniteRotation<const RELAXING: bool>;
 /// Largest square of tan(|φ|/2) that is followed: |φ| up to π − 2e-4.
 const STEEPEST: f64 = 1e8;
 
-/// Smallest divisor for the square of tan(|φ|/2), of which the product of two is still a number; what it divides is 0 to
-/// rounding long before.
-const LEAST_SQUARE: f64 = 1e-140;
-
 /// One body's end of the bond.
 #[derive(Clone, Copy)]
 struct End<N: Number> {
     /// a: the axis at creation, carried by the body.
     carried: Vector<N>,
-    /// a·e.
-    cosine: N,
     /// 1/(1 + a·e).
     share: N,
     /// m = tan(|φ|/2) φ/|φ|.
@@ -63,36 +57,18 @@ struct End<N: Number> {
     square: N,
     /// arctan(|m|)/|m|.
     ratio: N,
-    /// Twice its derivative with respect to |m|².
+    /// (arctan(|m|)/|m| − 1)/|m|².
     slope: N,
 }
 
 impl<N: Number> End<N> {
-    /// Of two bodies that carry these axes. They share their divisions, which are dear.
+    /// Of the body that carries this axis, whose product a·d and M = a × d are given, and 1/(r + a·d) for this distance.
     #[inline(always)]
-    fn both(carried_i: Vector<N>, carried_j: Vector<N>, axis: Vector<N>) -> [Self; 2] {
-        let one = N::splat(1.0);
-        let (cosine_i, cosine_j) = (carried_i.dot(axis), carried_j.dot(axis));
-        let (above_i, above_j) = (one + cosine_i, one + cosine_j);
-        let product = one / (above_i * above_j);
-        let mut i = Self::of(carried_i, cosine_i, product * above_j, axis);
-        let mut j = Self::of(carried_j, cosine_j, product * above_i, axis);
-        // d(arctan(√y)/√y)/dy = (1/(1 + y) − arctan(√y)/√y)/(2 y), and 1/(1 + y) = (1 + a·e)/2. What it
-        // loses to cancellation near y = 0 is multiplied by y again.
-        let least = N::splat(LEAST_SQUARE);
-        let (square_i, square_j) = (i.square.max(least), j.square.max(least));
-        let product = one / (square_i * square_j);
-        i.slope = (N::splat(0.5) * above_i - i.ratio) * (product * square_j);
-        j.slope = (N::splat(0.5) * above_j - j.ratio) * (product * square_i);
-        [i, j]
-    }
-
-    /// With all but the slope.
-    #[inline(always)]
-    fn of(carried: Vector<N>, cosine: N, share: N, axis: Vector<N>) -> Self {
-        let tangent = carried.cross(axis) * share;
-        let square = tangent.dot(tangent);
-        Self { carried, cosine, share, tangent, square, ratio: arctangent_ratio(square), slope: N::zero() }
+    fn of(carried: Vector<N>, along: N, across: Vector<N>, distance: N, per_sum: N) -> Self {
+        // |m|² = (1 − a·e)/(1 + a·e): what it loses to cancellation is lost beside 1.
+        let square = (distance - along) * per_sum;
+        let [ratio, slope] = arctangent_series(square);
+        Self { carried, share: distance * per_sum, tangent: across * per_sum, square, ratio, slope }
     }
 
     /// φ: rotation vector from the carried axis to the bond's \[rad\].
@@ -101,16 +77,18 @@ impl<N: Number> End<N> {
         self.tangent * (N::splat(2.0) * self.ratio)
     }
 
-    /// From ∂U/∂φ: the torque on the body, and ∂U/∂e \[N m\].
+    /// Torque on the body from ∂U/∂φ and from the torsion, with which a turn about the axis is resisted \[N m\].
+    ///
+    /// The part of the gradient g along φ passes as it is, that across φ times |φ|/tan|φ| = f (1 − m²), f = arctan|m|/|m|;
+    /// along the axis comes −φ·(a × g)/|φ| and what else it takes that the torque is one of the energy.
     #[inline(always)]
-    fn moment(&self, gradient: Vector<N>, axis: Vector<N>) -> (Vector<N>, Vector<N>) {
-        let by_tangent = gradient * (N::splat(2.0) * self.ratio)
-            + self.tangent * (N::splat(2.0) * self.slope * gradient.dot(self.tangent));
-        let along = by_tangent.dot(self.tangent);
-        let to_axis = (by_tangent.cross(self.carried) - self.carried * along) * self.share;
-        let torque =
-            self.tangent * along - (axis * self.carried.dot(by_tangent) - by_tangent * self.cosine) * self.share;
-        (torque, to_axis)
+    fn torque(&self, gradient: Vector<N>, torsion: N, axis: Vector<N>) -> Vector<N> {
+        let one = N::splat(1.0);
+        let rest = one - self.square;
+        let along = gradient.dot(self.tangent) * (one - self.slope * rest);
+        let twisting = torsion * self.share;
+        let about = N::splat(2.0) * self.ratio * self.share * self.carried.dot(gradient);
+        gradient * (self.ratio * rest) + self.tangent * along + self.carried * twisting + axis * (twisting - about)
     }
 
     /// The carried axis for which φ is this \[rad\]; also its m.
@@ -130,20 +108,11 @@ impl<N: Number> End<N> {
     }
 }
 
-/// The turn about e that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i), not normalised.
-///
-/// Its vector part lies along e; given are the scalar part and the part along e.
-#[inline(always)]
-fn twist<N: Number>(relative: Quaternion<N>, i: &End<N>, j: &End<N>, axis: Vector<N>) -> (N, N) {
-    let scalar = relative.scalar - j.tangent.dot(relative.vector);
-    let vector = relative.vector + j.tangent * relative.scalar + j.tangent.cross(relative.vector);
-    (scalar + vector.dot(i.tangent), axis.dot(vector) - i.tangent.cross(axis).dot(vector))
-}
-
 impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
     const ROWS: usize = 3;
     const FIXED_ROWS: usize = if RELAXING { 0 } else { 2 };
     const NEEDS_ATTITUDES: bool = true;
+    const RELAXES: bool = RELAXING;
 
     /// The reference is that of the beginning of the time step, but for the distance: the step's shear, twist and
     /// bending count, as in the other formulations.
@@ -167,10 +136,30 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
 
         let own = Vector::new(ox, oy, oz);
         let frame_j = pair.attitude_j * Quaternion::from_row(other);
-        let [i, j] = End::both(pair.attitude_i.turn(own), frame_j.turn(own), axis);
+        let (connection, distance) = (pair.connection, motion.distance);
+        let [carried_i, carried_j] = [pair.attitude_i.turn(own), frame_j.turn(own)];
+        let [along_i, along_j] = [carried_i.dot(connection), carried_j.dot(connection)];
+        let [sum_i, sum_j] = [distance + along_i, distance + along_j];
+        let [across_i, across_j] = [carried_i.cross(connection), carried_j.cross(connection)];
+
+        // The turn that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i). It is about e; here
+        // its scalar part and that along e, both times the sums. With m = M/sum: e·(M × v) = …, so that no product of
+        // three vectors is left.
         let relative = frame_j * pair.attitude_i.conjugate();
-        let (along, across) = twist(relative, &i, &j, axis);
-        let whole_twist = continued(twice_angle(along, across), last_twist);
+        let vector = relative.vector * sum_j + across_j * relative.scalar + across_j.cross(relative.vector);
+        let scalar = relative.scalar * sum_j - across_j.dot(relative.vector);
+        let along = scalar * sum_i + vector.dot(across_i);
+        let across = connection.dot(vector) + distance * carried_i.dot(vector);
+
+        // One division for all three: 1/sum_i, 1/sum_j and, where the twist is small, the tangent of half of it.
+        let flat = is_flat(along, across);
+        let divisor = N::select(flat, along, one);
+        let shared = one / (sum_i * sum_j * divisor);
+        let per_sums = divisor * shared;
+        let i = End::of(carried_i, along_i, across_i, distance, sum_j * per_sums);
+        let j = End::of(carried_j, along_j, across_j, distance, sum_i * per_sums);
+        let tangent = across * (sum_i * sum_j * shared);
+        let whole_twist = continued(twice_angle(along, across, flat, tangent), last_twist);
         let twisted = whole_twist - free_twist;
         let (rotation_i, rotation_j) = (i.rotation(), j.rotation());
         let sheared = rotation_i * pair.share_i + rotation_j * pair.share_j;
@@ -184,11 +173,10 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
         let bending = bent * bending_stiffness;
         let shearing = sheared * shear_stiffness;
 
-        let (torque_i, axis_i) = i.moment(shearing * pair.share_i + bending, axis);
-        let (torque_j, axis_j) = j.moment(shearing * pair.share_j - bending, axis);
-        let to_axis = axis_i + axis_j + (i.tangent - j.tangent) * torsion;
-        let across_axis = to_axis - axis * to_axis.dot(axis);
-        let force = axis * normal - across_axis * (one / motion.distance);
+        let torque_i = i.torque(shearing * pair.share_i + bending, torsion, axis);
+        let torque_j = j.torque(shearing * pair.share_j - bending, -torsion, axis);
+        // U does not change when the pair is turned as a whole: d × F + T_i + T_j = 0.
+        let force = axis * normal + axis.cross(torque_i + torque_j) * motion.per_distance;
 
         let left = law.left();
         let parts = [
@@ -232,8 +220,8 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
             torsion,
             bending,
             force,
-            torque_i: torque_i + (i.carried + axis) * (torsion * i.share),
-            torque_j: torque_j - (j.carried + axis) * (torsion * j.share),
+            torque_i,
+            torque_j,
             energy,
             relaxed: if RELAXING { relaxation_loss(left, parts) } else { N::zero() },
             overbent,

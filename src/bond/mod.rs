@@ -10,7 +10,7 @@
 //! 2. calls [`BondLaw::react`] with the [`Coefficients`] of this step;
 //! 3. adds force and torque to i, takes force from j, adds the torque of j;
 //! 4. stores rows [`BondLaw::FIXED_ROWS`] to [`BondLaw::ROWS`] (none in the evaluation before the first step);
-//! 5. where [`Reaction::cause`] is not 0, removes the bond and books [`Reaction::elastic`] as released; where
+//! 5. where [`Reaction::cause`] is not 0, removes the bond and books what it carried as released; where
 //!    [`Reaction::overbent`] holds, stops with an error that names the pair.
 //!
 //! Coefficients are the same for all bonds of one law; what differs from bond to bond (radius, arms,
@@ -38,7 +38,7 @@ pub use attitude::Quaternion;
 pub use breakage::{Breakage, Cause};
 pub use coefficients::{Coefficients, Law};
 pub use damping::Damping;
-pub use motion::{Body, Motion, Pair, Section};
+pub use motion::{Body, Motion, Pair, Section, Turn};
 
 use crate::number::{Number, Vector};
 use std::marker::PhantomData;
@@ -86,6 +86,8 @@ pub trait Formulation: Send + Sync + 'static {
     const FIXED_ROWS: usize;
     /// Whether bodies need an attitude.
     const NEEDS_ATTITUDES: bool;
+    /// Whether [`Elastic::relaxed`] says anything.
+    const RELAXES: bool;
     /// State of a bond that is made now. The increment of the present time step (of length
     /// [`Coefficients::step`], 0 before the first) still counts: the evaluation that follows has it.
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
@@ -113,8 +115,6 @@ pub struct Reaction<N: Number> {
     pub damping_torque_i: Vector<N>,
     /// The part of `torque_j` that damping made \[N m\].
     pub damping_torque_j: Vector<N>,
-    /// Elastic energy; where the bond broke, what is released \[J\].
-    pub elastic: N,
     /// Elastic energy that relaxation took in this evaluation \[J\].
     pub relaxed: N,
     /// Energy that damping took in this time step, by the rates of half a step earlier \[J\].
@@ -127,6 +127,25 @@ pub struct Reaction<N: Number> {
     pub rows: Rows<N>,
 }
 
+impl<N: Number> Reaction<N> {
+    /// Takes away what acts, where the mask holds.
+    #[inline(always)]
+    fn rest(&mut self, broken: N::Mask) {
+        let acting = [
+            &mut self.force,
+            &mut self.torque_i,
+            &mut self.torque_j,
+            &mut self.damping_force,
+            &mut self.damping_torque_i,
+            &mut self.damping_torque_j,
+        ];
+        for vector in acting {
+            *vector = Vector::select(broken, Vector::zero(), *vector);
+        }
+        self.damped = N::select(broken, N::zero(), self.damped);
+    }
+}
+
 /// A bond law, whole: what the pass in the time step is generic over.
 pub trait BondLaw: Send + Sync + 'static {
     /// Rows of state.
@@ -137,6 +156,8 @@ pub trait BondLaw: Send + Sync + 'static {
     const NEEDS_ATTITUDES: bool;
     /// Whether [`Body::mass`] and [`Body::inertia`] are looked at.
     const NEEDS_MASSES: bool;
+    /// Whether [`Reaction::relaxed`] says anything.
+    const RELAXES: bool;
     /// Whether [`Reaction::damped`] says anything.
     const DAMPS: bool;
     /// State of a bond that is made now; evaluate it in the same step with [`BondLaw::react`].
@@ -181,6 +202,7 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
     const FIXED_ROWS: usize = F::FIXED_ROWS;
     const NEEDS_ATTITUDES: bool = F::NEEDS_ATTITUDES;
     const NEEDS_MASSES: bool = D::NEEDS_MASSES;
+    const RELAXES: bool = F::RELAXES;
     const DAMPS: bool = D::ACTIVE;
 
     #[inline(always)]
@@ -206,22 +228,25 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
             let turning = damping_torque_i.dot(pair.spin_i) + damping_torque_j.dot(pair.spin_j);
             damped = -(damping_force.dot(pair.velocity) + turning) * law.step;
         }
-        let none = Vector::zero();
-        let broken = cause.greater(N::zero());
-        Reaction {
-            force: Vector::select(broken, none, elastic.force + damping_force),
-            torque_i: Vector::select(broken, none, elastic.torque_i + damping_torque_i),
-            torque_j: Vector::select(broken, none, elastic.torque_j + damping_torque_j),
-            damping_force: Vector::select(broken, none, damping_force),
-            damping_torque_i: Vector::select(broken, none, damping_torque_i),
-            damping_torque_j: Vector::select(broken, none, damping_torque_j),
-            elastic: elastic.energy,
+        let mut reaction = Reaction {
+            force: elastic.force + damping_force,
+            torque_i: elastic.torque_i + damping_torque_i,
+            torque_j: elastic.torque_j + damping_torque_j,
+            damping_force,
+            damping_torque_i,
+            damping_torque_j,
             relaxed: elastic.relaxed,
-            damped: N::select(broken, N::zero(), damped),
+            damped,
             cause,
             overbent: elastic.overbent,
             rows: elastic.rows,
+        };
+        // Seldom, and nine selections less in every other step.
+        let broken = cause.greater(N::zero());
+        if N::any(broken) {
+            reaction.rest(broken);
         }
+        reaction
     }
 
     fn carried(law: &Law, pair: &Pair, rows: &Rows) -> Carried {

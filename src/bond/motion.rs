@@ -117,6 +117,92 @@ impl<N: Number> Section<N> {
     }
 }
 
+/// How the axis of a pair turned over the step that led to its positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn<N: Number = f64> {
+    /// e: axis of this step.
+    pub axis: Vector<N>,
+    /// r \[m\].
+    pub distance: N,
+    /// 1/r \[1/m\].
+    pub per_distance: N,
+    /// d of mid-step \[m\].
+    pub middle: Vector<N>,
+    /// (e₀ + e)/(1 + e₀·e), with the axis e₀ of the last step: along the mean axis, longer than 1 by the second order of
+    /// the turn.
+    pub bisector: Vector<N>,
+    /// Tangent of half of the mean spin's turn about the mean axis over the step, as a fraction: above and below.
+    half_twist: [N; 2],
+    /// 2 over the sum of the squares of both.
+    per_half_twist: N,
+    /// That half itself \[rad\].
+    half_angle: N,
+}
+
+impl<N: Number> Turn<N> {
+    /// Of this pair. Two roots and one division, in homogeneous form: e₀ + e is (d₀ r + d r₀)/(r₀ r).
+    #[inline(always)]
+    pub fn of(law: &Coefficients<N>, pair: &Pair<N>) -> Self {
+        let connection = pair.connection;
+        let last = connection - pair.velocity * law.step;
+        let (distance, last_distance) = (connection.length(), last.length());
+        let sum = last * distance + connection * last_distance;
+        // r₀ r (1 + e₀·e).
+        let opening = distance * last_distance + connection.dot(last);
+        // tan x/x = (15 − x²)/(15 − 6 x²), x = h/opening; off by x⁷/1575.
+        let twist = (pair.spin_i + pair.spin_j).dot(sum) * (law.step * N::splat(0.25));
+        let (square, opening_square) = (twist * twist, opening * opening);
+        let whole = N::splat(15.0) * opening_square;
+        let half_twist = [twist * (whole - square), opening * (whole - N::splat(6.0) * square)];
+        let squares = half_twist[0] * half_twist[0] + half_twist[1] * half_twist[1];
+        let product = distance * opening;
+        let shared = N::splat(1.0) / (product * squares);
+        let per_product = squares * shared;
+        let per_opening = distance * per_product;
+        let per_distance = opening * per_product;
+        Self {
+            axis: connection * per_distance,
+            distance,
+            per_distance,
+            middle: (connection + last) * N::splat(0.5),
+            bisector: sum * per_opening,
+            half_twist,
+            per_half_twist: N::splat(2.0) * product * shared,
+            half_angle: twist * per_opening,
+        }
+    }
+
+    /// The shortest turn from the axis of the last step to that of this one, of a vector across the former. Any vector
+    /// loses what it has along the mean axis; what is across that comes to lie across the axis of this step, right to
+    /// the second order.
+    #[inline(always)]
+    pub fn onwards(&self, vector: Vector<N>) -> Vector<N> {
+        vector - self.bisector * vector.dot(self.axis)
+    }
+
+    /// About the axis of this step by the mean spin's turn, of a vector across it.
+    #[inline(always)]
+    pub fn about(&self, vector: Vector<N>) -> Vector<N> {
+        let [above, below] = self.half_twist;
+        let lost = above * above * self.per_half_twist;
+        let sine = above * below * self.per_half_twist;
+        vector * (N::splat(1.0) - lost) + (self.axis * sine).cross(vector)
+    }
+
+    /// About the mean axis back by half of that, to the first order: for increments of mid-step, which turn on by the
+    /// other half alone.
+    #[inline(always)]
+    pub fn half_back(&self, vector: Vector<N>) -> Vector<N> {
+        vector - (self.bisector * self.half_angle).cross(vector)
+    }
+
+    /// Relative velocity of the two ends of a bond at mid-step, the normal part included \[m/s\].
+    #[inline(always)]
+    pub fn slip(&self, pair: &Pair<N>) -> Vector<N> {
+        pair.velocity + self.middle.cross(pair.spin_i * pair.share_i + pair.spin_j * pair.share_j)
+    }
+}
+
 /// Axis, distance and rates of a pair at the positions of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<N: Number = f64> {
@@ -124,6 +210,8 @@ pub struct Motion<N: Number = f64> {
     pub axis: Vector<N>,
     /// r \[m\].
     pub distance: N,
+    /// 1/r \[1/m\].
+    pub per_distance: N,
     /// v_n: velocity along the axis, negative while approaching \[m/s\].
     pub normal_velocity: N,
     /// v_s: shear velocity \[m/s\].
@@ -141,7 +229,8 @@ impl<N: Number> Motion<N> {
     #[inline(always)]
     pub fn with_arm(law: &Coefficients<N>, pair: &Pair<N>, slip_share_i: N) -> Self {
         let distance = pair.connection.length();
-        let axis = pair.connection * (N::splat(1.0) / distance);
+        let per_distance = N::splat(1.0) / distance;
+        let axis = pair.connection * per_distance;
         let normal_velocity = pair.velocity.dot(axis);
         let turning = pair.spin_i * slip_share_i + pair.spin_j * pair.share_j;
         let slip = pair.velocity - axis * normal_velocity + pair.connection.cross(turning);
@@ -150,10 +239,28 @@ impl<N: Number> Motion<N> {
         Self {
             axis,
             distance,
+            per_distance,
             normal_velocity,
             slip,
             twist_rate,
             bending_rate: relative_spin - axis * twist_rate,
+            section: Section::of(law.radius_multiplier, pair.least_radius),
+        }
+    }
+    /// Of this pair, with rates about the mean axis of the step, at whose middle the velocities are; slip and bending lie
+    /// across the axis of this step. A bond that turns as a whole has no rates.
+    #[inline(always)]
+    pub fn midway(law: &Coefficients<N>, pair: &Pair<N>) -> Self {
+        let turn = Turn::of(law, pair);
+        let relative_spin = pair.spin_i - pair.spin_j;
+        Self {
+            axis: turn.axis,
+            distance: turn.distance,
+            per_distance: turn.per_distance,
+            normal_velocity: pair.velocity.dot(turn.bisector),
+            slip: turn.onwards(turn.slip(pair)),
+            twist_rate: relative_spin.dot(turn.bisector),
+            bending_rate: turn.onwards(relative_spin),
             section: Section::of(law.radius_multiplier, pair.least_radius),
         }
     }

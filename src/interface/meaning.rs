@@ -78,7 +78,7 @@ impl Meaning {
             Self::KineticEnergy => simulation.kinetic_energy(),
             Self::ElasticEnergy => simulation.elastic_energy(),
             Self::DissipatedEnergy => simulation.dissipated_energy().unwrap_or(0.0),
-            Self::BondElasticEnergy => state.bonds.iter().map(|list| list.elastic).sum(),
+            Self::BondElasticEnergy => simulation.bond_elastic_energy(),
             Self::BondDissipatedEnergy => state.bonds.iter().map(crate::state::BondList::dissipated).sum(),
             Self::EnergyResidual => simulation.energy_residual().unwrap_or(0.0),
             Self::ContactCount => return count(simulation.contact_count() as u64),

@@ -28,8 +28,6 @@ pub struct BondList {
     pub made: u64,
     /// Bonds broken so far.
     pub broken: u64,
-    /// Elastic energy in the last evaluation \[J\].
-    pub elastic: f64,
     /// Elastic energy that relaxation took so far \[J\].
     pub relaxed: f64,
     /// Energy that damping took so far \[J\].

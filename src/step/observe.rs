@@ -213,6 +213,12 @@ impl Simulation {
         self.passes.iter().map(|pass| pass.elastic_energy(&self.state)).sum()
     }
 
+    /// Elastic energy of bonds alone \[J\].
+    pub fn bond_elastic_energy(&self) -> f64 {
+        let bonds = self.passes.iter().filter(|pass| pass.source() == Source::Bonds);
+        bonds.map(|pass| pass.elastic_energy(&self.state)).sum()
+    }
+
     /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts; infinite without
     /// contacts.
     pub fn unbalanced_force(&self) -> f64 {

@@ -214,7 +214,7 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
             results.push(piece.done);
         }
         for done in &mut results {
-            done.release(context.step, |bond| self.carried(state, bond).power);
+            done.release(context.step, |bond| self.carried(state, bond));
         }
         book(state, self.index, results)
     }
@@ -297,6 +297,6 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
     }
 
     fn elastic_energy(&self, state: &State) -> f64 {
-        state.bonds[self.index].elastic
+        (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
     }
 }

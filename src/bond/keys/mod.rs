@@ -257,7 +257,8 @@ impl Keys {
         match (self.formulation, self.relaxation) {
             (FormulationChoice::FiniteRotation, None) => self.any::<FiniteRotation<false>, V>(visitor),
             (FormulationChoice::FiniteRotation, Some(_)) => self.any::<FiniteRotation<true>, V>(visitor),
-            (FormulationChoice::Incremental, _) => self.any::<Incremental, V>(visitor),
+            (FormulationChoice::Incremental, None) => self.any::<Incremental<false>, V>(visitor),
+            (FormulationChoice::Incremental, Some(_)) => self.any::<Incremental<true>, V>(visitor),
             (FormulationChoice::EngineExact, _) => match self.damping {
                 None => self.with::<EngineExact, Undamped, V>(visitor),
                 Some(_) => self.with::<EngineExact, Componentwise, V>(visitor),

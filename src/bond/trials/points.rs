@@ -70,7 +70,7 @@ fn the_engine_keeps_but_does_not_apply_bending_at_rest() {
     assert_eq!(found.rows, rows);
     // Laid out as the other rate form keeps it, the same load acts.
     let rows = [[0.0, 0.0, 0.0, 2.0], [0.0, 0.6, 0.8, 0.0], [0.0; 4]];
-    let found = Composed::<Incremental, Undamped, Distance>::react(&law().coefficients(0.1), &pair, &rows);
+    let found = Composed::<Incremental<false>, Undamped, Distance>::react(&law().coefficients(0.1), &pair, &rows);
     assert!((found.torque_i - Vector::new(0.0, 0.6, 0.8)).length() < 1e-15);
 }
 
@@ -81,7 +81,7 @@ fn the_evaluation_before_the_first_step_changes_nothing() {
     let rows = stored([0.0, 2.0, 0.0], 0.3, [0.0, 0.6, 0.8]);
     assert_eq!(Composed::<EngineExact, Undamped, Distance>::react(&law, &pair, &rows).rows, rows);
     let rows = [[0.0, 2.0, 0.0, 2.0], [0.0, 0.6, 0.8, 0.3], [0.0; 4]];
-    assert_eq!(Composed::<Incremental, Undamped, Distance>::react(&law, &pair, &rows).rows, rows);
+    assert_eq!(Composed::<Incremental<false>, Undamped, Distance>::react(&law, &pair, &rows).rows, rows);
     let rows = <FiniteRotation<false> as Formulation>::create(&law, &pair);
     assert_eq!(Composed::<FiniteRotation<false>, Undamped, Distance>::react(&law, &pair, &rows).rows, rows);
 }

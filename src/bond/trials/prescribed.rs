@@ -74,8 +74,8 @@ fn a_turning_bond_loses_its_shear_in_the_engine_alone() {
         // The next term of the exponent is π⁴ · 4/(3 n³).
         assert!((left - expected).abs() < 2e-4 / (f64::from(steps) / 400.0), "{left} for {expected}");
 
-        let loaded = along::<Incremental>(&law, &path, Some(sheared([0.0, 0.1, 0.0])), 0.0, turn, steps);
-        let empty = along::<Incremental>(&law, &path, Some(sheared([0.0; 3])), 0.0, turn, steps);
+        let loaded = along::<Incremental<false>>(&law, &path, Some(sheared([0.0, 0.1, 0.0])), 0.0, turn, steps);
+        let empty = along::<Incremental<false>>(&law, &path, Some(sheared([0.0; 3])), 0.0, turn, steps);
         assert!(((loaded.shear - empty.shear).y / 0.1 - 1.0).abs() < 1e-11);
     }
 }
@@ -86,7 +86,7 @@ fn a_shear_force_does_not_turn_about_the_axis_in_the_engine_alone() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let engine = along::<EngineExact>(&law, &path, Some(sheared([0.0, 0.1, 0.0])), 0.0, quarter, 90);
     assert!((engine.shear - Vector::new(0.0, 0.1, 0.0)).length() < 1e-13, "{:?}", engine.shear);
-    let turned = along::<Incremental>(&law, &path, Some(sheared([0.0, 0.1, 0.0])), 0.0, quarter, 90);
+    let turned = along::<Incremental<false>>(&law, &path, Some(sheared([0.0, 0.1, 0.0])), 0.0, quarter, 90);
     assert!((turned.shear - Vector::new(0.0, 0.0, 0.1)).length() < 1e-13, "{:?}", turned.shear);
 
     // finite_rotation keeps no force; its load is a displacement.
@@ -129,7 +129,7 @@ fn incremental_converges_with_the_square_of_the_step() {
         [(whole + own_i, turn(whole).turn(away)), (whole + own_j, Vector::new(0.1 * s, 0.0, 0.2 * time))]
     };
     let law = law();
-    let end = |steps| along::<Incremental>(&law, &path, None, 0.0, 3.0, steps);
+    let end = |steps| along::<Incremental<false>>(&law, &path, None, 0.0, 3.0, steps);
     let fine = end(16_000);
     let error = |steps| {
         let found = end(steps);
@@ -158,7 +158,7 @@ fn rate_form_and_stored_energy_agree_for_small_strain() {
             // The own turns first, then that of the pair: a rotation vector for each through the product.
             [(compose(whole, i), turn(whole).turn(away)), (compose(whole, j), Vector::zero())]
         };
-        let one = along::<Incremental>(&law, &path, None, 0.0, 2.0, 4000);
+        let one = along::<Incremental<false>>(&law, &path, None, 0.0, 2.0, 4000);
         let other = along::<FiniteRotation<false>>(&law, &path, None, 0.0, 2.0, 4000);
         let worst = (one.force - other.force).length() + (one.torque_i - other.torque_i).length();
         worst / other.force.length()

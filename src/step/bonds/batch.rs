@@ -58,8 +58,6 @@ struct Buffer {
     second_torque: [Row; ROOM],
     /// 0, or why the bond broke.
     cause: [f64; ROOM],
-    /// Elastic energy, or what is released.
-    elastic: [f64; ROOM],
     /// Elastic energy that relaxation took.
     relaxed: [f64; ROOM],
     /// Energy that damping took.
@@ -79,7 +77,6 @@ impl Buffer {
             first_torque: rows,
             second_torque: rows,
             cause: numbers,
-            elastic: numbers,
             relaxed: numbers,
             damped: numbers,
             broken: false,
@@ -87,18 +84,20 @@ impl Buffer {
         }
     }
 
-    /// Notes the bonds that broke and sums the energies, elastic ones of those that hold, of a batch of `count` bonds
+    /// Notes the bonds that broke and sums what the bonds lost of a batch of `count` bonds
     /// from `first`.
-    fn sum(&mut self, first: usize, count: usize, energies: &mut [Energies; 3], done: &mut Done) {
+    fn sum<L: BondLaw>(&mut self, first: usize, count: usize, energies: &mut [Energies; 2], done: &mut Done) {
         if self.broken {
             for place in (0..count).filter(|&place| self.cause[place] != 0.0) {
-                done.broken.push(((first + place) as u32, self.cause[place], self.elastic[place]));
-                self.elastic[place] = 0.0;
+                done.broken.push(((first + place) as u32, self.cause[place], 0.0));
             }
         }
+        if !L::RELAXES && !L::DAMPS {
+            return;
+        }
         let filled = count.next_multiple_of(8);
-        let [elastic, relaxed, damped] = energies;
-        for (sum, energy) in [(elastic, &mut self.elastic), (relaxed, &mut self.relaxed), (damped, &mut self.damped)] {
+        let [relaxed, damped] = energies;
+        for (sum, energy) in [(relaxed, &mut self.relaxed), (damped, &mut self.damped)] {
             energy[count..filled].fill(0.0);
             for part in energy[..filled].chunks_exact(8) {
                 for (sum, part) in sum.iter_mut().zip(part) {
@@ -114,20 +113,19 @@ impl<L: BondLaw> Work<'_, L> {
     pub(super) fn slab(&self, from: usize, to: usize, width: Width) -> Done {
         let mut done = Done::default();
         let mut buffer = Buffer::new();
-        let mut energies = [[0.0; 8]; 3];
+        let mut energies = [[0.0; 8]; 2];
         let mut batch = from;
         while batch < to {
             let end = (batch + BATCH).min(to);
             buffer.broken = false;
             lanes::run(width, React { work: self, from: batch, to: end, buffer: &mut buffer });
             lanes::run(width, Spread { work: self, from: batch, to: end, buffer: &buffer });
-            buffer.sum(batch, end - batch, &mut energies, &mut done);
+            buffer.sum::<L>(batch, end - batch, &mut energies, &mut done);
             self.lose(batch, end, &buffer);
             batch = end;
         }
-        done.elastic = energies[0].iter().sum();
-        done.relaxed = energies[1].iter().sum();
-        done.damped = energies[2].iter().sum();
+        done.relaxed = energies[0].iter().sum();
+        done.damped = energies[1].iter().sum();
         done.overbent = buffer.overbent;
         done
     }
@@ -236,8 +234,9 @@ impl<L: BondLaw> Kernel for React<'_, '_, L> {
                 N::store_block(columns(reaction.torque_i), buffer.first_torque.as_mut_ptr().add(place));
                 N::store_block(columns(reaction.torque_j), buffer.second_torque.as_mut_ptr().add(place));
                 reaction.cause.store(buffer.cause.as_mut_ptr().add(place));
-                reaction.elastic.store(buffer.elastic.as_mut_ptr().add(place));
-                reaction.relaxed.store(buffer.relaxed.as_mut_ptr().add(place));
+                if L::RELAXES {
+                    reaction.relaxed.store(buffer.relaxed.as_mut_ptr().add(place));
+                }
                 if L::DAMPS {
                     reaction.damped.store(buffer.damped.as_mut_ptr().add(place));
                 }

@@ -1,7 +1,7 @@
 //! What a pass over bonds came to: energies, and the bonds that broke.
 
 use super::list::remove;
-use crate::bond::Reaction;
+use crate::bond::{Carried, Reaction};
 use crate::state::State;
 use crate::state::bonds::Break;
 use crate::step::error::RunError;
@@ -9,13 +9,11 @@ use crate::step::error::RunError;
 /// Sums energies of the bonds of a law, takes out what broke and tells of it.
 pub(in crate::step) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<(), RunError> {
     let (list, particles, time) = (&mut state.bonds[law], &state.particles, state.clock.time);
-    list.elastic = 0.0;
     let mut outcome = Ok(());
     let mut gone = Vec::new();
     let told = state.breaks.len();
     let id = |slot: u32| particles.id[slot as usize];
     for done in results {
-        list.elastic += done.elastic;
         list.relaxed += done.relaxed;
         list.damped += done.damped;
         gone.extend(done.broken);
@@ -42,8 +40,6 @@ pub(in crate::step) fn book(state: &mut State, law: usize, results: Vec<Done>) -
 /// What a part of a list came to.
 #[derive(Clone, Debug, Default)]
 pub(in crate::step) struct Done {
-    /// Elastic energy \[J\].
-    pub(super) elastic: f64,
     /// Elastic energy that relaxation took \[J\].
     pub(super) relaxed: f64,
     /// Energy that damping took \[J\].
@@ -55,11 +51,12 @@ pub(in crate::step) struct Done {
 }
 
 impl Done {
-    /// Takes the energy of broken bonds to the middle of the step: up to there their force acted, and what they then held
-    /// is what the books lose, to second order in the step. `power` says at which rate a bond worked on its bodies \[W\].
-    pub(in crate::step) fn release(&mut self, step: f64, power: impl Fn(usize) -> f64) {
+    /// Finds what broken bonds release: what they held in the middle of the step. Up to there their force acted, and this is
+    /// what the books lose, to second order in the step.
+    pub(in crate::step) fn release(&mut self, step: f64, carried: impl Fn(usize) -> Carried) {
         for (bond, _, energy) in &mut self.broken {
-            *energy += 0.5 * step * power(*bond as usize);
+            let carried = carried(*bond as usize);
+            *energy = carried.energy + 0.5 * step * carried.power;
         }
     }
 
@@ -67,10 +64,8 @@ impl Done {
     pub(in crate::step) fn add(&mut self, bond: u32, reaction: &Reaction<f64>) {
         self.relaxed += reaction.relaxed;
         self.damped += reaction.damped;
-        if reaction.cause == 0.0 {
-            self.elastic += reaction.elastic;
-        } else {
-            self.broken.push((bond, reaction.cause, reaction.elastic));
+        if reaction.cause != 0.0 {
+            self.broken.push((bond, reaction.cause, 0.0));
         }
         if reaction.overbent && self.overbent.is_none() {
             self.overbent = Some(bond);

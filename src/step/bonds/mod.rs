@@ -146,7 +146,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
             unsafe { *places.at(slab) = done };
         });
         for done in &mut results {
-            done.release(context.step, |bond| self.carried(state, bond).power);
+            done.release(context.step, |bond| self.carried(state, bond));
         }
         book(state, self.index, results)
     }
@@ -220,7 +220,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
     fn elastic_energy(&self, state: &State) -> f64 {
-        state.bonds[self.index].elastic
+        (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
     }
 
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
