@@ -14,6 +14,7 @@ use crate::step::{BondRecord, ContactRecord};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::mpsc::SyncSender;
 
 /// Kinds of frames: beginning of the names of their files.
 const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];
@@ -43,8 +44,10 @@ pub(super) enum Job {
         /// The bonds, if the scene has any.
         bonds: Option<Vec<BondRecord>>,
     },
-    /// A checkpoint. Everything written before it is on the disk when it has its name.
+    /// A checkpoint.
     Checkpoint(Box<State>),
+    /// Nothing but to tell that it is its turn.
+    Tell(SyncSender<()>),
 }
 
 /// Where a run comes from, as far as its files are concerned.
@@ -182,15 +185,23 @@ impl Folder {
                 ];
                 self.frame(time, clouds.into_iter().flatten())
             }
-            Job::Checkpoint(state) => {
-                self.history.sync()?;
-                self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
-                for path in self.unsynced.drain(..) {
-                    sync(&path)?;
-                }
-                write_checkpoint(&self.path.join(CHECKPOINT), &state, self.scene.fingerprint)
+            Job::Checkpoint(state) => self.checkpoint(&state),
+            Job::Tell(done) => {
+                // Whoever does not wait any more need not know.
+                let _ = done.send(());
+                Ok(())
             }
         }
+    }
+
+    /// Writes a checkpoint. Everything written before it is on the disk when it has its name.
+    pub(super) fn checkpoint(&mut self, state: &State) -> Result<(), OutputError> {
+        self.history.sync()?;
+        self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
+        for path in self.unsynced.drain(..) {
+            sync(&path)?;
+        }
+        write_checkpoint(&self.path.join(CHECKPOINT), state, self.scene.fingerprint)
     }
 
     /// Writes a row for each bond that broke.

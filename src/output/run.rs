@@ -7,14 +7,14 @@ use super::inputs::Inputs;
 use super::momentum;
 use super::schedule::{Due, Schedule};
 use super::summary::{Meter, Summary};
-use super::writer::Writer;
+use super::writer::{Writer, opened};
 use super::{CHECKPOINT, SUMMARY};
 use crate::interface::Interface;
 use crate::scene::Scene;
 use crate::step::Simulation;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
@@ -60,6 +60,15 @@ pub struct Progress {
     pub end: f64,
 }
 
+/// Where a checkpoint is written from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Checkpoint {
+    /// From a copy, while the simulation goes on.
+    Copied,
+    /// From the state itself, where nothing goes on meanwhile: a copy would be what the process needs most memory for.
+    InPlace,
+}
+
 /// Runs a scene to its end and returns the summary that also stands in `summary.json`.
 pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summary, Failure> {
     let mut session = Session::begin(order)?;
@@ -81,6 +90,8 @@ struct Session<'a> {
     interface: Interface,
     /// What the driven boundaries do.
     inputs: Option<Inputs>,
+    /// Where to.
+    folder: Arc<Mutex<Folder>>,
     /// Who writes.
     writer: Writer,
     /// Communication point that was reached last \[s\].
@@ -122,7 +133,9 @@ impl<'a> Session<'a> {
         let state = simulation.state();
         let beginning = Beginning { scene: order.scene, names: &names, schedule: &schedule, time, state, origin };
         let kept = Kept::look(order.folder, &beginning)?;
-        let writer = Writer::start(Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?)?;
+        let folder = Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?;
+        let folder = Arc::new(Mutex::new(folder));
+        let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
         let meter = Meter::start(&simulation);
         let last_checkpoint = Instant::now();
@@ -133,6 +146,7 @@ impl<'a> Session<'a> {
             simulation,
             interface,
             inputs,
+            folder,
             writer,
             time,
             start: time,
@@ -141,8 +155,10 @@ impl<'a> Session<'a> {
             last_checkpoint,
         };
         match origin {
-            Origin::Anew => session.write(session.schedule.at_start())?,
-            Origin::Elsewhere => session.write(Due { history: false, frame: false, checkpoint: true })?,
+            Origin::Anew => session.write(session.schedule.at_start(), Checkpoint::InPlace)?,
+            Origin::Elsewhere => {
+                session.write(Due { history: false, frame: false, checkpoint: true }, Checkpoint::InPlace)?;
+            }
             Origin::Here => {}
         }
         Ok(session)
@@ -162,7 +178,9 @@ impl<'a> Session<'a> {
             advanced?;
             self.time = point.time;
             let stopped = stop.load(Ordering::Relaxed);
-            self.write(Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due })?;
+            let last = stopped || point.time >= self.end;
+            let due = Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due };
+            self.write(due, if last { Checkpoint::InPlace } else { Checkpoint::Copied })?;
             watch(tell(point.time));
             if stopped && point.time < self.end {
                 return Err(self.interrupted());
@@ -184,7 +202,7 @@ impl<'a> Session<'a> {
     }
 
     /// Hands what is due of the present state to the writer.
-    fn write(&mut self, due: Due) -> Result<(), OutputError> {
+    fn write(&mut self, due: Due, checkpoint: Checkpoint) -> Result<(), OutputError> {
         let time = self.time;
         if due.history {
             let values = self.interface.outputs().map(|(index, _)| self.interface.value(&self.simulation, index));
@@ -199,7 +217,14 @@ impl<'a> Session<'a> {
         }
         if due.checkpoint {
             self.last_checkpoint = Instant::now();
-            self.writer.send(Job::Checkpoint(Box::new(self.simulation.state().clone())))?;
+            let state = self.simulation.state();
+            match checkpoint {
+                Checkpoint::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
+                Checkpoint::InPlace => {
+                    self.writer.wait()?;
+                    opened(&self.folder).checkpoint(state)?;
+                }
+            }
         }
         Ok(())
     }

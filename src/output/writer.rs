@@ -6,6 +6,7 @@ use super::error::OutputError;
 use super::folder::{Folder, Job};
 use std::path::PathBuf;
 use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 
 /// Jobs that may wait: a frame and what comes with it, and one more.
@@ -23,8 +24,9 @@ pub(super) struct Writer {
 
 impl Writer {
     /// Starts the thread.
-    pub(super) fn start(mut folder: Folder) -> Result<Self, OutputError> {
-        Self::with(folder.path().to_owned(), move |job| folder.write(job))
+    pub(super) fn start(folder: Arc<Mutex<Folder>>) -> Result<Self, OutputError> {
+        let path = opened(&folder).path().to_owned();
+        Self::with(path, move |job| opened(&folder).write(job))
     }
 
     /// Starts a thread that does jobs so, until there are no more or one fails.
@@ -48,6 +50,16 @@ impl Writer {
         }
     }
 
+    /// Waits until all jobs so far are done. An error is that of one of them.
+    pub(super) fn wait(&mut self) -> Result<(), OutputError> {
+        let (done, wait) = sync_channel(1);
+        self.send(Job::Tell(done))?;
+        match wait.recv() {
+            Ok(()) => Ok(()),
+            Err(_) => self.finish().and(Err(OutputError::Writer { path: self.folder.clone() })),
+        }
+    }
+
     /// Waits until everything is written. Called again, it has nothing more to say.
     pub(super) fn finish(&mut self) -> Result<(), OutputError> {
         self.jobs = None;
@@ -66,12 +78,16 @@ impl Drop for Writer {
     }
 }
 
+/// The folder; whoever panicked in it has told so where its end was waited for.
+pub(super) fn opened(folder: &Mutex<Folder>) -> MutexGuard<'_, Folder> {
+    folder.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::sync::mpsc::channel;
-    use std::sync::{Arc, Mutex};
     use std::time::{Duration, Instant};
 
     /// A row of this time \[s\].
@@ -111,6 +127,29 @@ mod tests {
         drop(gate);
         run.join().unwrap().unwrap();
         assert_eq!(*written.lock().unwrap(), (0..50).map(f64::from).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn who_waits_finds_all_jobs_done_or_is_told_why_not() {
+        let (mut left, written) = (3, Arc::new(AtomicUsize::new(0)));
+        let count = Arc::clone(&written);
+        let mut writer = Writer::with(PathBuf::from("here"), move |job| {
+            thread::sleep(Duration::from_millis(5));
+            match job {
+                Job::Tell(done) => drop(done.send(())),
+                _ => drop(count.fetch_add(1, Ordering::SeqCst)),
+            }
+            left -= 1;
+            if left >= 0 { Ok(()) } else { Err(OutputError::at(&PathBuf::from("full"))(std::io::Error::other("full"))) }
+        })
+        .unwrap();
+        writer.send(row(0)).unwrap();
+        writer.send(row(1)).unwrap();
+        writer.wait().unwrap();
+        assert_eq!(written.load(Ordering::SeqCst), 2);
+        writer.send(row(2)).unwrap();
+        let told = writer.wait().unwrap_err();
+        assert!(told.to_string().contains("full"), "{told}");
     }
 
     #[test]

@@ -30,7 +30,8 @@ impl Context {
     /// Does pieces 0 to `count` − 1 of the work, in any order.
     pub(super) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {
         if self.parallel && count > 1 {
-            (0..count).into_par_iter().for_each(piece);
+            // Piece by piece: who is through first takes the next, also near the end.
+            (0..count).into_par_iter().with_max_len(1).for_each(piece);
         } else {
             (0..count).for_each(piece);
         }
@@ -63,7 +64,7 @@ impl Context {
     /// What the pieces 0 to `count` − 1 give, in order.
     pub(super) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
         if self.parallel && count > 1 {
-            (0..count).into_par_iter().map(piece).collect()
+            (0..count).into_par_iter().with_max_len(1).map(piece).collect()
         } else {
             (0..count).map(piece).collect()
         }

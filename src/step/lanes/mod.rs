@@ -104,6 +104,15 @@ pub fn prefetch<T>(_place: *const T) {
     }
 }
 
+/// Which of eight numbers are equal to another, a bit for each, the first one lowest.
+#[inline(always)]
+pub fn equal(numbers: &[u32; 8], wanted: u32) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    return x86::equal(numbers, wanted);
+    #[cfg(not(target_arch = "x86_64"))]
+    (0..8).fold(0, |bits, place| bits | u32::from(numbers[place] == wanted) << place)
+}
+
 /// Writes those of `width` consecutive indices whose bit is set, one after the other, without a branch.
 ///
 /// # Safety

@@ -31,6 +31,8 @@ pub(super) struct Grid {
     pub cells: usize,
     /// Cells of each size, the largest particles first.
     pub levels: Vec<Level>,
+    /// Of each layer of each level: its slab, and its first cell. Looking it up is cheaper than dividing.
+    layers: Vec<[u32; 2]>,
 }
 
 /// The cells of one size.
@@ -44,8 +46,8 @@ pub(super) struct Level {
     pub layers: usize,
     /// Rows of cells in a layer, cells in a row.
     pub counts: [usize; 2],
-    /// Cells of larger levels in a slab.
-    pub before: usize,
+    /// Where its layers begin among those of all levels.
+    first_layer: usize,
 }
 
 impl Grid {
@@ -63,8 +65,9 @@ impl Grid {
         let [slabs, ..] = thinned(extent.map(|extent| (extent / thick).floor().max(1.0)), most);
         let slabs = slabs.min(MOST_SLABS).min(most);
         let thickness = (extent[0] / slabs).max(thick);
-        let mut grid =
-            Self { axes, origin: axes.map(|axis| low[axis]), slabs: slabs as usize, cells: 0, levels: vec![] };
+        let origin = axes.map(|axis| low[axis]);
+        let mut grid = Self { axes, origin, slabs: slabs as usize, cells: 0, levels: vec![], layers: vec![] };
+        let mut before = Vec::new();
         for level in 0..sizes.largest.len() {
             let cell = reach(level);
             let most = (sizes.counts[level] as f64 * CELLS_PER_PARTICLE / slabs).max(1.0);
@@ -75,9 +78,18 @@ impl Grid {
                 fineness: [layers / thickness, 1.0 / (extent[1] / rows).max(cell), 1.0 / (extent[2] / row).max(cell)],
                 layers: layers as usize,
                 counts: [rows as usize, row as usize],
-                before: grid.cells,
+                first_layer: 0,
             });
+            before.push(grid.cells);
             grid.cells += layers as usize * rows as usize * row as usize;
+        }
+        for (level, before) in grid.levels.iter_mut().zip(before) {
+            level.first_layer = grid.layers.len();
+            let own = |layer: usize| (layer / level.layers, layer % level.layers);
+            grid.layers.extend((0..grid.slabs * level.layers).map(own).map(|(slab, within)| {
+                let first = slab * grid.cells + before + within * level.counts[0] * level.counts[1];
+                [slab as u32, first as u32]
+            }));
         }
         grid
     }
@@ -99,37 +111,32 @@ impl Grid {
     /// First cell of a row.
     #[inline(always)]
     pub(super) fn row(&self, level: &Level, layer: usize, row: usize) -> usize {
-        let (slab, within) = (layer / level.layers, layer % level.layers);
-        slab * self.cells + level.before + (within * level.counts[0] + row) * level.counts[1]
+        self.layers[level.first_layer + layer][1] as usize + row * level.counts[1]
     }
 
-    /// The cell of a particle of this level.
+    /// Slab and cell of a particle of this level.
     #[inline(always)]
-    pub(super) fn cell(&self, level: &Level, position: &Row) -> usize {
-        let layer = self.layer(level, position[self.axes[0]]);
-        let row = self.place(level, 0, position[self.axes[1]]);
-        self.row(level, layer, row) + self.place(level, 1, position[self.axes[2]])
+    pub(super) fn cell(&self, level: &Level, position: &Row) -> [u32; 2] {
+        let [slab, first] = self.layers[level.first_layer + self.layer(level, position[self.axes[0]])];
+        let row = self.place(level, 0, position[self.axes[1]]) * level.counts[1];
+        [slab, first + (row + self.place(level, 1, position[self.axes[2]])) as u32]
     }
 
-    /// Rows of cells at and ahead of a cell which particles of the same level can reach: up to five, each as its
-    /// first cell and the one behind its last, in the order of the cells; and how many.
+    /// First cells of the rows ahead of a row in which particles of the same level can be reached from there: up to
+    /// four, in the order of the cells; and how many.
     #[inline(always)]
-    pub(super) fn ahead(&self, level: &Level, layer: usize, row: usize, place: usize) -> ([[usize; 2]; 5], usize) {
+    pub(super) fn ahead(&self, level: &Level, layer: usize, row: usize) -> ([usize; 4], usize) {
         let [rows, cells] = level.counts;
-        let (lower, upper) = (place.saturating_sub(1), (place + 2).min(cells));
-        let mut found = [[0; 2]; 5];
-        let here = self.row(level, layer, row);
-        found[0] = [here + place, here + upper];
-        let mut count = 1;
+        let (mut found, mut count) = ([0; 4], 0);
         if row + 1 < rows {
-            found[1] = [here + cells + lower, here + cells + upper];
-            count = 2;
+            found[0] = self.row(level, layer, row + 1);
+            count = 1;
         }
         if layer + 1 < self.slabs * level.layers {
             let base = self.row(level, layer + 1, 0);
             let mut other = row.saturating_sub(1);
             while other < rows && other < row + 2 {
-                found[count] = [base + other * cells + lower, base + other * cells + upper];
+                found[count] = base + other * cells;
                 count += 1;
                 other += 1;
             }

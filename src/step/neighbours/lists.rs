@@ -4,7 +4,7 @@ use super::order::Order;
 use super::pairs::{Found, Laws};
 use crate::state::ContactList;
 use crate::state::contacts::TOUCHING;
-use crate::step::lanes::Shared;
+use crate::step::lanes::{self, Shared};
 use crate::step::pass::Context;
 
 /// Pairs of the old list in one piece of work.
@@ -45,13 +45,13 @@ impl Making {
         new.spring.resize(if spring { count } else { 0 }, [0.0; 4]);
         new.pair_constant.clear();
         self.starts.resize(order.slots.len() + 1, 0);
-        self.fill(found, law, order, context);
+        self.fill(found, (law, laws), order, context);
         self.carry(list, order, context);
         std::mem::swap(list, &mut self.spare);
     }
 
     /// Writes the pairs, slabs side by side; nothing touches yet.
-    fn fill(&mut self, found: &[Found], law: u32, order: &Order, context: &Context) {
+    fn fill(&mut self, found: &[Found], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
         let new = &mut self.spare;
         let (first, second) = (Shared::new(&mut new.first), Shared::new(&mut new.second));
         let (flags, spring) = (Shared::new(&mut new.flags), Shared::new(&mut new.spring));
@@ -64,26 +64,25 @@ impl Making {
             // SAFETY: pairs and particles of a slab are its own.
             unsafe {
                 let (first, second) = (first.part(from, to), second.part(from, to));
-                if found.law.is_empty() {
-                    first.copy_from_slice(&found.first[..to - from]);
+                let starts = starts.part(low, high);
+                if from == to {
+                    starts.fill(from as u32);
+                } else if laws.only.is_some() {
                     second.copy_from_slice(&found.second[..to - from]);
+                    for (start, &place) in starts.iter_mut().zip(&found.starts) {
+                        *start = from as u32 + place;
+                    }
+                    name_rows(first, low, &found.starts);
                 } else {
                     let chosen = (0..found.count).filter(|&pair| found.law[pair] == law);
                     for ((first, second), pair) in first.iter_mut().zip(second).zip(chosen) {
                         (*first, *second) = (found.first[pair], found.second[pair]);
                     }
+                    begin_rows(first, low, from, starts);
                 }
                 flags.part(from, to).fill(0);
                 if spring.length() > 0 {
                     spring.part(from, to).fill([0.0; 4]);
-                }
-                let starts = starts.part(low, high);
-                if found.law.is_empty() && !found.starts.is_empty() {
-                    for (start, &place) in starts.iter_mut().zip(&found.starts) {
-                        *start = from as u32 + place;
-                    }
-                } else {
-                    begin_rows(first, low, from, starts);
                 }
             }
         });
@@ -105,8 +104,7 @@ impl Making {
                 let (a, b) = (new_slot[old.first[pair] as usize], new_slot[old.second[pair] as usize]);
                 let (i, j) = if a < b { (a, b) } else { (b, a) };
                 let (from, end) = (starts[i as usize] as usize, starts[i as usize + 1] as usize);
-                let place = from + before(&second[from..], end - from, j);
-                if place < end && second[place] == j {
+                if let Some(place) = find(&second[from..], end - from, j).map(|place| from + place) {
                     // SAFETY: no other old pair is of these two particles.
                     unsafe {
                         *flags.at(place) = old.flags[pair];
@@ -132,20 +130,36 @@ fn find_touching(flags: &[u8], piece: usize, touching: &mut [u32; PIECE]) -> usi
     count
 }
 
-/// How many of the first `length` numbers, which ascend, are below `bound`.
+/// Where a number stands among the first `length`, if it does.
 #[inline(always)]
-fn before(numbers: &[u32], length: usize, bound: u32) -> usize {
-    if let Some(few) = numbers.first_chunk::<8>()
-        && length <= 8
-    {
-        // All eight are looked at: a loop of unforeseen length costs more.
-        let mut count = 0;
-        for (place, &number) in few.iter().enumerate() {
-            count += i32::from(number < bound) & i32::from(place < length);
+fn find(numbers: &[u32], length: usize, wanted: u32) -> Option<usize> {
+    let mut from = 0;
+    // Eight are looked at together: a loop of unforeseen length costs more.
+    while let Some(eight) = numbers[from..].first_chunk::<8>() {
+        let bits = lanes::equal(eight, wanted);
+        if bits != 0 || from + 8 >= length {
+            let place = from + bits.trailing_zeros() as usize;
+            return Some(place).filter(|&place| place < length);
         }
-        return count as usize;
+        from += 8;
     }
-    numbers[..length].partition_point(|&number| number < bound)
+    numbers[from..length].iter().position(|&number| number == wanted).map(|place| from + place)
+}
+
+/// Writes the first particle of each pair: rows of the particles `low` and on begin at `starts`.
+fn name_rows(first: &mut [u32], low: usize, starts: &[u32]) {
+    for (row, &start) in starts.iter().enumerate() {
+        let (name, mut place) = ((low + row) as u32, start as usize);
+        let end = starts.get(row + 1).map_or(first.len(), |&end| end as usize);
+        // Whole eights, where there is room: the next row overwrites what is too much.
+        while place < end {
+            match first[place..].first_chunk_mut::<8>() {
+                Some(eight) => *eight = [name; 8],
+                None => first[place..end].fill(name),
+            }
+            place += 8;
+        }
+    }
 }
 
 /// Notes where the pairs of each particle begin: `first` are those of particles `low` and on, and stand behind

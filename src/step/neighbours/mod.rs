@@ -147,6 +147,9 @@ impl Search {
         for list in &mut state.bonds {
             bonds::sort(list, &self.order.new_slot, &self.order.slabs);
         }
+        if self.touching {
+            self.columns.fill(&state.particles.position, context);
+        }
         if self.pairs {
             self.list_pairs(state, &grid, skin, context);
         }
@@ -166,7 +169,6 @@ impl Search {
 
     /// Makes the lists of near particles.
     fn list_pairs(&mut self, state: &mut State, grid: &Grid, skin: f64, context: &Context) {
-        self.columns.fill(&state.particles.position, context);
         let look = Look {
             grid,
             order: &self.order,
@@ -188,8 +190,9 @@ impl Search {
         let Some(plane) = self.planes.iter().find(|plane| plane.boundary == list.boundary) else { return };
         let moved = state.boundaries[list.boundary as usize].displacement;
         let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
-        let of = (&state.particles, &self.laws, state.neighbours.skin);
-        planes::replace(list, (plane, point), of, &mut self.mark, (&self.order, context));
+        let near = planes::Side { columns: &self.columns, point, normal: plane.normal, skin: state.neighbours.skin };
+        let particles = (&state.particles, &self.laws);
+        planes::replace(list, plane, near, particles, &mut self.mark, (&self.order, context));
     }
 }
 
@@ -244,13 +247,14 @@ pub(super) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut
     let level = &grid.levels[0];
     for (place, &slot) in order.slots.iter().enumerate() {
         let a = particles.position[slot as usize];
-        let row = [0, 1].map(|within| grid.place(level, within, a[grid.axes[within + 1]]));
-        let (mut ranges, count) = grid.ahead(level, grid.layer(level, a[grid.axes[0]]), row[0], row[1]);
-        for range in &mut ranges[..count] {
-            *range = range.map(|cell| order.starts[cell] as usize);
-        }
-        ranges[0][0] = place + 1;
-        for [from, to] in ranges.into_iter().take(count) {
+        let layer = grid.layer(level, a[grid.axes[0]]);
+        let [row, cell] = [0, 1].map(|within| grid.place(level, within, a[grid.axes[within + 1]]));
+        let (lower, upper) = (cell.saturating_sub(1), (cell + 2).min(level.counts[1]));
+        let (bases, count) = grid.ahead(level, layer, row);
+        let first = |cell: usize| order.starts[cell] as usize;
+        let own = [place + 1, first(grid.row(level, layer, row) + upper)];
+        let ahead = bases.into_iter().take(count).map(|base| [first(base + lower), first(base + upper)]);
+        for [from, to] in std::iter::once(own).chain(ahead) {
             for &other in &order.slots[from..to.max(from)] {
                 let b = particles.position[other as usize];
                 let distance = way(&[a[0], a[1], a[2]], &[b[0], b[1], b[2]]);

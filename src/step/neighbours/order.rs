@@ -12,7 +12,7 @@ use crate::step::pass::{CHUNK, Context};
 const PIECE: usize = 4 * CHUNK;
 
 /// Room behind the columns, for a register that begins at the last particle.
-const BEYOND: usize = 8;
+pub(super) const BEYOND: usize = 8;
 
 /// Where the particles belong, and what sorting needs; kept from one time to the next.
 #[derive(Debug, Default)]
@@ -27,8 +27,8 @@ pub(super) struct Order {
     pub slabs: Vec<u32>,
     /// Cell and old slot, sorted by slab.
     keyed: Vec<[u32; 2]>,
-    /// Cell of each old slot.
-    cells: Vec<u32>,
+    /// Slab and cell of each old slot.
+    cells: Vec<[u32; 2]>,
     /// Of each piece and slab: how many particles, then where the next goes.
     counts: Vec<u32>,
     /// Rows in their new order.
@@ -48,7 +48,7 @@ impl Order {
     fn sort_by_slab(&mut self, grid: &Grid, sizes: &Sizes, particles: &Particles, context: &Context) {
         let count = particles.len();
         let pieces = count.div_ceil(PIECE);
-        self.cells.resize(count, 0);
+        self.cells.resize(count, [0; 2]);
         self.counts.clear();
         self.counts.resize(pieces * grid.slabs, 0);
         let (cells, counts) = (Shared::new(&mut self.cells), Shared::new(&mut self.counts));
@@ -63,8 +63,8 @@ impl Order {
                 let position = &particles.position[slot];
                 let cell = grid.cell(&grid.levels[sizes.level(position[3])], position);
                 // SAFETY: pieces do not overlap.
-                unsafe { *cells.at(slot) = cell as u32 };
-                tally[cell / grid.cells] += 1;
+                unsafe { *cells.at(slot) = cell };
+                tally[cell[0] as usize] += 1;
             }
         });
         self.slabs.clear();
@@ -84,9 +84,10 @@ impl Order {
             // SAFETY: each piece has counters of its own, which point to places of its own.
             let next = unsafe { counts.part(piece * grid.slabs, (piece + 1) * grid.slabs) };
             for slot in range(piece) {
-                let place = &mut next[cells[slot] as usize / grid.cells];
+                let [slab, cell] = cells[slot];
+                let place = &mut next[slab as usize];
                 // SAFETY: as above.
-                unsafe { *keyed.at(*place as usize) = [cells[slot], slot as u32] };
+                unsafe { *keyed.at(*place as usize) = [cell, slot as u32] };
                 *place += 1;
             }
         });

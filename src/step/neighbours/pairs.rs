@@ -32,10 +32,10 @@ impl Laws {
 /// Pairs whose first particle is in one slab.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
-    /// First particles; more than [`Found::count`] of them are room to work in.
-    pub first: Vec<u32>,
-    /// Second particles, likewise.
+    /// Second particles; more than [`Found::count`] of them are room to work in.
     pub second: Vec<u32>,
+    /// First particles, where pairs have several laws; otherwise empty.
+    pub first: Vec<u32>,
     /// The law of each pair; empty where one law is for all.
     pub law: Vec<u32>,
     /// First pair of each particle of the slab, counted from the slab's first; empty where pairs have several laws.
@@ -114,26 +114,32 @@ impl Kernel for InSlab<'_, '_> {
 fn search_row<N: Lane>(look: &Look, from: (usize, usize), layer: usize, row: usize, found: &mut Found) {
     let (grid, starts) = (look.grid, &look.order.starts[..]);
     let level = &grid.levels[from.1];
-    let base = grid.row(level, layer, row);
+    let here = &starts[grid.row(level, layer, row)..][..=level.counts[1]];
+    let (bases, count) = grid.ahead(level, layer, row);
     let mut place = 0;
     while place < level.counts[1] {
-        let (begin, end) = (starts[base + place] as usize, starts[base + place + 1] as usize);
+        let (begin, end) = (here[place] as usize, here[place + 1] as usize);
         if begin < end {
-            let (mut ranges, count) = grid.ahead(level, layer, row, place);
-            let mut most = 0;
-            for range in &mut ranges[..count] {
-                *range = [starts[range[0]] as usize, starts[range[1]] as usize];
-                most += range[1] - range[0];
+            let lower = if place > 0 { place - 1 } else { 0 };
+            let upper = if place + 2 < level.counts[1] { place + 2 } else { level.counts[1] };
+            let own = here[upper] as usize;
+            let (mut ranges, mut most) = ([[0; 2]; 4], own - begin);
+            let mut other = 0;
+            while other < count {
+                ranges[other] = [starts[bases[other] + lower] as usize, starts[bases[other] + upper] as usize];
+                most += ranges[other][1] - ranges[other][0];
+                other += 1;
             }
             let mut i = begin;
             while i < end {
                 let before = found.count;
                 found.reserve(most);
-                ranges[0][0] = i + 1;
                 let body = Body::<N>::of(look.columns, i, look.skin);
-                for &[from, to] in &ranges[..count] {
-                    found.count += body.near(look.columns, from, to, &mut found.second[found.count..]);
+                let mut count = body.near(look.columns, i + 1, own, &mut found.second[before..]);
+                for [from, to] in ranges {
+                    count += body.near(look.columns, from, to, &mut found.second[before + count..]);
                 }
+                found.count += count;
                 if grid.levels.len() > 1 {
                     search_other_levels(look, from, i, &body, found);
                     found.second[before..found.count].sort_unstable();
@@ -210,19 +216,21 @@ impl<N: Lane> Body<N> {
     fn near(&self, columns: &Columns, from: usize, to: usize, place: &mut [u32]) -> usize {
         let [x, y, z, radius] = &columns.of;
         debug_assert!(to + BEYOND <= x.len() && place.len() + from >= to + BEYOND);
+        let (x, y, z, radius) = (x.as_ptr(), y.as_ptr(), z.as_ptr(), radius.as_ptr());
+        let place = place.as_mut_ptr();
         let mut count = 0;
         let mut j = from;
         while j < to {
             // SAFETY: columns reach a register beyond the last particle; there is room for all of the range and a
             // register more.
             unsafe {
-                let dx = N::load(x.as_ptr().add(j)) - self.position[0];
-                let dy = N::load(y.as_ptr().add(j)) - self.position[1];
-                let dz = N::load(z.as_ptr().add(j)) - self.position[2];
-                let reach = N::load(radius.as_ptr().add(j)) + self.radius + self.skin;
+                let dx = N::load(x.add(j)) - self.position[0];
+                let dy = N::load(y.add(j)) - self.position[1];
+                let dz = N::load(z.add(j)) - self.position[2];
+                let reach = N::load(radius.add(j)) + self.radius + self.skin;
                 let near = N::bits((reach * reach).greater(dx * dx + dy * dy + dz * dz));
                 let inside = if to - j < N::WIDTH { (1 << (to - j)) - 1 } else { u32::MAX };
-                count += N::compress(near & inside, j as u32, place.as_mut_ptr().add(count));
+                count += N::compress(near & inside, j as u32, place.add(count));
             }
             j += N::WIDTH;
         }
@@ -252,19 +260,14 @@ impl Found {
     /// Makes room for so many in all.
     #[cold]
     fn grow(&mut self, least: usize) {
-        let length = least + least / 2;
-        self.first.resize(length, 0);
-        self.second.resize(length, 0);
+        self.second.resize(least + least / 2, 0);
     }
 
-    /// Notes the first particle of what was found since there were `before`, and drops what has no law.
+    /// Notes whose pairs were found since there were `before`, and drops what has no law.
     #[inline(always)]
     fn accept(&mut self, look: &Look, i: u32, before: usize) {
         if look.laws.only.is_some() {
             self.starts.push(before as u32);
-            for first in &mut self.first[before..self.count] {
-                *first = i;
-            }
         } else {
             self.choose(look, i, before);
         }
@@ -273,6 +276,7 @@ impl Found {
     /// The same where pairs have several laws, or none.
     fn choose(&mut self, look: &Look, i: u32, before: usize) {
         let Particles { material, owner, .. } = look.particles;
+        self.first.resize(self.second.len(), 0);
         let mut kept = before;
         for pair in before..self.count {
             let j = self.second[pair];

@@ -1,11 +1,11 @@
 //! Particles near planes.
 
-use super::order::Order;
+use super::order::{BEYOND, Columns, Order};
 use super::pairs::Laws;
 use crate::number::Vector;
 use crate::state::contacts::TOUCHING;
-use crate::state::{Particles, Row, WallContacts};
-use crate::step::lanes::{self, Kernel, Lane, vector};
+use crate::state::{Particles, WallContacts};
+use crate::step::lanes::{self, Kernel, Lane};
 use crate::step::pass::{CHUNK, Context};
 
 /// A plane of the scene.
@@ -21,21 +21,34 @@ pub(super) struct Plane {
     pub normal: [f64; 3],
 }
 
-/// Makes the list of a plane and a law anew: `point` is on the plane where it stands now, `mark` has room for a
-/// number of each particle.
+/// What is near: particles no further than the skin in front of a plane, or behind it.
+#[derive(Clone, Copy)]
+pub(super) struct Side<'a> {
+    /// Where the particles are.
+    pub columns: &'a Columns,
+    /// A point on the plane where it stands now \[m\].
+    pub point: [f64; 3],
+    /// Its normal.
+    pub normal: [f64; 3],
+    /// How far beyond touch \[m\].
+    pub skin: f64,
+}
+
+/// Makes the list of a plane and a law anew: `mark` has room for a number of each particle.
 pub(super) fn replace(
     list: &mut WallContacts,
-    (plane, point): (&Plane, [f64; 3]),
-    (particles, laws, skin): (&Particles, &Laws, f64),
+    plane: &Plane,
+    side: Side,
+    (particles, laws): (&Particles, &Laws),
     mark: &mut Vec<u32>,
     (order, context): (&Order, &Context),
 ) {
     let pieces = context.collect(particles.len().div_ceil(CHUNK), |piece| {
-        let mut near = Vec::new();
-        let position = &particles.position[..];
-        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
-        let normal = plane.normal;
-        lanes::run(context.width, Near { position, from, to, point, normal, skin, near: &mut near });
+        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(particles.len()));
+        let mut near = [0; CHUNK + BEYOND];
+        let mut count = 0;
+        lanes::run(context.width, Near { side, from, to, near: &mut near, count: &mut count });
+        let mut near = near[..count].to_vec();
         near.retain(|&slot| {
             laws.between(particles.material[slot as usize], plane.material) == Some(list.law)
                 && particles.owner[slot as usize] != plane.boundary + 1
@@ -72,47 +85,35 @@ fn carry(old: &WallContacts, new: &mut WallContacts, mark: &mut Vec<u32>, order:
 
 /// The search in one piece.
 struct Near<'a, 'b> {
-    /// Positions and radii.
-    position: &'a [Row],
+    /// What is near.
+    side: Side<'a>,
     /// First particle.
     from: usize,
     /// Behind the last one.
     to: usize,
-    /// A point on the plane \[m\].
-    point: [f64; 3],
-    /// Its normal.
-    normal: [f64; 3],
-    /// How far beyond touch \[m\].
-    skin: f64,
     /// Where the particles go.
-    near: &'b mut Vec<u32>,
+    near: &'b mut [u32; CHUNK + BEYOND],
+    /// How many there are.
+    count: &'b mut usize,
 }
 
 impl Kernel for Near<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { position, from, to, point, normal, skin, near } = self;
-        let splat = Vector::new(N::splat(point[0]), N::splat(point[1]), N::splat(point[2]));
-        let normal = Vector::new(N::splat(normal[0]), N::splat(normal[1]), N::splat(normal[2]));
-        let skin = N::splat(skin);
+        let Self { side: Side { columns, point, normal, skin }, from, to, near, count } = self;
+        let splat = |[x, y, z]: [f64; 3]| Vector::new(N::splat(x), N::splat(y), N::splat(z));
+        let (point, normal, skin) = (splat(point), splat(normal), N::splat(skin));
+        let [x, y, z, radius] = &columns.of;
         let mut slot = from;
         while slot < to {
-            let mut index = [0_u32; 8];
-            let mut lane = 0;
-            while lane < N::WIDTH {
-                index[lane] = if slot + lane < to { (slot + lane) as u32 } else { slot as u32 };
-                lane += 1;
-            }
-            // SAFETY: these are slots of particles.
-            let rows = unsafe { N::load_rows(position.as_ptr(), index.as_ptr()) };
-            let distance = (vector(rows) - splat).dot(normal);
-            let apart = N::bits(distance.greater(rows[3] + skin));
-            let mut lane = 0;
-            while lane < N::WIDTH && slot + lane < to {
-                if (apart >> lane) & 1 == 0 {
-                    near.push((slot + lane) as u32);
-                }
-                lane += 1;
+            // SAFETY: columns reach a register beyond the last particle; no more are found than are looked at, and
+            // there is room for a register more.
+            unsafe {
+                let load = |column: &Vec<f64>| N::load(column.as_ptr().add(slot));
+                let distance = (Vector::new(load(x), load(y), load(z)) - point).dot(normal);
+                let apart = N::bits(distance.greater(load(radius) + skin));
+                let inside = if to - slot < N::WIDTH { (1 << (to - slot)) - 1 } else { (1 << N::WIDTH) - 1 };
+                *count += N::compress(!apart & inside, slot as u32, near.as_mut_ptr().add(*count));
             }
             slot += N::WIDTH;
         }

@@ -9,6 +9,7 @@ pub use four::Four;
 pub use two::Two;
 
 use super::Kernel;
+use std::arch::x86_64::*;
 
 /// Runs a kernel with AVX2.
 ///
@@ -26,6 +27,18 @@ pub(super) unsafe fn run_four<K: Kernel>(kernel: K) {
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,popcnt")]
 pub(super) unsafe fn run_eight<K: Kernel>(kernel: K) {
     kernel.run::<Eight>();
+}
+
+/// Which of eight numbers are equal to another, a bit for each, the first one lowest.
+#[inline(always)]
+pub(super) fn equal(numbers: &[u32; 8], wanted: u32) -> u32 {
+    // SAFETY: SSE2 is part of x86-64; each half is four numbers.
+    unsafe {
+        let wanted = _mm_set1_epi32(wanted as i32);
+        let half = |from: usize| _mm_cmpeq_epi32(_mm_loadu_si128(numbers[from..].as_ptr().cast()), wanted);
+        let words = _mm_packs_epi32(half(0), half(4));
+        _mm_movemask_epi8(_mm_packs_epi16(words, words)) as u32 & 0xff
+    }
 }
 
 /// An operator of one register type by its intrinsic.
