@@ -2,7 +2,7 @@
 
 use super::{
     Beyond, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm,
-    Reaction, Response, Rolling, Tangential, coefficients,
+    Reaction, Response, Rolling, Roots, Tangential, coefficients,
 };
 use crate::number::{Number, Vector};
 
@@ -45,6 +45,8 @@ pub trait Law: Send + Sync + 'static {
     const COUNT: usize;
     /// Whether a pair constant is kept for each near pair.
     const HAS_PAIR_CONSTANT: bool;
+    /// Whether [`Law::roots`] says anything.
+    const HAS_ROOTS: bool;
     /// Whether bodies feel torque from it.
     const HAS_TORQUE: bool;
     /// Whether bodies feel rolling torque from it.
@@ -59,8 +61,17 @@ pub trait Law: Send + Sync + 'static {
     fn row(&self, pair: &MaterialPair) -> Result<Vec<f64>, Missing>;
     /// The pair constant of [`NormalForm::pair_constant`].
     fn pair_constant(row: &[f64], radius: f64, mass: f64) -> f64;
+    /// What the loop finds ahead: [`NormalForm::roots`].
+    fn roots<N: Number>(overlap: N, radius: N, mass: N) -> Roots<N>;
+    /// Force and torque of one contact whose roots are known.
+    fn react_at<N: Number>(row: &[N], contact: &Contact<N>, roots: Roots<N>, spring: Vector<N>, step: N)
+    -> Reaction<N>;
     /// Force and torque of one contact.
-    fn react<N: Number>(row: &[N], contact: &Contact<N>, spring: Vector<N>, step: N) -> Reaction<N>;
+    #[inline(always)]
+    fn react<N: Number>(row: &[N], contact: &Contact<N>, spring: Vector<N>, step: N) -> Reaction<N> {
+        let roots = Self::roots(contact.overlap, contact.radius, contact.mass);
+        Self::react_at(row, contact, roots, spring, step)
+    }
     /// The same of a contact that a bond hides, or has hidden. The elastic force is taken from the overlap beyond the
     /// offset, and attraction is what the offset's does not hold already, so that neither jumps when the bond is
     /// gone; stiffness and damping are those of the whole overlap. Where the normal force does not act, friction
@@ -124,6 +135,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Composed<A, B, C
 impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed<A, B, C, D> {
     const COUNT: usize = A::COUNT + B::COUNT + C::COUNT + D::COUNT + Switches::COUNT;
     const HAS_PAIR_CONSTANT: bool = A::HAS_PAIR_CONSTANT;
+    const HAS_ROOTS: bool = A::HAS_ROOTS;
     const HAS_TORQUE: bool = B::ACTIVE || C::ACTIVE;
     const HAS_ROLLING: bool = C::ACTIVE;
     const HAS_SPRING: bool = B::HAS_SPRING;
@@ -164,14 +176,25 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed
     }
 
     #[inline(always)]
-    fn react<N: Number>(row: &[N], contact: &Contact<N>, spring: Vector<N>, step: N) -> Reaction<N> {
+    fn roots<N: Number>(overlap: N, radius: N, mass: N) -> Roots<N> {
+        A::roots(overlap, radius, mass)
+    }
+
+    #[inline(always)]
+    fn react_at<N: Number>(
+        row: &[N],
+        contact: &Contact<N>,
+        roots: Roots<N>,
+        spring: Vector<N>,
+        step: N,
+    ) -> Reaction<N> {
         let (normal, row) = (A::lanes(row), &row[A::COUNT..]);
         let (tangential, row) = (B::lanes(row), &row[B::COUNT..]);
         let (rolling, row) = (C::lanes(row), &row[C::COUNT..]);
         let (cohesion, row) = (D::lanes(row), &row[D::COUNT..]);
         let switches = Switches::lanes(row);
 
-        let mut response = A::response(normal, contact);
+        let mut response = A::response_at(normal, contact, roots);
         response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
         let elastic = response.normal_stiffness * contact.overlap;
         let push = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);

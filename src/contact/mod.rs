@@ -64,6 +64,9 @@ pub struct Beyond {
     pub offset: Contact,
 }
 
+/// What [`NormalForm::roots`] finds.
+pub type Roots<N> = [N; 2];
+
 /// What a normal model says of a contact: stiffnesses and damping coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<N = f64> {
@@ -110,8 +113,21 @@ pub trait NormalForm: Coefficients {
     fn pair_constant(&self, _radius: f64, _mass: f64) -> f64 {
         0.0
     }
+    /// Whether [`NormalForm::roots`] says anything.
+    const HAS_ROOTS: bool = false;
+    /// Roots of overlap \[m\], effective radius \[m\] and mass \[kg\] alone: they take the processor long, and the loop
+    /// finds them ahead.
+    #[inline(always)]
+    fn roots<N: Number>(_overlap: N, _radius: N, _mass: N) -> Roots<N> {
+        [N::zero(); 2]
+    }
     /// Stiffness and damping of the contact at hand.
-    fn response<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> Response<N>;
+    fn response_at<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>, roots: Roots<N>) -> Response<N>;
+    /// The same when the roots are not known.
+    #[inline(always)]
+    fn response<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> Response<N> {
+        Self::response_at(law, contact, Self::roots(contact.overlap, contact.radius, contact.mass))
+    }
     /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact \[J\].
     fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].

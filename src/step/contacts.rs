@@ -3,14 +3,15 @@
 //! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
-use super::batch::{self, Batches, Bodies, Entries, Meeting, Touching};
+use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
 use super::error::RunError;
-use super::lanes::{self, Lane, Shared, vector};
+use super::gap::Gap;
+use super::lanes::{self, Lane, Shared};
 use super::observe::{self, ContactRecord};
 use super::pass::{Context, Link, Pass};
 use super::table::Table;
 use crate::contact::{Contact, Law, Response};
-use crate::number::{Number, Vector};
+use crate::number::Vector;
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State};
@@ -124,7 +125,7 @@ impl<L: Law> Pass for ContactPass<L> {
             let positions = &state.particles.position;
             let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
             let positions = [positions[i as usize], positions[j as usize]];
-            let Meeting { contact, first_arm, .. } = meet(positions, [v, u], [w, z], constant);
+            let Meeting { contact, first_arm, .. } = Gap::of(positions).meet([v, u], [w, z], constant);
             let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
             let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
             let (reaction, sliding) = observe::react::<L>(row, &contact, spring, list.flags[pair]);
@@ -169,57 +170,8 @@ pub(super) fn pair_contact(particles: &Particles, list: &ContactList, pair: usiz
     let rows = |rows: &[Row]| [rows[i], rows[j]];
     let Particles { position, velocity, angular_velocity, .. } = particles;
     let Meeting { contact, first_arm, second_arm } =
-        meet(rows(position), rows(velocity), rows(angular_velocity), constant);
+        Gap::of(rows(position)).meet(rows(velocity), rows(angular_velocity), constant);
     Some((contact, [first_arm, second_arm]))
-}
-
-/// Geometry and relative motion of two overlapping spheres i and j: positions and radii, velocities and masses,
-/// angular velocities.
-#[inline(always)]
-pub(super) fn meet<N: Number>(
-    [position_i, position_j]: [[N; 4]; 2],
-    [velocity_i, velocity_j]: [[N; 4]; 2],
-    [spin_i, spin_j]: [[N; 4]; 2],
-    pair_constant: N,
-) -> Meeting<N> {
-    let (half, one) = (N::splat(0.5), N::splat(1.0));
-    let apart = vector(position_i) - vector(position_j);
-    let distance = apart.length();
-    let per_distance = one / distance;
-    let normal = apart * per_distance;
-    let (radius_i, radius_j) = (position_i[3], position_j[3]);
-    let reach = radius_i + radius_j;
-    let overlap = reach - distance;
-    let (mass_i, mass_j) = (velocity_i[3], velocity_j[3]);
-    let mass = mass_i + mass_j;
-    // Effective radius and mass share their division, which is dear.
-    let shared = one / (reach * mass);
-    let arm_i = radius_i - half * overlap;
-    let arm_j = radius_j - half * overlap;
-    let relative = vector(velocity_i) - vector(velocity_j);
-    let normal_velocity = relative.dot(normal);
-    let turning = vector(spin_i) * arm_i + vector(spin_j) * arm_j;
-    let slip = relative - normal * normal_velocity - turning.cross(normal);
-    let difference = radius_i - radius_j;
-    let radius = radius_i * radius_j * (mass * shared);
-    let contact = Contact {
-        overlap,
-        radius,
-        mass: mass_i * mass_j * (reach * shared),
-        section_area: N::splat(std::f64::consts::FRAC_PI_4)
-            * overlap
-            * (distance + difference)
-            * (distance - difference)
-            * (distance + reach)
-            * (per_distance * per_distance),
-        section_radius: radius + radius,
-        normal,
-        normal_velocity,
-        slip,
-        relative_spin: vector(spin_i) - vector(spin_j),
-        pair_constant,
-    };
-    Meeting { contact, first_arm: arm_i, second_arm: arm_j }
 }
 
 /// Pairs of particles.
@@ -245,6 +197,7 @@ struct Pairs<'a> {
 
 impl Bodies for Pairs<'_> {
     type Sum = ();
+    const FOUND: usize = FOUND;
 
     fn first(&self) -> &[u32] {
         self.first
@@ -255,24 +208,33 @@ impl Bodies for Pairs<'_> {
     }
 
     #[inline(always)]
-    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> u32 {
+    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> (u32, [N; FOUND]) {
         let positions = self.position.as_ptr();
         // SAFETY: a list holds slots of particles, below their number.
-        let (i, j) = unsafe { (N::load_rows(positions, first), N::load_rows(positions, second)) };
-        let apart = vector(i) - vector(j);
-        let reach = i[3] + j[3];
-        N::bits((reach * reach).greater(apart.dot(apart)))
+        let gap = unsafe { Gap::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
+        (N::bits(gap.closed()), gap.to_found())
     }
 
     #[inline(always)]
-    unsafe fn meet<N: Lane, const TORQUE: bool>(&self, first: *const u32, second: *const u32) -> Meeting<N> {
-        let (x, v, w) = (self.position.as_ptr(), self.velocity.as_ptr(), self.angular_velocity.as_ptr());
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
+        Gap::from_found(*found).roots()
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> Meeting<N> {
+        let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
         // SAFETY: a list holds slots of particles, below their number.
-        unsafe {
+        let (velocities, spins) = unsafe {
             let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
-            let positions = [N::load_rows(x, first), N::load_rows(x, second)];
-            meet(positions, [N::load_rows(v, first), N::load_rows(v, second)], spins, N::zero())
-        }
+            ([N::load_rows(v, first), N::load_rows(v, second)], spins)
+        };
+        Gap::from_found(found).meet_at(roots, velocities, spins, N::zero())
     }
 
     fn row(&self, table: &Table, first: u32, second: u32) -> u32 {
@@ -292,17 +254,22 @@ impl Bodies for Pairs<'_> {
     }
 
     #[inline(always)]
-    fn spread(&self, touching: &Touching, torque: bool, _sum: &mut ()) {
-        let Touching { first, second, force, first_torque, second_torque, .. } = *touching;
+    fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
+        let Touching { first, second, force, .. } = *touching;
         for place in 0..first.len() {
             let (i, j) = (first[place] as usize, second[place] as usize);
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
                 batch::add(self.force.at(i), &force[place]);
                 batch::subtract(self.force.at(j), &force[place]);
-                if torque {
-                    batch::add(self.torque.at(i), &first_torque[place]);
-                    batch::add(self.torque.at(j), &second_torque[place]);
+                if needs.torque {
+                    let [mut on_i, mut on_j] = touching.torques(place);
+                    if needs.spin {
+                        batch::subtract(&mut on_i, &touching.rolling[place]);
+                        batch::add(&mut on_j, &touching.rolling[place]);
+                    }
+                    batch::add(self.torque.at(i), &on_i);
+                    batch::add(self.torque.at(j), &on_j);
                 }
             }
         }

@@ -2,7 +2,8 @@
 //! their list, after its near pairs. A scene without a bond that hides contacts has no such list.
 
 use super::batch;
-use super::contacts::{ContactPass, effective, meet};
+use super::contacts::{ContactPass, effective};
+use super::gap::Gap;
 use super::observe::ContactRecord;
 use super::pass::Link;
 use super::walls::{Plane, WallPass};
@@ -105,7 +106,7 @@ fn pair(particles: &Particles, entry: &HiddenContact) -> Option<Meeting> {
         return None;
     }
     let (v, w) = (&particles.velocity, &particles.angular_velocity);
-    let at = |y| meet([x, y], [v[i], v[j]], [w[i], w[j]], entry.pair_constant);
+    let at = |y| Gap::of([x, y]).meet([v[i], v[j]], [w[i], w[j]], entry.pair_constant);
     let batch::Meeting { contact, first_arm, second_arm } = at(y);
     let [a, b, c] = (Vector::from(x) - contact.normal * (reach - entry.offset.min(contact.overlap))).to_array();
     Some(Meeting { contact, offset: at([a, b, c, y[3]]).contact, first_arm, second_arm })

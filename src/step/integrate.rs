@@ -116,7 +116,7 @@ impl Kernel for Second<'_, '_> {
         let half = 0.5 * step;
         let mut most = 0.0;
         // Zero times what is finite is zero; times anything else it is not a number.
-        let mut sum = [0.0; 4];
+        let mut sums = [[0.0; 4]; 2];
         for slot in rows.slots(piece) {
             // SAFETY: pieces do not overlap, and each is worked on by one thread.
             let body = unsafe { rows.body(slot) };
@@ -133,15 +133,16 @@ impl Kernel for Second<'_, '_> {
             *body.velocity = v;
             let next = plus(v, force, factor);
             let square = next[0] * next[0] + next[1] * next[1] + next[2] * next[2];
-            sum[3] += square * 0.0;
+            sums[0] = plus(sums[0], next, 0.0);
             most = if square > most { square } else { most };
             if turning {
                 let (spin, torque) = (*body.spin, *body.torque);
                 let w = plus(spin, torque, half / spin[3]);
                 *body.spin = w;
-                sum = plus(sum, w, 0.0);
+                sums[1] = plus(sums[1], w, 0.0);
             }
         }
+        let sum = plus(sums[0], sums[1], 1.0);
         *fastest = most + (sum[0] + sum[1] + sum[2] + sum[3]);
     }
 }

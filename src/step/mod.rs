@@ -9,6 +9,7 @@ mod contacts;
 mod energy;
 mod error;
 mod fields;
+mod gap;
 mod guards;
 mod hidden;
 mod hiding;

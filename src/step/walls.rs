@@ -3,7 +3,7 @@
 //! A particle stands once in a list, so pieces of a list are worked on side by side; loads on the plane are summed
 //! piece by piece, in order.
 
-use super::batch::{self, Batches, Bodies, Entries, Meeting, Touching};
+use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
 use super::error::RunError;
 use super::lanes::{Lane, Shared, vector};
 use super::observe::{self, ContactRecord};
@@ -56,8 +56,13 @@ impl<N: Number> Plane<N> {
     /// Geometry and relative motion of a sphere at the plane.
     #[inline(always)]
     pub(super) fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> Meeting<N> {
-        let radius = position[3];
-        let overlap = radius - self.distance(position);
+        self.meet_at([self.distance(position), position[3]], velocity, spin, pair_constant)
+    }
+
+    /// The same at this distance, with this radius.
+    #[inline(always)]
+    fn meet_at(&self, [distance, radius]: [N; 2], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> Meeting<N> {
+        let overlap = radius - distance;
         let arm = radius - N::splat(0.5) * overlap;
         let relative = vector(velocity) - self.velocity;
         let normal_velocity = relative.dot(self.normal);
@@ -288,6 +293,7 @@ struct AtPlane<'a> {
 
 impl Bodies for AtPlane<'_> {
     type Sum = Load;
+    const FOUND: usize = 2;
 
     fn first(&self) -> &[u32] {
         self.particle
@@ -298,7 +304,7 @@ impl Bodies for AtPlane<'_> {
     }
 
     #[inline(always)]
-    unsafe fn touch<N: Lane>(&self, first: *const u32, _second: *const u32, load: &mut Load) -> u32 {
+    unsafe fn touch<N: Lane>(&self, first: *const u32, _second: *const u32, load: &mut Load) -> (u32, [N; FOUND]) {
         // SAFETY: a list holds slots of particles, below their number.
         let position = unsafe { N::load_rows(self.position.as_ptr(), first) };
         let distance = self.plane.lanes::<N>().distance(position);
@@ -307,18 +313,29 @@ impl Bodies for AtPlane<'_> {
             // SAFETY: there are as many slots as lanes.
             load.behind = Some(unsafe { *first.add(behind.trailing_zeros() as usize) });
         }
-        !N::bits(distance.greater(position[3]))
+        let zero = N::zero();
+        (!N::bits(distance.greater(position[3])), [distance, position[3], zero, zero, zero])
     }
 
     #[inline(always)]
-    unsafe fn meet<N: Lane, const TORQUE: bool>(&self, first: *const u32, _second: *const u32) -> Meeting<N> {
+    fn roots<N: Lane>(_found: &[N; FOUND]) -> [N; 2] {
+        [N::zero(); 2]
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        _second: *const u32,
+        [distance, radius, ..]: [N; FOUND],
+        _roots: [N; 2],
+    ) -> Meeting<N> {
         // SAFETY: a list holds slots of particles, below their number.
-        unsafe {
+        let (velocity, spin) = unsafe {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), first) } else { [N::zero(); 4] };
-            let position = N::load_rows(self.position.as_ptr(), first);
-            let velocity = N::load_rows(self.velocity.as_ptr(), first);
-            self.plane.lanes::<N>().meet(position, velocity, spin, N::zero())
-        }
+            (N::load_rows(self.velocity.as_ptr(), first), spin)
+        };
+        self.plane.lanes::<N>().meet_at([distance, radius], velocity, spin, N::zero())
     }
 
     fn row(&self, table: &Table, first: u32, _second: u32) -> u32 {
@@ -326,21 +343,25 @@ impl Bodies for AtPlane<'_> {
     }
 
     #[inline(always)]
-    fn spread(&self, touching: &Touching, torque: bool, load: &mut Load) {
-        let Touching { first, force, first_torque, second_torque, first_arm, .. } = *touching;
+    fn spread(&self, touching: &Touching, needs: Needs, load: &mut Load) {
+        let Touching { first, force, rolling, first_arm, .. } = *touching;
         for place in 0..first.len() {
             let slot = first[place] as usize;
             // SAFETY: a particle stands once in a list.
             unsafe {
                 batch::add(self.force.at(slot), &force[place]);
-                if torque {
-                    batch::add(self.torque.at(slot), &first_torque[place]);
+                if needs.torque {
+                    let [mut torque, _] = touching.torques(place);
+                    if needs.spin {
+                        batch::subtract(&mut torque, &rolling[place]);
+                    }
+                    batch::add(self.torque.at(slot), &torque);
                 }
             }
             let point = Vector::from(self.position[slot]) - self.plane.normal * first_arm[place];
             let mut moment = (point - self.reference).cross(force[place].into());
-            if torque {
-                moment = moment - second_torque[place].into();
+            if needs.spin {
+                moment = moment - rolling[place].into();
             }
             for (axis, part) in moment.to_array().into_iter().enumerate() {
                 load.force[axis] -= force[place][axis];

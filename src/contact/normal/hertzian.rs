@@ -1,6 +1,6 @@
 //! What all Hertzian models compute.
 
-use crate::contact::{Contact, NormalForm, Response, coefficients};
+use crate::contact::{Contact, NormalForm, Response, Roots, coefficients};
 use crate::number::Number;
 
 coefficients! {
@@ -30,11 +30,18 @@ coefficients! {
 }
 
 impl NormalForm for Hertzian {
+    const HAS_ROOTS: bool = true;
+
+    /// a and √(a m*).
     #[inline(always)]
-    fn response<N: Number>(law: Hertzian<N>, contact: &Contact<N>) -> Response<N> {
-        let contact_radius = (contact.radius * contact.overlap).sqrt();
+    fn roots<N: Number>(overlap: N, radius: N, mass: N) -> Roots<N> {
+        let contact_radius = (radius * overlap).sqrt();
+        [contact_radius, (contact_radius * mass).sqrt()]
+    }
+
+    #[inline(always)]
+    fn response_at<N: Number>(law: Hertzian<N>, contact: &Contact<N>, [contact_radius, root]: Roots<N>) -> Response<N> {
         let loaded_mass = contact_radius * contact.mass;
-        let root = loaded_mass.sqrt();
         Response {
             normal_stiffness: law.normal_stiffness * contact_radius,
             normal_damping: law.normal_root_damping * root + law.normal_mass_damping * loaded_mass,

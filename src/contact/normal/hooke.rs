@@ -1,6 +1,8 @@
 //! A linear spring as stiff as a Hertz contact at one chosen speed.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
+use crate::contact::{
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+};
 use crate::number::Number;
 use crate::quantity::Positive;
 use serde::Deserialize;
@@ -70,7 +72,7 @@ impl NormalForm for Hooke {
     }
 
     #[inline(always)]
-    fn response<N: Number>(law: Hooke<N>, contact: &Contact<N>) -> Response<N> {
+    fn response_at<N: Number>(law: Hooke<N>, contact: &Contact<N>, _roots: Roots<N>) -> Response<N> {
         let stiffness = contact.pair_constant;
         let damping = law.damping * (contact.mass * stiffness).sqrt();
         Response {

@@ -1,6 +1,8 @@
 //! A linear spring of given stiffness.
 
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
+use crate::contact::{
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+};
 use crate::number::Number;
 use serde::Deserialize;
 
@@ -69,7 +71,7 @@ impl Normal for HookeStiffness {
 
 impl NormalForm for HookeStiffness {
     #[inline(always)]
-    fn response<N: Number>(law: HookeStiffness<N>, contact: &Contact<N>) -> Response<N> {
+    fn response_at<N: Number>(law: HookeStiffness<N>, contact: &Contact<N>, _roots: Roots<N>) -> Response<N> {
         Response {
             normal_stiffness: law.normal_stiffness,
             normal_damping: contact.mass * law.normal_damping_rate + law.normal_damping,

@@ -1,7 +1,9 @@
 //! A linear spring whose damping follows a fluid between the bodies.
 
 use super::hooke;
-use crate::contact::{Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, coefficients};
+use crate::contact::{
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+};
 use crate::number::Number;
 use std::f64::consts::PI;
 
@@ -64,7 +66,7 @@ impl NormalForm for HookeViscous {
     }
 
     #[inline(always)]
-    fn response<N: Number>(law: HookeViscous<N>, contact: &Contact<N>) -> Response<N> {
+    fn response_at<N: Number>(law: HookeViscous<N>, contact: &Contact<N>, _roots: Roots<N>) -> Response<N> {
         let stiffness = contact.pair_constant;
         // L v_n rather than L, which is infinite at rest
         let loss = law.dry_logarithm * contact.normal_velocity

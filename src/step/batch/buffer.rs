@@ -1,10 +1,11 @@
 //! The batch that goes through the phases.
 
-use super::{Meeting, Needs, Touching};
-use crate::contact::Contact;
+use super::{Bodies, FOUND, Meeting, Needs, Touching};
+use crate::contact::{Contact, Law, Roots};
 use crate::number::Vector;
 use crate::state::Row;
 use crate::step::lanes::Lane;
+use std::cell::RefCell;
 
 /// Touching entries of one batch.
 pub(super) const BATCH: usize = 64;
@@ -20,12 +21,16 @@ const COLUMNS: usize = 17;
 pub(super) struct Buffer {
     /// Meetings, column by column.
     pub(super) columns: [[f64; ROOM]; COLUMNS],
+    /// What was found of the places of the bodies.
+    pub(super) found: [[f64; ROOM]; FOUND],
+    /// What takes long, found from that.
+    pub(super) roots: [[f64; ROOM]; 2],
     /// Force on the first body.
     pub(super) force: [Row; ROOM],
-    /// Torque on the first body.
-    pub(super) first_torque: [Row; ROOM],
-    /// Torque on the second body.
-    pub(super) second_torque: [Row; ROOM],
+    /// What friction turns both bodies by, over its arm.
+    pub(super) couple: [Row; ROOM],
+    /// Rolling torque.
+    pub(super) rolling: [Row; ROOM],
     /// Touching entries.
     pub(super) entry: [u32; ROOM],
     /// Their first bodies.
@@ -40,16 +45,38 @@ pub(super) struct Buffer {
     pub(super) ready: usize,
 }
 
+/// Copies eight entries to the front.
+#[inline(always)]
+fn to_front<T: Copy>(entries: &mut [T; ROOM], from: usize) {
+    if let Some(&eight) = entries[from..].first_chunk::<8>() {
+        entries[..8].copy_from_slice(&eight);
+    }
+}
+
 impl Buffer {
+    /// Gives a piece of work the room of its thread, empty. What is left in it of other pieces is never looked at.
+    pub(super) fn with<T>(work: impl FnOnce(&mut Self) -> T) -> T {
+        thread_local! {
+            /// The room of each thread.
+            static ROOM: RefCell<Box<Buffer>> = RefCell::new(Box::new(Buffer::new()));
+        }
+        ROOM.with_borrow_mut(|buffer| {
+            buffer.count = 0;
+            work(buffer)
+        })
+    }
+
     /// An empty one.
-    pub(super) fn new() -> Self {
+    fn new() -> Self {
         let rows = [[0.0; 4]; ROOM];
         let slots = [0; ROOM];
         Self {
             columns: [[0.0; ROOM]; COLUMNS],
+            found: [[0.0; ROOM]; FOUND],
+            roots: [[0.0; ROOM]; 2],
             force: rows,
-            first_torque: rows,
-            second_torque: rows,
+            couple: rows,
+            rolling: rows,
             entry: slots,
             first: slots,
             second: slots,
@@ -61,22 +88,46 @@ impl Buffer {
 
     /// Says how many entries are worked on now: whole registers, or all of the last ones, of which the last is
     /// repeated to fill a register.
-    pub(super) fn complete(&mut self, last: bool) {
+    pub(super) fn complete<B: Bodies>(&mut self, last: bool) {
         self.ready = if last { self.count } else { self.count / 8 * 8 };
         if last && self.count > 0 {
             for slots in [&mut self.entry, &mut self.first, &mut self.second] {
                 let repeated = slots[self.count - 1];
                 slots[self.count..self.count + 8].fill(repeated);
             }
+            for numbers in &mut self.found[..B::FOUND] {
+                let repeated = numbers[self.count - 1];
+                numbers[self.count..self.count + 8].fill(repeated);
+            }
         }
     }
 
     /// Keeps what was not worked on for the next batch.
-    pub(super) fn proceed(&mut self) {
+    pub(super) fn proceed<B: Bodies>(&mut self) {
+        // Fewer than 8 are left. Copies of a length that is known are a register each.
         for slots in [&mut self.entry, &mut self.first, &mut self.second] {
-            slots.copy_within(self.ready..self.count, 0);
+            to_front(slots, self.ready);
+        }
+        for numbers in &mut self.found[..B::FOUND] {
+            to_front(numbers, self.ready);
         }
         self.count -= self.ready;
+    }
+
+    /// Reads a register's worth of what was found.
+    ///
+    /// # Safety
+    /// As for [`Buffer::put`].
+    #[inline(always)]
+    pub(super) unsafe fn found<N: Lane, B: Bodies>(&self, place: usize) -> [N; FOUND] {
+        let mut found = [N::zero(); FOUND];
+        let mut column = 0;
+        while column < B::FOUND {
+            // SAFETY: the caller's promise.
+            found[column] = unsafe { N::load(self.found[column].as_ptr().add(place)) };
+            column += 1;
+        }
+        found
     }
 
     /// Writes a register's worth of meetings.
@@ -106,12 +157,12 @@ impl Buffer {
         }
     }
 
-    /// Reads a register's worth of meetings.
+    /// Reads a register's worth of contacts.
     ///
     /// # Safety
     /// As for [`Buffer::put`].
     #[inline(always)]
-    pub(super) unsafe fn take<N: Lane>(&self, place: usize, pair_constant: N) -> Meeting<N> {
+    pub(super) unsafe fn take<N: Lane>(&self, place: usize, pair_constant: N) -> Contact<N> {
         let base = self.columns.as_ptr().cast::<f64>();
         macro_rules! take {
             ($column:literal) => {
@@ -119,7 +170,7 @@ impl Buffer {
                 unsafe { N::load(base.add($column * ROOM + place)) }
             };
         }
-        let contact = Contact {
+        Contact {
             overlap: take!(0),
             radius: take!(1),
             mass: take!(2),
@@ -130,8 +181,34 @@ impl Buffer {
             section_area: take!(15),
             section_radius: take!(16),
             pair_constant,
-        };
-        Meeting { contact, first_arm: take!(10), second_arm: take!(11) }
+        }
+    }
+
+    /// Finds the roots that a law wants of a register's worth of meetings.
+    ///
+    /// # Safety
+    /// As for [`Buffer::put`].
+    #[inline(always)]
+    pub(super) unsafe fn find_roots<N: Lane, L: Law>(&mut self, place: usize) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let [overlap, radius, mass, ..] = &self.columns;
+            let [overlap, radius, mass] = [overlap.as_ptr(), radius.as_ptr(), mass.as_ptr()];
+            let [one, other] =
+                L::roots(N::load(overlap.add(place)), N::load(radius.add(place)), N::load(mass.add(place)));
+            one.store(self.roots[0].as_mut_ptr().add(place));
+            other.store(self.roots[1].as_mut_ptr().add(place));
+        }
+    }
+
+    /// The roots that were found.
+    ///
+    /// # Safety
+    /// As for [`Buffer::put`].
+    #[inline(always)]
+    pub(super) unsafe fn roots<N: Lane>(&self, place: usize) -> Roots<N> {
+        // SAFETY: the caller's promise.
+        unsafe { [N::load(self.roots[0].as_ptr().add(place)), N::load(self.roots[1].as_ptr().add(place))] }
     }
 
     /// What was worked on.
@@ -141,9 +218,10 @@ impl Buffer {
             first: &self.first[..self.ready],
             second: &self.second[..self.ready],
             force: &self.force[..self.ready],
-            first_torque: &self.first_torque[..self.ready],
-            second_torque: &self.second_torque[..self.ready],
+            couple: &self.couple[..self.ready],
+            rolling: &self.rolling[..self.ready],
             first_arm: &self.columns[10][..self.ready],
+            second_arm: &self.columns[11][..self.ready],
         }
     }
 }

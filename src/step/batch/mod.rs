@@ -2,13 +2,15 @@
 //!
 //! Entries are worked on in batches whose buffers stay in the first-level cache, in four phases:
 //!
-//! 1. *touch*: which entries touch, several at a time; they are compacted without a branch;
+//! 1. *touch*: which entries touch, several at a time; they are compacted without a branch, and where their bodies
+//!    are to each other with them;
 //! 2. *meet*: geometry and relative motion, written as columns;
 //! 3. *react*: the law on the columns; forces and torques as rows;
 //! 4. *spread*: the rows are added to the bodies, one by one, in the order of the list.
 //!
 //! Phases 1, 2 and 4 know the bodies and no law, phase 3 knows the law and no bodies: each is compiled once for each
-//! of what it knows. Short phases also let the processor work on several registers' worth of contacts at once.
+//! of what it knows. Short phases also let the processor work on several registers' worth of contacts at once. Roots
+//! and quotients, for which what follows would wait, are found one register ahead.
 
 mod buffer;
 mod phases;
@@ -50,10 +52,16 @@ pub(super) struct Meeting<N = f64> {
     pub second_arm: N,
 }
 
+/// Numbers that phase 1 leaves of a touching entry to phase 2, at most.
+pub(super) const FOUND: usize = 5;
+
 /// Which bodies an entry of a list brings together.
 pub(super) trait Bodies: Copy {
     /// What is summed up beside the loads on particles.
     type Sum: Default;
+
+    /// Numbers that [`Bodies::touch`] leaves to [`Bodies::meet`].
+    const FOUND: usize;
 
     /// The first body of each entry (slot).
     fn first(&self) -> &[u32];
@@ -61,17 +69,26 @@ pub(super) trait Bodies: Copy {
     /// The second body of each entry (slot); where the second body is always the same, anything.
     fn second(&self) -> &[u32];
 
-    /// Which entries touch, a bit for each.
+    /// Which entries touch, a bit for each, and what [`Bodies::meet`] has to know of their places.
     ///
     /// # Safety
     /// Both point to [`Lane::WIDTH`] slots of the lists.
-    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, sum: &mut Self::Sum) -> u32;
+    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, sum: &mut Self::Sum) -> (u32, [N; FOUND]);
+
+    /// What takes the processor long, is needed early, and follows from the places alone: roots and quotients.
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2];
 
     /// Geometry and relative motion; slip, spin and arms where there is torque.
     ///
     /// # Safety
     /// As for [`Bodies::touch`].
-    unsafe fn meet<N: Lane, const TORQUE: bool>(&self, first: *const u32, second: *const u32) -> Meeting<N>;
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> Meeting<N>;
 
     /// The row of the law's table for two bodies.
     fn row(&self, table: &Table, first: u32, second: u32) -> u32;
@@ -80,7 +97,7 @@ pub(super) trait Bodies: Copy {
     fn prefetch(&self, _slots: Range<usize>) {}
 
     /// Adds the loads of touching entries to their bodies, one by one.
-    fn spread(&self, touching: &Touching, torque: bool, sum: &mut Self::Sum);
+    fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
 }
 
 /// Touching entries of a batch with what they do to their bodies, in the order of the list.
@@ -92,12 +109,24 @@ pub(super) struct Touching<'a> {
     pub second: &'a [u32],
     /// Force on the first body \[N\].
     pub force: &'a [Row],
-    /// Torque on the first body \[N m\].
-    pub first_torque: &'a [Row],
-    /// Torque on the second body \[N m\].
-    pub second_torque: &'a [Row],
+    /// What friction turns both bodies by, over its arm \[N\]; anything where there is no torque.
+    pub couple: &'a [Row],
+    /// Rolling torque from the first body to the second \[N m\]; anything where there is none.
+    pub rolling: &'a [Row],
     /// Arm at the first body \[m\].
     pub first_arm: &'a [f64],
+    /// Arm at the second body \[m\].
+    pub second_arm: &'a [f64],
+}
+
+impl Touching<'_> {
+    /// Torque of friction on the two bodies of an entry \[N m\].
+    #[inline(always)]
+    pub(super) fn torques(&self, place: usize) -> [Row; 2] {
+        let [x, y, z, rest] = self.couple[place];
+        let turned = |arm: f64| [-(x * arm), -(y * arm), -(z * arm), -(rest * arm)];
+        [turned(self.first_arm[place]), turned(self.second_arm[place])]
+    }
 }
 
 /// What a list keeps of each entry.
@@ -132,24 +161,26 @@ impl<B: Bodies> Batches<'_, B> {
     /// The law on a piece of the list. Pieces worked on at the same time share no body that is written to. `ahead` are
     /// particles (slots) that a later piece will need: they come into the cache bit by bit.
     pub(super) fn run<L: Law>(&self, from: usize, to: usize, ahead: Range<usize>) -> B::Sum {
+        Buffer::with(|buffer| self.run_in::<L>(buffer, from..to, ahead))
+    }
+
+    /// The same, in this room.
+    fn run_in<L: Law>(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
         let (width, needs) = (self.width, Needs::of::<L>());
-        let mut buffer = Buffer::new();
+        let Range { start: from, end: to } = entries;
         let mut sum = B::Sum::default();
         let (mut next, mut fetched) = (from, ahead.start);
         while next < to {
             let share = ahead.start + ahead.len() * (next - from) / (to - from);
             self.bodies.prefetch(fetched..share);
             fetched = share;
-            lanes::run(width, Touch { work: self, to, next: &mut next, buffer: &mut buffer, sum: &mut sum });
-            buffer.complete(next == to);
-            self.meet(needs, &mut buffer);
+            lanes::run(width, Touch { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            buffer.complete::<B>(next == to);
+            self.meet(needs, buffer);
             let Self { entries, table, uniform, step, .. } = *self;
-            lanes::run(
-                width,
-                React::<L> { entries, table, uniform, step, buffer: &mut buffer, law: Default::default() },
-            );
-            lanes::run(width, Spread { bodies: self.bodies, torque: needs.torque, buffer: &buffer, sum: &mut sum });
-            buffer.proceed();
+            lanes::run(width, React::<L> { entries, table, uniform, step, buffer, law: Default::default() });
+            lanes::run(width, Spread { bodies: self.bodies, needs, buffer, sum: &mut sum });
+            buffer.proceed::<B>();
         }
         sum
     }

@@ -1,7 +1,7 @@
 //! The phases of a batch.
 
 use super::buffer::{BATCH, Buffer};
-use super::{Batches, Bodies, Entries, Meeting, Needs};
+use super::{Batches, Bodies, Entries, Needs};
 use crate::contact::Law;
 use crate::number::Vector;
 use crate::state::contacts::{SLIDING, TOUCHING};
@@ -45,7 +45,8 @@ impl<B: Bodies> Kernel for Touch<'_, '_, B> {
                     }
                     (first, second) = (some_first.as_ptr(), some_second.as_ptr());
                 }
-                let bits = bodies.touch::<N>(first, second, sum) & ((1 << here) - 1);
+                let (touching, found) = bodies.touch::<N>(first, second, sum);
+                let bits = touching & ((1 << here) - 1);
                 if here == N::WIDTH {
                     end(entries, entry, N::WIDTH, bits);
                 } else {
@@ -62,6 +63,11 @@ impl<B: Bodies> Kernel for Touch<'_, '_, B> {
                 let start = entry as u32;
                 let all = [start, start + 1, start + 2, start + 3, start + 4, start + 5, start + 6, start + 7];
                 N::compact(all.as_ptr(), bits, buffer.entry.as_mut_ptr().add(count));
+                let mut column = 0;
+                while column < B::FOUND {
+                    found[column].store_compact(bits, buffer.found[column].as_mut_ptr().add(count));
+                    column += 1;
+                }
                 count += bits.count_ones() as usize;
                 entry += here;
             }
@@ -112,12 +118,17 @@ impl<B: Bodies, const TORQUE: bool> Kernel for Meet<'_, B, TORQUE> {
     fn run<N: Lane>(self) {
         let Self { bodies, needs, buffer } = self;
         let mut done = 0;
+        // SAFETY: there is room for a register behind the batch.
+        let mut roots = B::roots(&unsafe { buffer.found::<N, B>(0) });
         while done < buffer.ready {
             // SAFETY: the slots are filled up to a whole register, for which there is room.
             unsafe {
                 let (first, second) = (buffer.first.as_ptr().add(done), buffer.second.as_ptr().add(done));
-                let meeting = bodies.meet::<N, TORQUE>(first, second);
+                let found = buffer.found::<N, B>(done);
+                let next = B::roots(&buffer.found::<N, B>(done + N::WIDTH));
+                let meeting = bodies.meet::<N, TORQUE>(first, second, found, roots);
                 buffer.put::<N, TORQUE>(done, &meeting, needs);
+                roots = next;
             }
             done += N::WIDTH;
         }
@@ -154,6 +165,10 @@ impl<L: Law> Kernel for React<'_, '_, L> {
         }
         let step = N::splat(step);
         let mut done = 0;
+        if L::HAS_ROOTS {
+            // SAFETY: there is room for a register behind the batch; so below.
+            unsafe { buffer.find_roots::<N, L>(0) };
+        }
         while done < buffer.ready {
             // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
             // piece of the list, and each has what the law keeps. A repeated entry is written twice, with the same.
@@ -164,20 +179,21 @@ impl<L: Law> Kernel for React<'_, '_, L> {
                 let places = buffer.entry.as_ptr().add(done);
                 let constant =
                     if L::HAS_PAIR_CONSTANT { N::gather(entries.pair_constant.as_ptr(), places, 1) } else { N::zero() };
-                let Meeting { contact, first_arm, second_arm } = buffer.take::<N>(done, constant);
+                let contact = buffer.take::<N>(done, constant);
                 let spring =
                     if L::HAS_SPRING { vector(N::load_rows(entries.spring.pointer(), places)) } else { Vector::zero() };
-                let reaction = L::react(&row[..L::COUNT], &contact, spring, step);
+                let mut roots = [N::zero(); 2];
+                if L::HAS_ROOTS {
+                    buffer.find_roots::<N, L>(done + N::WIDTH);
+                    roots = buffer.roots(done);
+                }
+                let reaction = L::react_at(&row[..L::COUNT], &contact, roots, spring, step);
                 N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(done));
                 if L::HAS_TORQUE {
-                    let mut first = -(reaction.couple * first_arm);
-                    let mut second = -(reaction.couple * second_arm);
+                    N::store_block(columns(reaction.couple), buffer.couple.as_mut_ptr().add(done));
                     if L::HAS_ROLLING {
-                        first = first - reaction.rolling;
-                        second += reaction.rolling;
+                        N::store_block(columns(reaction.rolling), buffer.rolling.as_mut_ptr().add(done));
                     }
-                    N::store_block(columns(first), buffer.first_torque.as_mut_ptr().add(done));
-                    N::store_block(columns(second), buffer.second_torque.as_mut_ptr().add(done));
                     let mut sliding = N::bits(reaction.sliding);
                     while sliding != 0 {
                         let lane = sliding.trailing_zeros() as usize;
@@ -198,8 +214,8 @@ impl<L: Law> Kernel for React<'_, '_, L> {
 pub(super) struct Spread<'b, B: Bodies> {
     /// Which bodies meet.
     pub(super) bodies: B,
-    /// Whether there is torque.
-    pub(super) torque: bool,
+    /// What the law does to the bodies.
+    pub(super) needs: Needs,
     /// The batch.
     pub(super) buffer: &'b Buffer,
     /// What is summed up.
@@ -209,6 +225,6 @@ pub(super) struct Spread<'b, B: Bodies> {
 impl<B: Bodies> Kernel for Spread<'_, B> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        self.bodies.spread(&self.buffer.touching(), self.torque, self.sum);
+        self.bodies.spread(&self.buffer.touching(), self.needs, self.sum);
     }
 }

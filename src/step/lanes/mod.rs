@@ -55,6 +55,13 @@ pub trait Lane: Number {
     /// `from` and `to` point to [`Lane::WIDTH`] indices each.
     unsafe fn compact(from: *const u32, bits: u32, to: *mut u32);
 
+    /// Writes the numbers of those lanes whose bit is set, one after the other. What stands behind them, up to
+    /// [`Lane::WIDTH`] places in all, is lost.
+    ///
+    /// # Safety
+    /// `to` points to [`Lane::WIDTH`] numbers.
+    unsafe fn store_compact(self, bits: u32, to: *mut f64);
+
     /// Writes the numbers to consecutive places.
     ///
     /// # Safety

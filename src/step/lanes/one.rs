@@ -43,6 +43,12 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
+    unsafe fn store_compact(self, _bits: u32, to: *mut f64) {
+        // SAFETY: the caller's promise.
+        unsafe { *to = self }
+    }
+
+    #[inline(always)]
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { *place = self }

@@ -233,6 +233,12 @@ impl Lane for Eight {
     }
 
     #[inline(always)]
+    unsafe fn store_compact(self, bits: u32, to: *mut f64) {
+        // SAFETY: the caller's promise.
+        unsafe { _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits as __mmask8, self.0)) }
+    }
+
+    #[inline(always)]
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm512_storeu_pd(place, self.0) }

@@ -107,6 +107,22 @@ const fn orders_of_four() -> [[u32; 4]; 16] {
     orders
 }
 
+/// The same for the two halves of each lane.
+static HALVES_OF_FOUR: [[u32; 8]; 16] = halves_of_four();
+
+/// The rows of [`HALVES_OF_FOUR`].
+const fn halves_of_four() -> [[u32; 8]; 16] {
+    let orders = orders_of_four();
+    let mut halves = [[0; 8]; 16];
+    let mut place = 0;
+    while place < 16 * 8 {
+        let (bits, half) = (place / 8, place % 8);
+        halves[bits][half] = 2 * orders[bits][half / 2] + half as u32 % 2;
+        place += 1;
+    }
+    halves
+}
+
 impl Lane for Four {
     const WIDTH: usize = 4;
 
@@ -173,6 +189,16 @@ impl Lane for Four {
         unsafe {
             let order = _mm_loadu_si128(ORDER_OF_FOUR[(bits & 15) as usize].as_ptr().cast());
             _mm_storeu_ps(to.cast(), _mm_permutevar_ps(_mm_loadu_ps(from.cast()), order));
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn store_compact(self, bits: u32, to: *mut f64) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let order = _mm256_loadu_si256(HALVES_OF_FOUR[(bits & 15) as usize].as_ptr().cast());
+            let numbers = _mm256_permutevar8x32_ps(_mm256_castpd_ps(self.0), order);
+            _mm256_storeu_pd(to, _mm256_castps_pd(numbers));
         }
     }
 

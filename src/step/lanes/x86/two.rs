@@ -133,6 +133,15 @@ impl Lane for Two {
     }
 
     #[inline(always)]
+    unsafe fn store_compact(self, bits: u32, to: *mut f64) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            _mm_storel_pd(to, self.0);
+            _mm_storeh_pd(to.add((bits & 1) as usize), self.0);
+        }
+    }
+
+    #[inline(always)]
     unsafe fn store(self, place: *mut f64) {
         // SAFETY: the caller's promise.
         unsafe { _mm_storeu_pd(place, self.0) }
