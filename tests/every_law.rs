@@ -5,6 +5,10 @@
 //! in which bonds between particles and to a plane are loaded in every way and break. Threads share a pass by slabs,
 //! whatever the law; `same_bits.rs` and `bonded_block.rs` look at them.
 
+use cograin::contact::cohesion::CohesionChoice;
+use cograin::contact::normal::NormalChoice;
+use cograin::contact::rolling::RollingChoice;
+use cograin::contact::tangential::TangentialChoice;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
 use cograin::step::lanes::Width;
@@ -74,28 +78,22 @@ material = "b"
 energy = true
 "#;
 
-/// Normal sub-models: name and stiffnesses of the pairs, which laws by material ignore.
-const NORMALS: [(&str, [&str; 2]); 5] = [
-    ("hertz", ["5.0e3", "100.0"]),
-    ("hertz_stiffness", ["1.0e7", "1.0e5"]),
-    ("hooke", ["5.0e3", "100.0"]),
-    ("hooke_stiffness", ["5.0e3", "100.0"]),
-    ("hooke_viscous", ["5.0e3", "100.0"]),
-];
-
 /// Every contact law there is: name, and scene.
 fn contact_laws() -> BTreeMap<String, String> {
     let mut scenes = BTreeMap::new();
-    for (normal, [stiffness, damping]) in NORMALS {
-        for tangential in ["none", "history", "no_history"] {
-            for rolling in ["none", "cdt"] {
-                for cohesion in ["none", "sjkr", "sjkr2"] {
+    for &normal in NormalChoice::NAMES {
+        for &tangential in TangentialChoice::NAMES {
+            for &rolling in RollingChoice::NAMES {
+                for &cohesion in CohesionChoice::NAMES {
                     let speed =
                         if matches!(normal, "hooke" | "hooke_viscous") { "characteristic_velocity = 1.0" } else { "" };
                     let law = format!(
                         "[contact.touch.normal.{normal}]\n{speed}\n[contact.touch.tangential.{tangential}]\n\
                          [contact.touch.rolling.{rolling}]\n[contact.touch.cohesion.{cohesion}]"
                     );
+                    // Of a pair; in this one law for each root of a length.
+                    let (stiffness, damping) =
+                        if normal == "hertz_stiffness" { ("1.0e7", "1.0e5") } else { ("5.0e3", "100.0") };
                     let stiffness = format!(
                         "normal_stiffness = {stiffness}\ntangential_stiffness = {stiffness}\n\
                          normal_damping = {damping}\ntangential_damping = {damping}"
@@ -269,7 +267,8 @@ fn hashes(width: Width) -> BTreeMap<String, u64> {
         hashes.insert(name, hash);
     }
     hashes.insert("others".into(), run("others", OTHERS, width, OTHER_STEPS).0);
-    assert_eq!(hashes.len(), 5 * 3 * 2 * 3 + (2 * 5 + 3) * 2 * 2 + 1);
+    let axes = [NormalChoice::NAMES, TangentialChoice::NAMES, RollingChoice::NAMES, CohesionChoice::NAMES];
+    assert_eq!(hashes.len(), axes.iter().map(|names| names.len()).product::<usize>() + (2 * 5 + 3) * 2 * 2 + 1);
     hashes
 }
 
