@@ -258,10 +258,11 @@ fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
     });
     bar.finish_and_clear();
     let settled = result?;
+    let kind = if settled.contacts > 0 { "contact" } else { "bond" };
     say(format_args!(
-        "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean contact force, {} contacts, \
+        "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {} contacts, \
          kinetic energy {:.3e} J",
-        settled.steps, settled.time, settled.wall_time, settled.ratio, settled.contacts, settled.kinetic_energy
+        settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
     ));
     Ok(())
 }

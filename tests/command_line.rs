@@ -454,12 +454,60 @@ fn a_unit_that_begins_settled_keeps_the_packing_when_its_boundaries_are_placed()
 }
 
 #[test]
+fn what_never_touches_is_told_when_it_does_not_settle() {
+    let place = Place::new("never_touching");
+    let scene = place.at("scene.toml");
+    let text = SCENE.replace("RUN", "step = 2e-5").replace("OUTPUT", "");
+    // Without gravity the spheres stay where they are, and none touches another.
+    fs::write(&scene, text.replace("gravity", "# gravity").replace("velocity = [0.0, 0.1, -0.5]", "id = 4")).unwrap();
+    let state = place.at("settled.cograin");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"300"]).output().unwrap(), 1);
+    assert!(said.contains("not settled after 300 steps") && said.contains("nothing touches"), "{said}");
+    assert!(!said.contains("inf") && !state.exists(), "{said}");
+}
+
+#[test]
+fn a_bonded_beam_that_touches_nothing_settles_under_its_weight() {
+    let place = Place::new("settled_beam");
+    let (scene, state, out) = (place.at("scene.toml"), place.at("settled.cograin"), place.at("out"));
+    let beam = r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 1e-3
+[material.glass]
+density = 2500.0
+[particles.beam]
+material = "glass"
+lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.0], counts = [5, 1, 1], spacing = 2e-3, radius = 1e-3 }
+[boundary.clamp]
+particles = { set = "beam", box = [[-1e-3, -1e-3, -1e-3], [0.5e-3, 1e-3, 1e-3]] }
+[bond.glue]
+between = ["beam", "beam"]
+create_distance = 2.1e-3
+normal_stiffness = 1e12
+tangential_stiffness = 4e11
+[output]
+history_interval = 1e-3
+"#;
+    fs::write(&scene, beam).unwrap();
+    let output = cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap();
+    complaint(&output, 0);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("of the mean bond force"), "{output:?}");
+    complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume", &state]).output().unwrap(), 0);
+    // The four spheres that are free hang on the clamp.
+    let weight = 4.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9 * 2500.0 * 9.81;
+    for force in column(&out, "clamp.force.z") {
+        assert!((force / -weight - 1.0).abs() < 1e-3, "the clamp feels {force} N, the weight is {weight} N");
+    }
+}
+
+#[test]
 fn a_packing_that_does_not_settle_in_time_is_a_failure() {
     let place = Place::new("unsettled");
     let scene = place.scene("end = 0.004\nstep = 2e-5", "");
     let state = place.at("settled.cograin");
-    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"250"]).output().unwrap(), 1);
-    assert!(said.contains("not settled after 250 steps") && said.contains("is asked for"), "{said}");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"5000"]).output().unwrap(), 1);
+    assert!(said.contains("not settled after 5000 steps") && said.contains("is asked for"), "{said}");
     assert!(!state.exists());
 }
 

@@ -187,24 +187,21 @@ pub enum Failure {
         folder: PathBuf,
     },
     /// Someone asked to stop before the packing had come to rest.
-    #[error("interrupted after {steps} steps at an unbalanced force of {ratio:.3e}; nothing was written")]
+    #[error("interrupted after {steps} steps {}; nothing was written", reached(*ratio))]
     SettlingInterrupted {
         /// Steps made.
         steps: u64,
-        /// Unbalanced force over the mean contact force.
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
         ratio: f64,
     },
     /// The packing did not come to rest.
-    #[error(
-        "not settled after {steps} steps (t = {time} s): the unbalanced force is {ratio:.3e} of the mean contact force, \
-         {tolerance:.3e} is asked for; a looser tolerance, more damping or more --steps may do"
-    )]
+    #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
     Unsettled {
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
         time: f64,
-        /// Unbalanced force over the mean contact force.
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
         ratio: f64,
         /// What was asked for.
         tolerance: f64,
@@ -214,5 +211,28 @@ pub enum Failure {
 impl From<ResumeError> for Failure {
     fn from(error: ResumeError) -> Self {
         Self::Refused(error.into())
+    }
+}
+
+/// How far settling had come.
+fn reached(ratio: f64) -> String {
+    if ratio.is_finite() {
+        format!("at an unbalanced force of {ratio:.3e}")
+    } else {
+        "before anything touched or a bond was loaded".to_owned()
+    }
+}
+
+/// What was missing to be settled.
+fn unsettled(ratio: f64, tolerance: f64) -> String {
+    if ratio.is_finite() {
+        format!(
+            "the unbalanced force is {ratio:.3e} of the mean force of the contacts or bonds, {tolerance:.3e} is asked for; \
+             a looser tolerance, more damping or more --steps may do"
+        )
+    } else {
+        "nothing touches and no bond is loaded, so there is no force that could come into balance; more --steps, if bodies \
+         are still to meet, or something that holds them may do"
+            .to_owned()
     }
 }

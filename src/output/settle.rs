@@ -36,7 +36,7 @@ pub struct SettleOrder<'a> {
 pub struct SettleProgress {
     /// Time steps made.
     pub steps: u64,
-    /// Unbalanced force over the mean contact force, the largest of the last looks.
+    /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
     pub ratio: f64,
     /// Below what it is done.
     pub tolerance: f64,
@@ -49,7 +49,7 @@ pub struct Settled {
     pub steps: u64,
     /// Time they took in the scene \[s\].
     pub time: f64,
-    /// Unbalanced force over the mean contact force, the largest of the last looks.
+    /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
     pub ratio: f64,
     /// Below what it is done.
     pub tolerance: f64,
@@ -114,7 +114,7 @@ fn come_to_rest(
     }
 }
 
-/// Unbalanced force over the mean contact force; 0 where nothing moves by the forces on it.
+/// Unbalanced force over the mean force of the contacts or bonds; 0 where nothing moves by the forces on it.
 fn unbalanced_force(simulation: &Simulation) -> f64 {
     let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
     let free = |boundary: &Boundary| boundary.axes.contains(&AxisMotion::Free);

@@ -95,6 +95,14 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// Bodies are put in the middle of their way in a scene whose planes remember something.
+    #[error(
+        "bodies cannot be put in the middle of their way beside boundary {boundary}: what contacts and bonds at a plane remember is not put with them; a scene without planes is right"
+    )]
+    PutAtPlane {
+        /// The plane.
+        boundary: String,
+    },
     /// An interval that is no interval.
     #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
     Interval {

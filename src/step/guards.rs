@@ -85,7 +85,10 @@ impl Simulation {
             RunError::Overbent { first, second, .. } => {
                 (*first, *second) = (self.number(*first), second.map(|second| self.number(second)));
             }
-            RunError::StepTooLong { .. } | RunError::Turn { .. } | RunError::Interval { .. } => {}
+            RunError::StepTooLong { .. }
+            | RunError::Turn { .. }
+            | RunError::PutAtPlane { .. }
+            | RunError::Interval { .. } => {}
         }
         error
     }

@@ -219,8 +219,8 @@ impl Simulation {
         bonds.map(|pass| pass.elastic_energy(&self.state)).sum()
     }
 
-    /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts; infinite without
-    /// contacts.
+    /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts, or, where no
+    /// contact presses, over the mean force of the bonds; infinite where there is neither.
     pub fn unbalanced_force(&self) -> f64 {
         let particles = &self.state.particles;
         let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
@@ -235,12 +235,21 @@ impl Simulation {
                 count += 1;
             }
         }
-        let contacts = self.contacts();
-        let forces: f64 = contacts.iter().map(|contact| contact.normal_force.abs()).sum();
-        if count == 0 || contacts.is_empty() || forces == 0.0 {
-            return f64::INFINITY;
+        match self.mean_interaction() {
+            Some(mean) if count > 0 => sum / count as f64 / mean,
+            _ => f64::INFINITY,
         }
-        (sum / count as f64) / (forces / contacts.len() as f64)
+    }
+
+    /// Mean normal force of the contacts, or, where no contact presses, mean force of the bonds \[N\]; none without either.
+    fn mean_interaction(&self) -> Option<f64> {
+        let contacts: Vec<f64> = self.contacts().iter().map(|contact| contact.normal_force.abs()).collect();
+        let bonds = || -> Vec<f64> {
+            let force = |Carried { axis, normal, shear, .. }| Vector::from(axis) * normal + Vector::from(shear);
+            self.bonds().iter().map(|bond| force(bond.carried).length()).collect()
+        };
+        let mean = |forces: Vec<f64>| forces.iter().sum::<f64>() / forces.len().max(1) as f64;
+        Some(mean(contacts)).filter(|mean| *mean > 0.0).or_else(|| Some(mean(bonds())).filter(|mean| *mean > 0.0))
     }
 
     /// Potential energy of gravity is not counted: this is the sum over the energy book of what was not accounted

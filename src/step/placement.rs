@@ -3,7 +3,7 @@
 use super::{RunError, Simulation, assemble, boundaries, hiding};
 use crate::bond::Rows;
 use crate::number::Vector;
-use crate::scene::{Scene, Step};
+use crate::scene::{Scene, Shape, Step};
 use crate::state::contacts::TOUCHING;
 use crate::state::{Row, State};
 use std::sync::Arc;
@@ -61,8 +61,12 @@ pub struct Placement {
 impl Simulation {
     /// The scene as it stands after some of its time steps, which have a given length. Attitudes are those of time 0.
     ///
-    /// What the placement does not name stays as at time 0; what is not in the scene is passed over.
+    /// What the placement does not name stays as at time 0; what is not in the scene is passed over. A scene with planes
+    /// is refused: their springs and bonds would be lost.
     pub fn placed(scene: Arc<Scene>, placement: &Placement) -> Result<Self, RunError> {
+        if let Some(plane) = scene.boundaries.iter().find(|boundary| matches!(boundary.shape, Shape::Plane { .. })) {
+            return Err(RunError::PutAtPlane { boundary: plane.name.clone() });
+        }
         let mut state = assemble::state(&scene);
         if let Step::Given(step) = scene.run.step {
             state.clock.step = step;
