@@ -2,7 +2,7 @@
 
 use cograin::interface::Interface;
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::step::{Placement, Simulation};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -61,6 +61,50 @@ fn the_foot_of_a_bond_moves_with_its_plane() {
         let force = simulation.state().particles.force[0];
         assert!(force.iter().all(|part| part.abs() < 1e-9), "{formulation}: {force:?}");
         assert_eq!(value(&simulation, "bonds.intact"), 1.0);
+    }
+}
+
+#[test]
+fn bodies_are_not_put_beside_a_plane_whose_bonds_would_be_lost() {
+    let scene = bonded("[0.0, 0.0, 0.0]", "incremental").scene().clone();
+    let refused = Simulation::placed(scene, &Placement::default()).err().map(|cause| cause.to_string());
+    assert!(refused.as_ref().is_some_and(|told| told.contains("beside boundary floor")), "{refused:?}");
+}
+
+/// Two bonded spheres of which one is held and the other turned about an axis across the bond.
+const TURNED: &str = r#"
+[run]
+step = 1e-6
+[material.glass]
+density = 2500.0
+[particles.held]
+material = "glass"
+list = [{ id = 7, position = [0.0, 0.0, 0.0], radius = 1e-3 }]
+[particles.turned]
+material = "glass"
+list = [{ id = 9, position = [2e-3, 0.0, 0.0], radius = 1e-3 }]
+[boundary.held]
+particles = { set = "held" }
+[boundary.turned]
+particles = { set = "turned" }
+motion = { prescribed = { "rotation.y" = SPEED } }
+[bond.glue]
+between = ["held", "turned"]
+create_distance = 2.1e-3
+normal_stiffness = 1e9
+tangential_stiffness = 4e8
+"#;
+
+/// One body alone that turns past π passes within a step by where the law has no value, and would be found on the other
+/// side with its twist a whole turn off.
+#[test]
+fn a_bond_bent_beyond_half_a_turn_stops_the_run_however_fast_it_is_bent() {
+    for speed in [1e2, 1e3, 1e4, 1e5] {
+        let mut turned = simulation(&TURNED.replace("SPEED", &format!("{speed:?}")));
+        turned.advance(3.1 / speed).unwrap();
+        let refused = turned.advance(0.2 / speed).err().map(|cause| cause.to_string());
+        let told = "the bond of particle 7 and particle 9 is bent beyond half a turn";
+        assert!(refused.as_ref().is_some_and(|refused| refused.contains(told)), "{speed} rad/s: {refused:?}");
     }
 }
 

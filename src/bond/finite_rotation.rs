@@ -208,10 +208,13 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
             ];
         }
 
+        let half_turn = N::splat(std::f64::consts::PI);
         let shallow = N::both(
             N::splat(STEEPEST).greater(i.square.max(j.square)),
-            N::splat(std::f64::consts::PI * std::f64::consts::PI).greater(bent.dot(bent)),
+            (half_turn * half_turn).greater(bent.dot(bent)),
         );
+        // Who goes past π within one step, too fast to be met near it, leaves the twist a whole turn off.
+        let shallow = N::both(shallow, half_turn.greater((whole_twist - last_twist).abs()));
         let overbent = N::select(shallow, N::zero(), one).greater(N::zero());
         Elastic {
             compression,
