@@ -213,7 +213,12 @@ fn a_run_leaves_its_files_and_says_what_it_cost() {
     let output = cograin(&[&"run", &scene, &"-o", &out]).output().unwrap();
     let said = complaint(&output, 0);
     assert!(said.is_empty(), "progress where there is no terminal: {said}");
-    assert!(String::from_utf8_lossy(&output.stdout).contains("5000 steps"), "{output:?}");
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("5000 steps") && told.contains(" ns per contact and step, "), "{output:?}");
+    let numbers = summary(&out);
+    let [cost, contacts, time] = ["/ns_per_contact_and_step", "/counts/mean_contacts", "/stepping_time"]
+        .map(|name| numbers.pointer(name).and_then(serde_json::Value::as_f64).unwrap());
+    assert!((cost * 1e-9 * contacts * 5000.0 / time - 1.0).abs() < 1e-9, "{numbers:#}");
     let history = fs::read_to_string(out.join("history.csv")).unwrap();
     assert_eq!(history.lines().count(), 52);
     assert!(history.starts_with("time,floor.force.x,"), "{history}");

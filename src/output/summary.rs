@@ -157,6 +157,8 @@ pub struct Summary {
     pub ns_per_contact_and_step: Option<f64>,
     /// Of the time steps, for each bond that lives and step \[ns\]; none without bonds, or with contacts beside them.
     pub ns_per_bond_and_step: Option<f64>,
+    /// Of the time steps, for each contact or bond and step \[ns\]; none without both.
+    pub ns_per_interaction_and_step: Option<f64>,
     /// Of the time steps, for each particle and step \[ns\]; none without steps.
     pub ns_per_particle_and_step: Option<f64>,
     /// The algorithmic energy book, where the scene keeps one.
@@ -214,6 +216,11 @@ impl Summary {
             stepping_time: meter.stepping.as_secs_f64(),
             ns_per_contact_and_step: share(meter.contact_steps),
             ns_per_bond_and_step: share(if meter.contact_steps > 0.0 { 0.0 } else { meter.bond_steps }),
+            ns_per_interaction_and_step: share(if meter.contact_steps > 0.0 && meter.bond_steps > 0.0 {
+                meter.contact_steps + meter.bond_steps
+            } else {
+                0.0
+            }),
             ns_per_particle_and_step: share(session_steps as f64 * particles as f64),
             energy: energy_book(simulation),
             momentum,
@@ -238,6 +245,7 @@ impl std::fmt::Display for Summary {
             self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
         )?;
         let costs = [
+            (self.ns_per_interaction_and_step, "contact or bond"),
             (self.ns_per_contact_and_step, "contact"),
             (self.ns_per_bond_and_step, "bond"),
             (self.ns_per_particle_and_step, "particle"),

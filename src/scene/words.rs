@@ -57,6 +57,10 @@ pub(super) fn mistake(error: &Error, key: &str) -> Mistake {
         let (found, right) = ("a number too large for 64 bits".to_owned(), "a finite number".to_owned());
         return Mistake::Wrong { found, right };
     }
+    if let Some(number) = message.strip_prefix("wanted exactly 1 element, ") {
+        let found = if number.starts_with("more") { "several tables" } else { "no table" }.to_owned();
+        return Mistake::Wrong { found, right: "one, named as the model,".to_owned() };
+    }
     if let Some((found, right)) = message.split_once(", expected ") {
         return Mistake::Wrong { found: found_in(found), right: expected_in(right) };
     }
