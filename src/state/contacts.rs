@@ -10,9 +10,8 @@ pub struct Neighbours {
     pub skin: f64,
     /// A bound of how far any particle has moved since the lists were made \[m\].
     pub travel: f64,
-    /// Positions when the lists were made; empty where nothing can touch \[m\].
-    #[serde(with = "plain")]
-    pub reference: Vec<Row>,
+    /// Where the particles were when the lists were made; empty where nothing can touch.
+    pub reference: Columns,
     /// Offset of each boundary when the lists were made \[m\].
     pub boundary_reference: Vec<[f64; 3]>,
     /// First particle of each slab, and behind the last one the number of particles. Pairs reach no
@@ -21,6 +20,24 @@ pub struct Neighbours {
     pub slabs: Vec<u32>,
     /// Time step when the lists were made.
     pub made_at: u64,
+}
+
+/// Positions and radii in columns, for tests of several particles that stand side by side. Each column has room behind
+/// the last particle for a register that begins there.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Columns {
+    /// Along x \[m\].
+    #[serde(with = "plain")]
+    pub x: Vec<f64>,
+    /// Along y \[m\].
+    #[serde(with = "plain")]
+    pub y: Vec<f64>,
+    /// Along z \[m\].
+    #[serde(with = "plain")]
+    pub z: Vec<f64>,
+    /// Radii \[m\].
+    #[serde(with = "plain")]
+    pub radius: Vec<f64>,
 }
 
 /// Near pairs of one contact law: a half list ordered by the first particle, then the second.

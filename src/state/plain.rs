@@ -8,8 +8,8 @@ use serde::{Deserializer, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Something of fixed length in bytes.
-pub(super) trait Plain: Sized {
+/// Something of fixed length in bytes, which in memory stands as little-endian machines write it.
+pub(super) trait Plain: bytemuck::Pod {
     /// How many bytes.
     const SIZE: usize;
 
@@ -78,8 +78,11 @@ impl Plain for [u32; 2] {
     }
 }
 
-/// Writes a list as bytes.
+/// Writes a list as bytes; where its memory has them already, without a copy.
 pub(super) fn serialize<T: Plain, S: Serializer>(list: &[T], serializer: S) -> Result<S::Ok, S::Error> {
+    if cfg!(target_endian = "little") {
+        return serializer.serialize_bytes(bytemuck::cast_slice(list));
+    }
     let mut bytes = vec![0; list.len() * T::SIZE];
     for (item, bytes) in list.iter().zip(bytes.chunks_exact_mut(T::SIZE)) {
         item.put(bytes);
@@ -105,6 +108,9 @@ impl<T: Plain> Visitor<'_> for Bytes<T> {
     fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Vec<T>, E> {
         if !bytes.len().is_multiple_of(T::SIZE) {
             return Err(E::invalid_length(bytes.len(), &self));
+        }
+        if cfg!(target_endian = "little") {
+            return Ok(bytemuck::pod_collect_to_vec(bytes));
         }
         Ok(bytes.chunks_exact(T::SIZE).map(T::take).collect())
     }

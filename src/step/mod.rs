@@ -24,6 +24,7 @@ mod rotation;
 mod settled;
 mod stable;
 mod table;
+mod team;
 mod wall_bonds;
 mod walls;
 mod workers;
@@ -157,14 +158,13 @@ impl Simulation {
     /// Makes the neighbour lists anew, as motion does from time to time: results change by rounding only.
     pub fn renew_lists(&mut self) {
         let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
-        let context = Context { step: 0.0, width: self.width, parallel: workers.parallel() };
-        workers.run(|| self.rebuild(&context));
+        workers.run(|team| self.rebuild(&Context { step: 0.0, width: self.width, team }));
         self.workers = workers;
     }
 
     /// What passes know where time stands still.
-    fn standing(&self) -> Context {
-        Context { step: 0.0, width: self.width, parallel: false }
+    fn standing(&self) -> Context<'static> {
+        Context { step: 0.0, width: self.width, team: None }
     }
 
     /// Makes the lists anew.
@@ -263,8 +263,8 @@ impl Simulation {
         let (count, step) = divide(interval, self.state.clock.step);
         self.state.breaks.clear();
         let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
-        let context = Context { step, width: self.width, parallel: workers.parallel() };
-        let (done, result) = workers.run(|| self.run(count, step, &context));
+        let width = self.width;
+        let (done, result) = workers.run(|team| self.run(count, step, &Context { step, width, team }));
         self.workers = workers;
         boundaries::end(&mut self.state, done as f64 * step);
         result.map_err(|error| self.named(error))
@@ -336,7 +336,12 @@ impl Simulation {
         let mut seen = Loads::default();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(pass.apply(&mut self.state, context));
+            result = result.and(match pass.at_plane() {
+                None => pass.apply(&mut self.state, context),
+                // The first of them does the others with it.
+                Some(_) if place > 0 && self.passes[place - 1].at_plane().is_some() => Ok(()),
+                Some(_) => walls::apply(&self.passes[place..], &mut self.state, context),
+            });
             let source = pass.source();
             if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
                 energy::record(&mut self.state, source, &mut seen);

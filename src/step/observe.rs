@@ -278,7 +278,7 @@ impl Simulation {
     }
 
     /// A context for reading.
-    fn quiet(&self) -> Context {
-        Context { step: 0.0, width: self.width, parallel: false }
+    fn quiet(&self) -> Context<'static> {
+        Context { step: 0.0, width: self.width, team: None }
     }
 }

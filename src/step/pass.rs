@@ -1,39 +1,37 @@
 //! What the passes of a time step have in common.
 
 use super::error::RunError;
-use super::lanes::Width;
+use super::lanes::{Shared, Width};
 use super::observe::{BondRecord, ContactRecord};
+use super::team::Team;
+use super::walls::PlanePass;
 use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::number::Vector;
 use crate::state::State;
 use crate::state::ledger::Source;
-use rayon::prelude::*;
-use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
 /// depend on the number of threads.
 pub(super) const CHUNK: usize = 1024;
 
 /// What a pass needs to know beside the state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Context {
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
     /// Time since springs were last advanced \[s\]: the time step, or 0 in the evaluation before the first one.
     pub step: f64,
     /// Lane width.
     pub width: Width,
-    /// Whether several threads work.
-    pub parallel: bool,
+    /// Who works, if several threads do.
+    pub team: Option<&'a Team>,
 }
 
-impl Context {
+impl Context<'_> {
     /// Does pieces 0 to `count` − 1 of the work, in any order.
     pub(super) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {
-        if self.parallel && count > 1 {
-            // Piece by piece: who is through first takes the next, also near the end.
-            (0..count).into_par_iter().with_max_len(1).for_each(piece);
-        } else {
-            (0..count).for_each(piece);
+        match self.team {
+            Some(team) if count > 1 => team.each(count, &piece),
+            _ => (0..count).for_each(piece),
         }
     }
 
@@ -41,33 +39,30 @@ impl Context {
     /// neighbours are done. What two neighbours add to one place thus always comes in the same order, and what is
     /// near in space is near in time.
     pub(super) fn slabs(&self, count: usize, work: impl Fn(usize) + Sync + Send) {
-        let done: Vec<AtomicU8> = (0..count).map(|_| AtomicU8::new(0)).collect();
-        let neighbour = |odd: usize| {
-            let awaited = if odd + 1 < count { 2 } else { 1 };
-            // What was done before is seen by who comes last.
-            if done[odd].fetch_add(1, Ordering::AcqRel) + 1 == awaited {
-                work(odd);
-            }
-        };
-        self.each(count.div_ceil(2), |piece| {
-            let even = 2 * piece;
-            work(even);
-            if even > 0 {
-                neighbour(even - 1);
-            }
-            if even + 1 < count {
-                neighbour(even + 1);
-            }
-        });
+        match self.team {
+            Some(team) if count > 2 => team.slabs(count, &work),
+            _ => (0..count).for_each(|turn| work(in_turn(turn, count))),
+        }
     }
 
     /// What the pieces 0 to `count` − 1 give, in order.
     pub(super) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-        if self.parallel && count > 1 {
-            (0..count).into_par_iter().with_max_len(1).map(piece).collect()
-        } else {
-            (0..count).map(piece).collect()
-        }
+        let Some(team) = self.team.filter(|_| count > 1) else { return (0..count).map(piece).collect() };
+        let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
+        let places = Shared::new(&mut results);
+        // SAFETY: each piece has a place of its own.
+        team.each(count, &|number| unsafe { *places.at(number) = Some(piece(number)) });
+        results.into_iter().flatten().collect()
+    }
+}
+
+/// The slab that one thread works on in this turn: 0, 2, 1, 4, 3, ..
+fn in_turn(turn: usize, count: usize) -> usize {
+    match turn {
+        0 => 0,
+        turn if turn % 2 == 1 && turn + 1 < count => turn + 1,
+        turn if turn % 2 == 1 => turn,
+        turn => turn - 1,
     }
 }
 
@@ -76,6 +71,11 @@ pub(super) trait Pass: Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
+
+    /// The pass as that of a plane, if it is one: those of all planes are done together, not by [`Pass::apply`].
+    fn at_plane(&self) -> Option<&dyn PlanePass> {
+        None
+    }
 
     /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
     /// whether anything was made: the lists are then made anew.

@@ -1,7 +1,7 @@
 //! Contacts of particles with planes: one pass for each plane and contact law that meet.
 //!
-//! A particle stands once in a list, so pieces of a list are worked on side by side; loads on the plane are summed
-//! piece by piece, in order.
+//! Planes are worked on together, pieces of the particles side by side: a particle gets the loads of all planes from one
+//! thread, in the order of the planes. Loads on a plane are summed piece by piece, in order.
 
 use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
 use super::error::RunError;
@@ -13,9 +13,10 @@ use crate::contact::{Contact, Law, Response};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{Particles, Row, State};
+use crate::state::{BoundaryState, Particles, Row, State, WallContacts};
 use std::f64::consts::PI;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 /// The pass of one plane and one contact law.
 pub(super) struct WallPass<L> {
@@ -95,7 +96,11 @@ impl Plane {
 impl<L: Law> WallPass<L> {
     /// The plane where it stands in this state.
     pub(super) fn plane(&self, state: &State) -> Plane {
-        let boundary = &state.boundaries[state.walls[self.index].boundary as usize];
+        self.plane_at(&state.boundaries[state.walls[self.index].boundary as usize])
+    }
+
+    /// The plane where its boundary stands.
+    fn plane_at(&self, boundary: &BoundaryState) -> Plane {
         Plane {
             point: self.plane.point + boundary.displacement.into(),
             normal: self.plane.normal,
@@ -119,25 +124,96 @@ impl<L: Law> WallPass<L> {
     }
 }
 
-impl<L: Law> Pass for WallPass<L> {
-    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        let plane = self.plane(state);
-        let list = &mut state.walls[self.index];
-        let boundary = &mut state.boundaries[list.boundary as usize];
-        let particles = &mut state.particles;
-        let count = list.particle.len();
+/// Particles in one piece of work. Planes are worked on together, piece by piece of the particles: a plane alone has too
+/// few for several threads, and what a piece needs is where the contacts of its particles were worked on.
+const PIECE: usize = 2 * CHUNK;
+
+/// The pass of a plane as one of several.
+pub(super) trait PlanePass {
+    /// What is to be done with the listed particles in a range of slots. Ranges worked on at the same time do not overlap.
+    fn work<'a>(
+        &'a self,
+        list: &'a mut WallContacts,
+        boundary: &BoundaryState,
+        particles: Loaded<'a>,
+        context: &Context,
+    ) -> Box<dyn Fn(Range<usize>) -> Load + Sync + 'a>;
+
+    /// Adds to the plane what the pieces do to it, in order, and does the hidden contacts.
+    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>, step: f64) -> Result<(), RunError>;
+}
+
+/// The particles, while loads are added to them from several sides.
+#[derive(Clone, Copy)]
+pub(super) struct Loaded<'a> {
+    /// Positions and radii.
+    position: &'a [Row],
+    /// Velocities and masses.
+    velocity: &'a [Row],
+    /// Angular velocities.
+    angular_velocity: &'a [Row],
+    /// Materials.
+    material: &'a [u32],
+    /// Forces.
+    force: Shared<Row>,
+    /// Torques.
+    torque: Shared<Row>,
+}
+
+/// Does the passes of planes that stand first in the list, all of them together.
+pub(super) fn apply(passes: &[Box<dyn Pass>], state: &mut State, context: &Context) -> Result<(), RunError> {
+    let planes: Vec<&dyn PlanePass> = passes.iter().map_while(|pass| pass.at_plane()).collect();
+    let particles = &mut state.particles;
+    let count = particles.len();
+    let loaded = Loaded {
+        position: &particles.position,
+        velocity: &particles.velocity,
+        angular_velocity: &particles.angular_velocity,
+        material: &particles.material,
+        force: Shared::new(&mut particles.force),
+        torque: Shared::new(&mut particles.torque),
+    };
+    let boundaries = &state.boundaries;
+    let works = planes.iter().zip(&mut state.walls).map(|(plane, list)| {
+        let boundary = &boundaries[list.boundary as usize];
+        plane.work(list, boundary, loaded, context)
+    });
+    let works: Vec<_> = works.collect();
+    let pieces = context.collect(count.div_ceil(PIECE), |piece| {
+        let slots = piece * PIECE..((piece + 1) * PIECE).min(count);
+        works.iter().map(|work| work(slots.clone())).collect::<Vec<Load>>()
+    });
+    drop(works);
+    let mut result = Ok(());
+    for (place, plane) in planes.iter().enumerate() {
+        let mut loads = pieces.iter().map(|loads| loads[place]);
+        result = result.and(plane.finish(state, &mut loads, context.step));
+    }
+    result
+}
+
+impl<L: Law> PlanePass for WallPass<L> {
+    fn work<'a>(
+        &'a self,
+        list: &'a mut WallContacts,
+        boundary: &BoundaryState,
+        particles: Loaded<'a>,
+        context: &Context,
+    ) -> Box<dyn Fn(Range<usize>) -> Load + Sync + 'a> {
+        let Loaded { position, velocity, angular_velocity, material, force, torque } = particles;
+        let particle = &list.particle[..];
         let batches = Batches {
             bodies: AtPlane {
-                plane,
+                plane: self.plane_at(boundary),
                 reference: self.reference + boundary.displacement.into(),
-                particle: &list.particle,
+                particle,
                 wall_material: self.material,
-                position: &particles.position,
-                velocity: &particles.velocity,
-                angular_velocity: &particles.angular_velocity,
-                material: &particles.material,
-                force: Shared::new(&mut particles.force),
-                torque: Shared::new(&mut particles.torque),
+                position,
+                velocity,
+                angular_velocity,
+                material,
+                force,
+                torque,
             },
             entries: Entries {
                 flags: Shared::new(&mut list.flags),
@@ -149,9 +225,15 @@ impl<L: Law> Pass for WallPass<L> {
             step: context.step,
             width: context.width,
         };
-        let loads = context.collect(count.div_ceil(CHUNK), |piece| {
-            batches.run::<L>(piece * CHUNK, ((piece + 1) * CHUNK).min(count), 0..0)
-        });
+        Box::new(move |slots| {
+            let [from, to] =
+                [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
+            batches.run::<L>(from, to, 0..0)
+        })
+    }
+
+    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>, step: f64) -> Result<(), RunError> {
+        let boundary = &mut state.boundaries[state.walls[self.index].boundary as usize];
         let mut behind = None;
         for load in loads {
             for axis in 0..3 {
@@ -160,7 +242,7 @@ impl<L: Law> Pass for WallPass<L> {
             }
             behind = behind.or(load.behind);
         }
-        let behind = behind.or(self.apply_hidden(state, context.step));
+        let behind = behind.or(self.apply_hidden(state, step));
         match behind {
             None => Ok(()),
             Some(slot) => Err(RunError::Behind {
@@ -169,6 +251,17 @@ impl<L: Law> Pass for WallPass<L> {
                 time: state.clock.time,
             }),
         }
+    }
+}
+
+impl<L: Law> Pass for WallPass<L> {
+    /// All planes are done together, by [`apply`].
+    fn apply(&self, _state: &mut State, _context: &Context) -> Result<(), RunError> {
+        Ok(())
+    }
+
+    fn at_plane(&self) -> Option<&dyn PlanePass> {
+        Some(self)
     }
 
     fn has_torque(&self) -> bool {
@@ -257,7 +350,7 @@ impl<L: Law> Pass for WallPass<L> {
 
 /// What a piece of a list does to the plane.
 #[derive(Clone, Copy, Debug, Default)]
-struct Load {
+pub(super) struct Load {
     /// Force on the plane \[N\].
     force: [f64; 3],
     /// Moment about the moved reference point \[N m\].

@@ -1,5 +1,6 @@
 //! The threads of one simulation.
 
+use super::team::{Dismissal, Team};
 use std::thread::JoinHandle;
 
 /// Fewer particles than this are not worth a second thread.
@@ -7,7 +8,7 @@ const FEW: usize = 2000;
 
 /// A thread pool of its own, so that two simulations in one process do not disturb each other; joined when dropped.
 pub(super) struct Workers {
-    /// The pool; none where one thread works.
+    /// The pool of the helpers; none where one thread works.
     pool: Option<rayon::ThreadPool>,
     /// Its threads.
     handles: Vec<JoinHandle<()>>,
@@ -24,7 +25,7 @@ impl Workers {
         }
         let mut handles = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
+            .num_threads(threads - 1)
             .spawn_handler(|thread| {
                 handles.push(std::thread::Builder::new().name("cograin".into()).spawn(|| thread.run())?);
                 Ok(())
@@ -36,22 +37,22 @@ impl Workers {
         }
     }
 
-    /// Whether several threads work.
-    pub(super) fn parallel(&self) -> bool {
-        self.pool.is_some()
-    }
-
     /// How many threads work.
     pub(super) fn count(&self) -> usize {
-        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads() + 1)
     }
 
-    /// Does the work where the threads are.
-    pub(super) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        match &self.pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
+    /// Does work to which helpers come, if there are any.
+    pub(super) fn run<T>(&self, work: impl FnOnce(Option<&Team>) -> T) -> T {
+        let Some(pool) = &self.pool else { return work(None) };
+        let team = &Team::of(self.count());
+        pool.in_place_scope(|scope| {
+            for place in 1..self.count() {
+                scope.spawn(move |_| team.help(place));
+            }
+            let _dismissal = Dismissal(team);
+            work(Some(team))
+        })
     }
 }
 

@@ -20,7 +20,7 @@ use crate::scene::{Scene, Shape};
 use crate::state::{Particles, State};
 use grid::Grid;
 use lists::Making;
-use order::{Columns, Order};
+use order::Order;
 use pairs::{Found, Laws, Look};
 use planes::Plane;
 use sizes::Sizes;
@@ -50,8 +50,6 @@ pub(super) struct Search {
     needed: bool,
     /// Order of the particles.
     order: Order,
-    /// Positions in columns.
-    columns: Columns,
     /// Pairs of each slab.
     found: Vec<Found>,
     /// Making of lists.
@@ -96,7 +94,6 @@ impl Search {
             needed: !scene.particles.is_empty() && (!scene.contacts.is_empty() || !scene.bonds.is_empty()),
             laws,
             order: Order::default(),
-            columns: Columns::default(),
             found: Vec::new(),
             making: Making::default(),
             mark: Vec::new(),
@@ -148,7 +145,7 @@ impl Search {
             bonds::sort(list, &self.order.new_slot, &self.order.slabs);
         }
         if self.touching {
-            self.columns.fill(&state.particles.position, context);
+            order::fill(&mut state.neighbours.reference, &state.particles.position, context);
         }
         if self.pairs {
             self.list_pairs(state, &grid, skin, context);
@@ -157,9 +154,6 @@ impl Search {
             self.list_near_plane(state, index, context);
         }
         state.neighbours.slabs.clone_from(&self.order.slabs);
-        if self.touching {
-            state.neighbours.reference.clone_from(&state.particles.position);
-        }
         state.neighbours.boundary_reference.clear();
         state.neighbours.boundary_reference.extend(state.boundaries.iter().map(|boundary| boundary.displacement));
         state.neighbours.travel = 0.0;
@@ -172,7 +166,7 @@ impl Search {
         let look = Look {
             grid,
             order: &self.order,
-            columns: &self.columns,
+            columns: &state.neighbours.reference,
             particles: &state.particles,
             laws: &self.laws,
             skin,
@@ -190,7 +184,8 @@ impl Search {
         let Some(plane) = self.planes.iter().find(|plane| plane.boundary == list.boundary) else { return };
         let moved = state.boundaries[list.boundary as usize].displacement;
         let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
-        let near = planes::Side { columns: &self.columns, point, normal: plane.normal, skin: state.neighbours.skin };
+        let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin);
+        let near = planes::Side { columns, point, normal: plane.normal, skin };
         let particles = (&state.particles, &self.laws);
         planes::replace(list, plane, near, particles, &mut self.mark, (&self.order, context));
     }
@@ -222,12 +217,12 @@ fn present(scene: &Scene) -> Vec<bool> {
 
 /// How far the particle that has moved most since the lists were made is from where it was \[m\].
 fn farthest(state: &State, context: &Context) -> f64 {
-    let (position, reference) = (&state.particles.position, &state.neighbours.reference);
+    let (position, then) = (&state.particles.position, &state.neighbours.reference);
     let squares = context.collect(position.len().div_ceil(CHUNK), |piece| {
-        let range = piece * CHUNK..((piece + 1) * CHUNK).min(position.len());
-        let moved = position[range.clone()].iter().zip(&reference[range]);
-        moved.fold(0.0, |most: f64, (now, then)| {
-            let (x, y, z) = (now[0] - then[0], now[1] - then[1], now[2] - then[2]);
+        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
+        let moved = position[from..to].iter().zip(&then.x[from..]).zip(&then.y[from..]).zip(&then.z[from..]);
+        moved.fold(0.0, |most: f64, (((now, x), y), z)| {
+            let (x, y, z) = (now[0] - x, now[1] - y, now[2] - z);
             most.max(x * x + y * y + z * z)
         })
     });
@@ -239,7 +234,7 @@ pub(super) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut
     if particles.is_empty() || reach <= 0.0 {
         return;
     }
-    let context = Context { step: 0.0, width: super::lanes::Width::Least, parallel: false };
+    let context = Context { step: 0.0, width: super::lanes::Width::Least, team: None };
     let sizes = Sizes::single(0.5 * reach, particles.len());
     let grid = Grid::around(particles, &sizes, 0.0, 0.0, &context);
     let mut order = Order::default();

@@ -4,7 +4,7 @@
 
 use super::grid::Grid;
 use super::sizes::Sizes;
-use crate::state::{Particles, Row};
+use crate::state::{Columns, Particles, Row};
 use crate::step::lanes::Shared;
 use crate::step::pass::{CHUNK, Context};
 
@@ -174,29 +174,19 @@ fn permute<T: Copy + Default + Send + Sync>(items: &mut Vec<T>, spare: &mut Vec<
     std::mem::swap(items, spare);
 }
 
-/// Positions and radii in columns, for tests of several particles that stand side by side.
-#[derive(Debug, Default)]
-pub(super) struct Columns {
-    /// Along each axis of space, then the radius \[m\].
-    pub of: [Vec<f64>; 4],
-}
-
-impl Columns {
-    /// Takes over the positions.
-    pub(super) fn fill(&mut self, position: &[Row], context: &Context) {
-        for column in &mut self.of {
-            column.resize(position.len() + BEYOND, 0.0);
+/// Brings the positions into columns.
+pub(super) fn fill(columns: &mut Columns, position: &[Row], context: &Context) {
+    let Columns { x, y, z, radius } = columns;
+    let columns = [x, y, z, radius].map(|column| {
+        column.resize(position.len() + BEYOND, 0.0);
+        Shared::new(column)
+    });
+    context.each(position.len().div_ceil(CHUNK), |piece| {
+        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
+        // SAFETY: pieces do not overlap.
+        let [x, y, z, radius] = columns.map(|column| unsafe { column.part(from, to) });
+        for (place, row) in position[from..to].iter().enumerate() {
+            [x[place], y[place], z[place], radius[place]] = *row;
         }
-        let columns = self.of.each_mut().map(|column| Shared::new(column));
-        context.each(position.len().div_ceil(CHUNK), |piece| {
-            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
-            for (axis, column) in columns.iter().enumerate() {
-                // SAFETY: pieces do not overlap.
-                let part = unsafe { column.part(from, to) };
-                for (number, row) in part.iter_mut().zip(&position[from..to]) {
-                    *number = row[axis];
-                }
-            }
-        });
-    }
+    });
 }

@@ -1,8 +1,8 @@
 //! Near pairs of particles, slab by slab, several distances at a time.
 
 use super::grid::{Grid, Level};
-use super::order::{Columns, Order};
-use crate::state::Particles;
+use super::order::Order;
+use crate::state::{Columns, Particles};
 use crate::step::lanes::{self, Kernel, Lane, Shared};
 use crate::step::pass::Context;
 
@@ -157,12 +157,12 @@ fn search_row<N: Lane>(look: &Look, from: (usize, usize), layer: usize, row: usi
 #[inline(always)]
 fn search_other_levels<N: Lane>(look: &Look, (slab, own): (usize, usize), i: usize, body: &Body<N>, found: &mut Found) {
     let (grid, starts) = (look.grid, &look.order.starts[..]);
-    let of = &look.columns.of;
+    let of = [&look.columns.x, &look.columns.y, &look.columns.z];
     let at = [of[grid.axes[0]][i], of[grid.axes[1]][i], of[grid.axes[2]][i]];
     let mut number = 0;
     while number < grid.levels.len() {
         let level: &Level = &grid.levels[number];
-        let reach = (look.columns.of[3][i] + level.largest + look.skin) * (1.0 + 1e-9);
+        let reach = (look.columns.radius[i] + level.largest + look.skin) * (1.0 + 1e-9);
         let first = if number > own { slab } else { slab + 1 };
         let end = (slab + 2).min(grid.slabs) * level.layers;
         let lower = grid.layer(level, at[0] - reach).max(first * level.layers);
@@ -203,7 +203,7 @@ impl<N: Lane> Body<N> {
     /// Particle `i`.
     #[inline(always)]
     fn of(columns: &Columns, i: usize, skin: f64) -> Self {
-        let [x, y, z, radius] = &columns.of;
+        let Columns { x, y, z, radius } = columns;
         Self {
             position: [N::splat(x[i]), N::splat(y[i]), N::splat(z[i])],
             radius: N::splat(radius[i]),
@@ -214,7 +214,7 @@ impl<N: Lane> Body<N> {
     /// Writes those of a range of particles that are nearer than touch plus skin. Returns how many.
     #[inline(always)]
     fn near(&self, columns: &Columns, from: usize, to: usize, place: &mut [u32]) -> usize {
-        let [x, y, z, radius] = &columns.of;
+        let Columns { x, y, z, radius } = columns;
         debug_assert!(to + BEYOND <= x.len() && place.len() + from >= to + BEYOND);
         let (x, y, z, radius) = (x.as_ptr(), y.as_ptr(), z.as_ptr(), radius.as_ptr());
         let place = place.as_mut_ptr();

@@ -1,10 +1,10 @@
 //! Particles near planes.
 
-use super::order::{BEYOND, Columns, Order};
+use super::order::{BEYOND, Order};
 use super::pairs::Laws;
 use crate::number::Vector;
 use crate::state::contacts::TOUCHING;
-use crate::state::{Particles, WallContacts};
+use crate::state::{Columns, Particles, WallContacts};
 use crate::step::lanes::{self, Kernel, Lane};
 use crate::step::pass::{CHUNK, Context};
 
@@ -103,7 +103,7 @@ impl Kernel for Near<'_, '_> {
         let Self { side: Side { columns, point, normal, skin }, from, to, near, count } = self;
         let splat = |[x, y, z]: [f64; 3]| Vector::new(N::splat(x), N::splat(y), N::splat(z));
         let (point, normal, skin) = (splat(point), splat(normal), N::splat(skin));
-        let [x, y, z, radius] = &columns.of;
+        let Columns { x, y, z, radius } = columns;
         let mut slot = from;
         while slot < to {
             // SAFETY: columns reach a register beyond the last particle; no more are found than are looked at, and
