@@ -12,6 +12,10 @@ use std::fmt::Write;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Large arrays begin at different places of a page, as in the program.
+#[global_allocator]
+static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
+
 /// What all scenes have.
 const COMMON: &str = r#"
 gravity = [0.0, 0.0, 0.0]

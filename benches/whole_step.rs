@@ -13,6 +13,10 @@ use std::fmt::Write;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
+/// Large arrays begin at different places of a page, as in the program.
+#[global_allocator]
+static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
+
 /// Scenes: name, and what they need beside the text of all.
 const SCENES: [(&str, Kind); 8] = [
     ("s1", Kind::Dense { normal: "hertz", tangential: "history", rolling: "none", cohesion: "none" }),

@@ -8,6 +8,7 @@ mod choices;
 pub mod contact;
 pub mod export;
 pub mod interface;
+pub mod memory;
 pub mod number;
 pub mod output;
 pub mod quantity;

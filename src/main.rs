@@ -15,6 +15,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+/// Large arrays begin at different places of a page.
+#[global_allocator]
+static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
+
 /// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the input was refused.

@@ -29,6 +29,10 @@ use std::ptr::{self, null_mut};
 use std::sync::Mutex;
 use types::{Boolean, Callbacks, Component, StateHandle, Status, Text};
 
+/// Large arrays begin at different places of a page.
+#[global_allocator]
+static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
+
 /// Tells `cograin export` that this is the right library.
 #[used]
 static MARK: [u8; LIBRARY_MARK.len()] = {
