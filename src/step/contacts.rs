@@ -241,15 +241,17 @@ impl Bodies for Pairs<'_> {
         table.entry(self.material[first as usize], self.material[second as usize])
     }
 
-    fn prefetch(&self, slots: Range<usize>) {
+    fn prefetch(&self, slots: Range<usize>, needs: Needs) {
         let (force, torque) = (self.force.pointer(), self.torque.pointer());
         // A line of the cache holds two rows.
         for slot in slots.step_by(2) {
             lanes::prefetch(self.position.as_ptr().wrapping_add(slot));
             lanes::prefetch(self.velocity.as_ptr().wrapping_add(slot));
-            lanes::prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
             lanes::prefetch(force.wrapping_add(slot));
-            lanes::prefetch(torque.wrapping_add(slot));
+            if needs.torque {
+                lanes::prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+                lanes::prefetch(torque.wrapping_add(slot));
+            }
         }
     }
 

@@ -93,8 +93,8 @@ pub(super) trait Bodies: Copy {
     /// The row of the law's table for two bodies.
     fn row(&self, table: &Table, first: u32, second: u32) -> u32;
 
-    /// Tells the processor that these particles (slots) will be needed soon.
-    fn prefetch(&self, _slots: Range<usize>) {}
+    /// Tells the processor that these particles (slots) will be needed soon, with what the law looks at.
+    fn prefetch(&self, _slots: Range<usize>, _needs: Needs) {}
 
     /// Adds the loads of touching entries to their bodies, one by one.
     fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
@@ -172,7 +172,7 @@ impl<B: Bodies> Batches<'_, B> {
         let (mut next, mut fetched) = (from, ahead.start);
         while next < to {
             let share = ahead.start + ahead.len() * (next - from) / (to - from);
-            self.bodies.prefetch(fetched..share);
+            self.bodies.prefetch(fetched..share, needs);
             fetched = share;
             lanes::run(width, Touch { work: self, to, next: &mut next, buffer, sum: &mut sum });
             buffer.complete::<B>(next == to);
