@@ -84,6 +84,7 @@ impl Law {
     }
 
     /// What the loop takes for a time step of this length \[s\], which may be 0.
+    #[inline(always)]
     pub fn coefficients<N: Number>(&self, step: f64) -> Coefficients<N> {
         let per_step = |threshold: f64| if threshold > 0.0 { threshold / step } else { 0.0 };
         Coefficients {

@@ -1,7 +1,7 @@
 //! LIGGGHTS-INL's bond, its errors included.
 
 use super::coefficients::Parts;
-use super::{Coefficients, Elastic, Formulation, Motion, Pair, Rows};
+use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Rates, Rows};
 use crate::number::{Number, Vector};
 
 /// The bond of the engine, for comparison and for scenes that must repeat its numbers.
@@ -53,6 +53,8 @@ impl Formulation for EngineExact {
     const FIXED_ROWS: usize = 0;
     const NEEDS_ATTITUDES: bool = false;
     const RELAXES: bool = true;
+    const NEEDS_RATES: bool = true;
+    const RATES: Rates = Rates::AtEnd;
 
     #[inline(always)]
     fn create<N: Number>(_law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
@@ -62,12 +64,13 @@ impl Formulation for EngineExact {
     }
 
     #[inline(always)]
-    fn motion<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Motion<N> {
-        Motion::with_arm(law, pair, pair.slip_share_i)
-    }
-
-    #[inline(always)]
-    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N> {
+    fn finish<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        _halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Elastic<N> {
         let one = N::splat(1.0);
         let (axis, section) = (motion.axis, &motion.section);
         let [[fx, fy, fz, reference], [nx, ny, nz, _], [tx, ty, tz, _]] = *rows;

@@ -2,7 +2,7 @@
 
 use super::angle::{arctangent_ratio, arctangent_series, continued, is_flat, tangent_ratio, twice_angle};
 use super::engine_exact::relaxation_loss;
-use super::{Coefficients, Elastic, Formulation, Motion, Pair, Quaternion, Rows};
+use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Quaternion, Rows};
 use crate::number::{Number, Vector};
 
 /// A bond with one stored energy, exact for rotations of any size.
@@ -30,8 +30,10 @@ use crate::number::{Number, Vector};
 /// the strains force and moments are those of the document; in a plane motion γ and κ are exactly linear in the angles.
 /// Against the rate form the shear differs in the second order of the strains (arm L, not the present r).
 ///
-/// With m = a × e/(1 + a·e) = tan(|φ|/2) φ/|φ|, φ = 2 arctan(|m|) m/|m|, and the variations
-/// δm = [δa × e + a × δe − m (δa·e + a·δe)]/(1 + a·e), δΨ = (a_j + e)·δθ_j/(1 + a_j·e) − (a_i + e)·δθ_i/(1 + a_i·e) + (m_i − m_j)·δe.
+/// With m = a × e/(1 + a·e) = tan(|φ|/2) φ/|φ|, φ = 2 arctan(|m|) m/|m|, f = arctan(|m|)/|m|, g = ∂U/∂φ, the torque on a
+/// body that follows from the variation of m and Ψ with its attitude is
+/// f (1 − m²) g + [1 − f (1 − m²)] (m·g) m/m² − 2 f (a·g) e/(1 + a·e), and of the torsion M ± M (a + e)/(1 + a·e). The force across the
+/// axis follows from both torques, as U does not change when the pair is turned as a whole: it is e × (T_i + T_j)/r.
 /// The angle functions are polynomials that are right to rounding (`angle.rs`).
 ///
 /// Holds while each body is turned by less than π against the axis and |κ| < π; beyond, `overbent`.
@@ -79,8 +81,8 @@ impl<N: Number> End<N> {
 
     /// Torque on the body from ∂U/∂φ and from the torsion, with which a turn about the axis is resisted \[N m\].
     ///
-    /// The part of the gradient g along φ passes as it is, that across φ times |φ|/tan|φ| = f (1 − m²), f = arctan|m|/|m|;
-    /// along the axis comes −φ·(a × g)/|φ| and what else it takes that the torque is one of the energy.
+    /// The part of the gradient g along φ passes as it is, that across φ times |φ|/tan|φ| = f (1 − m²); what comes along the
+    /// axis is −2 f (a·g)/(1 + a·e).
     #[inline(always)]
     fn torque(&self, gradient: Vector<N>, torsion: N, axis: Vector<N>) -> Vector<N> {
         let one = N::splat(1.0);
@@ -108,11 +110,97 @@ impl<N: Number> End<N> {
     }
 }
 
+/// Both ends and the twist between them up to the division.
+#[derive(Clone, Copy)]
+struct Ends<N: Number> {
+    /// a of both bodies.
+    carried: [Vector<N>; 2],
+    /// a × d of both \[m\].
+    beside: [Vector<N>; 2],
+    /// a·d of both \[m\].
+    ahead: [N; 2],
+    /// Cosine of half the twist, times a positive number.
+    along: N,
+    /// Sine of it, times the same.
+    across: N,
+    /// 1 over r + a·d of both bodies and, where the twist is small, over `along`.
+    shared: N,
+}
+
+impl<N: Number> Ends<N> {
+    /// Of a pair at this distance.
+    #[inline(always)]
+    fn of(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Self {
+        let [[ox, oy, oz, _], other, _] = *rows;
+        let own = Vector::new(ox, oy, oz);
+        let connection = pair.connection;
+        let frame_j = pair.attitude_j * Quaternion::from_row(other);
+        let [carried_i, carried_j] = [pair.attitude_i.turn(own), frame_j.turn(own)];
+        let [ahead_i, ahead_j] = [carried_i.dot(connection), carried_j.dot(connection)];
+        let [sum_i, sum_j] = [distance + ahead_i, distance + ahead_j];
+        let [beside_i, beside_j] = [carried_i.cross(connection), carried_j.cross(connection)];
+
+        // The turn that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i), with m = a × d/(r + a·d).
+        // It is about e; here its scalar part and that along e, both times the two sums. The latter is (w·(d + r a_i)) with
+        // w, the vector part of (1, m_j) p times the sum of j, since e·(w × m_i) is a sum of products of two of d, a_i, w.
+        let relative = frame_j * pair.attitude_i.conjugate();
+        let vector = relative.vector * sum_j + beside_j * relative.scalar + beside_j.cross(relative.vector);
+        let scalar = relative.scalar * sum_j - beside_j.dot(relative.vector);
+        let along = scalar * sum_i + vector.dot(beside_i);
+        let across = vector.dot(connection + carried_i * distance);
+        let one = N::splat(1.0);
+        let shared = one / (sum_i * sum_j * N::select(is_flat(along, across), along, one));
+        Self {
+            carried: [carried_i, carried_j],
+            beside: [beside_i, beside_j],
+            ahead: [ahead_i, ahead_j],
+            along,
+            across,
+            shared,
+        }
+    }
+
+    /// Both ends, and the tangent of half the twist where it is small.
+    #[inline(always)]
+    fn divided(&self, distance: N) -> ([End<N>; 2], N) {
+        let [sum_i, sum_j] = self.ahead.map(|ahead| distance + ahead);
+        let flat = is_flat(self.along, self.across);
+        let per_sums = N::select(flat, self.along, N::splat(1.0)) * self.shared;
+        let end = |body: usize, per_sum: N| {
+            End::of(self.carried[body], self.ahead[body], self.beside[body], distance, per_sum)
+        };
+        let tangent = self.across * (sum_i * sum_j * self.shared);
+        ([end(0, sum_j * per_sums), end(1, sum_i * per_sums)], tangent)
+    }
+
+    /// One number behind the other.
+    #[inline(always)]
+    fn to_numbers(self) -> Halfway<N> {
+        let ([a, b], [c, d], [e, f]) = (self.carried, self.beside, self.ahead);
+        [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e, f, self.along, self.across, self.shared]
+    }
+
+    /// Back.
+    #[inline(always)]
+    fn from_numbers(numbers: &Halfway<N>) -> Self {
+        let vector = |first: usize| Vector::new(numbers[first], numbers[first + 1], numbers[first + 2]);
+        Self {
+            carried: [vector(0), vector(3)],
+            beside: [vector(6), vector(9)],
+            ahead: [numbers[12], numbers[13]],
+            along: numbers[14],
+            across: numbers[15],
+            shared: numbers[16],
+        }
+    }
+}
+
 impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
     const ROWS: usize = 3;
     const FIXED_ROWS: usize = if RELAXING { 0 } else { 2 };
     const NEEDS_ATTITUDES: bool = true;
     const RELAXES: bool = RELAXING;
+    const NEEDS_RATES: bool = false;
 
     /// The reference is that of the beginning of the time step, but for the distance: the step's shear, twist and
     /// bending count, as in the other formulations.
@@ -128,37 +216,29 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
         [[own.x, own.y, own.z, length], other.to_row(), [N::zero(), N::zero(), length, N::zero()]]
     }
 
+    const HALFWAY: usize = 17;
+
     #[inline(always)]
-    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N> {
+    fn halfway<N: Number>(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Halfway<N> {
+        Ends::of(pair, distance, rows).to_numbers()
+    }
+
+    #[inline(always)]
+    fn finish<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Elastic<N> {
         let (half, one) = (N::splat(0.5), N::splat(1.0));
         let (axis, section) = (motion.axis, &motion.section);
-        let [[ox, oy, oz, reference], other, [last_twist, free_twist, length, spare]] = *rows;
+        let [[_, _, _, reference], _, [last_twist, free_twist, length, spare]] = *rows;
 
-        let own = Vector::new(ox, oy, oz);
-        let frame_j = pair.attitude_j * Quaternion::from_row(other);
-        let (connection, distance) = (pair.connection, motion.distance);
-        let [carried_i, carried_j] = [pair.attitude_i.turn(own), frame_j.turn(own)];
-        let [along_i, along_j] = [carried_i.dot(connection), carried_j.dot(connection)];
-        let [sum_i, sum_j] = [distance + along_i, distance + along_j];
-        let [across_i, across_j] = [carried_i.cross(connection), carried_j.cross(connection)];
-
-        // The turn that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i). It is about e; here
-        // its scalar part and that along e, both times the sums. With m = M/sum: e·(M × v) = …, so that no product of
-        // three vectors is left.
-        let relative = frame_j * pair.attitude_i.conjugate();
-        let vector = relative.vector * sum_j + across_j * relative.scalar + across_j.cross(relative.vector);
-        let scalar = relative.scalar * sum_j - across_j.dot(relative.vector);
-        let along = scalar * sum_i + vector.dot(across_i);
-        let across = connection.dot(vector) + distance * carried_i.dot(vector);
-
-        // One division for all three: 1/sum_i, 1/sum_j and, where the twist is small, the tangent of half of it.
+        let ends = Ends::from_numbers(halfway);
+        let Ends { along, across, .. } = ends;
+        let ([i, j], tangent) = ends.divided(motion.distance);
         let flat = is_flat(along, across);
-        let divisor = N::select(flat, along, one);
-        let shared = one / (sum_i * sum_j * divisor);
-        let per_sums = divisor * shared;
-        let i = End::of(carried_i, along_i, across_i, distance, sum_j * per_sums);
-        let j = End::of(carried_j, along_j, across_j, distance, sum_i * per_sums);
-        let tangent = across * (sum_i * sum_j * shared);
         let whole_twist = continued(twice_angle(along, across, flat, tangent), last_twist);
         let twisted = whole_twist - free_twist;
         let (rotation_i, rotation_j) = (i.rotation(), j.rotation());
@@ -210,7 +290,7 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
 
         let half_turn = N::splat(std::f64::consts::PI);
         let shallow = N::both(
-            N::splat(STEEPEST).greater(i.square.max(j.square)),
+            N::splat(STEEPEST).greater(i.square.abs().max(j.square.abs())),
             (half_turn * half_turn).greater(bent.dot(bent)),
         );
         // Who goes past π within one step, too fast to be met near it, leaves the twist a whole turn off.

@@ -1,25 +1,24 @@
 //! The document's rate equations, with stored vectors that turn with the bond.
 
 use super::engine_exact::relaxation_loss;
-use super::{Coefficients, Elastic, Formulation, Motion, Pair, Rows, Turn};
+use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Rows};
 use crate::number::{Number, Vector};
 
 /// Shear force, torsion and bending torque grow by increments and turn with the bond.
 ///
 /// ```text
 /// N   = k_n A (d0 − r) e
-/// F_t ← S [F_t (1 − q₂)] − S½ [k_t A v_s Δt]
+/// F_t ← R₂ [R₁ F_t (1 − q₂) − k_t A v_s Δt]
 /// T_n ← T_n (1 − q₃) − k_t J w_n Δt                 (a number: it turns with e by itself)
-/// T_t ← S [T_t (1 − q₄)] − S½ [k_n I w_t Δt]
+/// T_t ← R₂ [R₁ T_t (1 − q₄) − k_n I w_t Δt]
 /// d0  ← d0 + (r − d0) q₁                            after N
 /// force on i: N + F_t;   torque on i: l_i F_t × e + T_n + T_t;   on j: l_j F_t × e − T_n − T_t
 /// ```
 ///
 /// | symbol        | meaning                                                     | unit | comes from   |
 /// |---------------|-------------------------------------------------------------|------|--------------|
-/// | v_s, w_n, w_t | rates about the mean axis of the step ([`super::Turn`]) | m/s, rad/s | the pair |
-/// | S             | turn from the axis of the last step to the present one: the shortest, then that of the mean spin about the axis | 1 | the pair |
-/// | S½            | the same from the mean axis, and by half of the spin: right to the second order | 1 | the pair |
+/// | v_s, w_n, w_t | rates about the axis of mid-step, d − v Δt/2                | m/s, rad/s | the pair |
+/// | R₁, R₂        | turn from the axis of the last step to that of mid-step, and on to the present one: each the shortest, then half of the mean spin about the axis | 1 | the pair |
 /// | q             | min(Δt/τ, 1) of each part                                   | 1    | `relaxation` |
 ///
 /// Velocities and positions are used at the same moment (mid-step), so the forces of a prescribed motion converge
@@ -53,6 +52,7 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
     const FIXED_ROWS: usize = 0;
     const NEEDS_ATTITUDES: bool = false;
     const RELAXES: bool = RELAXING;
+    const NEEDS_RATES: bool = true;
 
     #[inline(always)]
     fn create<N: Number>(_law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
@@ -62,25 +62,21 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
     }
 
     #[inline(always)]
-    fn motion<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Motion<N> {
-        Motion::midway(law, pair)
-    }
-
-    #[inline(always)]
-    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N> {
+    fn finish<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        _halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Elastic<N> {
         let half = N::splat(0.5);
         let (axis, section) = (motion.axis, &motion.section);
         let [[fx, fy, fz, reference], [tx, ty, tz, torsion], _] = *rows;
         let left = law.left();
-        let turn = Turn::of(law, pair);
 
         let compression = reference - motion.distance;
         let normal = law.normal_stiffness(compression) * section.area * compression;
         let axial_before = half * normal * compression;
-        let relative_spin = pair.spin_i - pair.spin_j;
-        let twist_rate = relative_spin.dot(turn.bisector);
-        let slip = turn.half_back(turn.slip(pair));
-        let bending_rate = turn.half_back(relative_spin);
 
         let mut shear = Vector::new(fx, fy, fz);
         let shear_stiffness = law.shear * section.area;
@@ -96,9 +92,10 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
             torsion = torsion * left[2];
             bending = bending * left[3];
         }
-        let shear = turn.about(turn.onwards(shear - slip * (shear_stiffness * law.step)));
-        let torsion = torsion - twist_rate * (twist_stiffness * law.step);
-        let bending = turn.about(turn.onwards(bending - bending_rate * (bending_stiffness * law.step)));
+        let turn = &motion.turn;
+        let shear = turn.advance(shear, motion.slip * -(shear_stiffness * law.step), axis);
+        let torsion = torsion - motion.twist_rate * (twist_stiffness * law.step);
+        let bending = turn.advance(bending, motion.bending_rate * -(bending_stiffness * law.step), axis);
 
         let shifted = if RELAXING { reference + (motion.distance - reference) * law.relaxed[0] } else { reference };
         let [per_shear, per_twist, per_bending] = halves(shear_stiffness, twist_stiffness, bending_stiffness);
@@ -108,7 +105,7 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
             + bending.dot(bending) * per_bending;
         let before = [axial_before, shear_before * per_shear, torsion_before * per_twist, bending_before * per_bending];
         let couple = shear.cross(pair.connection);
-        let moment = axis * torsion + bending;
+        let torque_i = couple * pair.share_i + axis * torsion + bending;
         Elastic {
             compression,
             normal,
@@ -116,8 +113,8 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
             torsion,
             bending,
             force: axis * normal + shear,
-            torque_i: couple * pair.share_i + moment,
-            torque_j: couple * pair.share_j - moment,
+            torque_i,
+            torque_j: couple - torque_i,
             energy,
             relaxed: if RELAXING { relaxation_loss(left, before) } else { N::zero() },
             overbent: N::zero().greater(N::zero()),

@@ -38,7 +38,7 @@ pub use attitude::Quaternion;
 pub use breakage::{Breakage, Cause};
 pub use coefficients::{Coefficients, Law};
 pub use damping::Damping;
-pub use motion::{Body, Motion, Pair, Section, Turn};
+pub use motion::{Body, Lengths, Motion, Opening, Pair, Rates, Section};
 
 use crate::number::{Number, Vector};
 use std::marker::PhantomData;
@@ -48,6 +48,12 @@ pub const MOST_ROWS: usize = 3;
 
 /// State of one bond, or of a lane vector of bonds; rows beyond [`Formulation::ROWS`] are not looked at.
 pub type Rows<N = f64> = [[N; 4]; MOST_ROWS];
+
+/// The most numbers that [`Formulation::halfway`] gives.
+pub const MOST_HALFWAY: usize = 17;
+
+/// What a formulation keeps from the first half of its evaluation for the second.
+pub type Halfway<N = f64> = [N; MOST_HALFWAY];
 
 /// What the elastic part of a bond answers to the motion of its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -91,13 +97,35 @@ pub trait Formulation: Send + Sync + 'static {
     /// State of a bond that is made now. The increment of the present time step (of length
     /// [`Coefficients::step`], 0 before the first) still counts: the evaluation that follows has it.
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
+    /// Whether force and torques depend on rates.
+    const NEEDS_RATES: bool;
+    /// The rates as the formulation sees them, for itself or for damping.
+    const RATES: Rates = Rates::Midway;
     /// Axis, distance and rates as the formulation sees them.
     #[inline(always)]
     fn motion<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Motion<N> {
-        Motion::with_arm(law, pair, pair.share_i)
+        Motion::of(Self::RATES, law, pair)
     }
+    /// How many numbers [`Formulation::halfway`] gives.
+    const HALFWAY: usize = 0;
+    /// What comes before a division that the rest waits for, and the quotient.
+    #[inline(always)]
+    fn halfway<N: Number>(_pair: &Pair<N>, _distance: N, _rows: &Rows<N>) -> Halfway<N> {
+        [N::zero(); MOST_HALFWAY]
+    }
+    /// Force, torques and new state, after that.
+    fn finish<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Elastic<N>;
     /// Force, torques and new state.
-    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N>;
+    #[inline(always)]
+    fn respond<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, rows: &Rows<N>) -> Elastic<N> {
+        Self::finish(law, pair, motion, &Self::halfway(pair, motion.distance, rows), rows)
+    }
 }
 
 /// What one bond does to its two bodies.
@@ -160,10 +188,28 @@ pub trait BondLaw: Send + Sync + 'static {
     const RELAXES: bool;
     /// Whether [`Reaction::damped`] says anything.
     const DAMPS: bool;
+    /// The rates that [`BondLaw::act`] looks at.
+    const RATES: Rates;
     /// State of a bond that is made now; evaluate it in the same step with [`BondLaw::react`].
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
-    /// Force, torque, breakage and new state of one bond.
-    fn react<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, rows: &Rows<N>) -> Reaction<N>;
+    /// How many numbers [`BondLaw::halfway`] gives.
+    const HALFWAY: usize;
+    /// What comes before a division that the rest waits for, and the quotient.
+    fn halfway<N: Number>(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Halfway<N>;
+    /// Force, torque, breakage and new state of one bond that moves like this.
+    fn act<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Reaction<N>;
+    /// Force, torque, breakage and new state of one bond, its motion found on the way.
+    #[inline(always)]
+    fn react<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, rows: &Rows<N>) -> Reaction<N> {
+        let motion = Motion::of(Self::RATES, law, pair);
+        Self::act(law, pair, &motion, &Self::halfway(pair, motion.distance, rows), rows)
+    }
     /// What the bond carries at this moment, for outputs: nothing advances, nothing breaks.
     fn carried(law: &Law, pair: &Pair, rows: &Rows) -> Carried;
 }
@@ -204,6 +250,8 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
     const NEEDS_MASSES: bool = D::NEEDS_MASSES;
     const RELAXES: bool = F::RELAXES;
     const DAMPS: bool = D::ACTIVE;
+    const HALFWAY: usize = F::HALFWAY;
+    const RATES: Rates = if F::NEEDS_RATES || D::ACTIVE { F::RATES } else { Rates::Unseen };
 
     #[inline(always)]
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
@@ -211,11 +259,21 @@ impl<F: Formulation, D: Damping, B: Breakage> BondLaw for Composed<F, D, B> {
     }
 
     #[inline(always)]
-    fn react<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, rows: &Rows<N>) -> Reaction<N> {
-        let motion = F::motion(law, pair);
-        let elastic = F::respond(law, pair, &motion, rows);
-        let cause = B::judge(law, &motion, &elastic);
-        let lost = D::damp(law, pair, &motion, &elastic);
+    fn halfway<N: Number>(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Halfway<N> {
+        F::halfway(pair, distance, rows)
+    }
+
+    #[inline(always)]
+    fn act<N: Number>(
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        halfway: &Halfway<N>,
+        rows: &Rows<N>,
+    ) -> Reaction<N> {
+        let elastic = F::finish(law, pair, motion, halfway, rows);
+        let cause = B::judge(law, motion, &elastic);
+        let lost = D::damp(law, pair, &motion.settled(), &elastic);
 
         let damping_force = lost.normal + lost.shear;
         let couple = lost.shear.cross(motion.axis) * motion.distance;

@@ -70,6 +70,12 @@ impl<N: Number> Pair<N> {
         Self::of(i, foot, [N::splat(1.0), N::zero(), N::splat(0.5)], i.radius)
     }
 
+    /// d at the last step \[m\].
+    #[inline(always)]
+    fn last(&self, law: &Coefficients<N>) -> Vector<N> {
+        self.connection - self.velocity * law.step
+    }
+
     /// The pair with these shares (`share_i`, `share_j`, `slip_share_i`).
     #[inline(always)]
     fn of(i: &Body<N>, j: &Body<N>, shares: [N; 3], least_radius: N) -> Self {
@@ -117,89 +123,40 @@ impl<N: Number> Section<N> {
     }
 }
 
-/// How the axis of a pair turned over the step that led to its positions.
+/// How the axis of a pair turned over the step that led to its positions, and the pair with it.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<N: Number = f64> {
-    /// e: axis of this step.
-    pub axis: Vector<N>,
-    /// r \[m\].
-    pub distance: N,
-    /// 1/r \[1/m\].
-    pub per_distance: N,
-    /// d of mid-step \[m\].
-    pub middle: Vector<N>,
-    /// (e₀ + e)/(1 + e₀·e), with the axis e₀ of the last step: along the mean axis, longer than 1 by the second order of
-    /// the turn.
+    /// (e₀ + e)/(1 + e₀·e), with the axis e₀ of the last step and e of this one: along the mean axis, longer than 1 by the
+    /// second order of the turn.
     pub bisector: Vector<N>,
-    /// Tangent of half of the mean spin's turn about the mean axis over the step, as a fraction: above and below.
-    half_twist: [N; 2],
-    /// 2 over the sum of the squares of both.
-    per_half_twist: N,
-    /// That half itself \[rad\].
-    half_angle: N,
+    /// Cosine of the mean spin's turn about the axis.
+    pub cosine: N,
+    /// Its sine.
+    pub sine: N,
 }
 
 impl<N: Number> Turn<N> {
-    /// Of this pair. Two roots and one division, in homogeneous form: e₀ + e is (d₀ r + d r₀)/(r₀ r).
+    /// No turn.
     #[inline(always)]
-    pub fn of(law: &Coefficients<N>, pair: &Pair<N>) -> Self {
-        let connection = pair.connection;
-        let last = connection - pair.velocity * law.step;
-        let (distance, last_distance) = (connection.length(), last.length());
-        let sum = last * distance + connection * last_distance;
-        // r₀ r (1 + e₀·e).
-        let opening = distance * last_distance + connection.dot(last);
-        // tan x/x = (15 − x²)/(15 − 6 x²), x = h/opening; off by x⁷/1575.
-        let twist = (pair.spin_i + pair.spin_j).dot(sum) * (law.step * N::splat(0.25));
-        let (square, opening_square) = (twist * twist, opening * opening);
-        let whole = N::splat(15.0) * opening_square;
-        let half_twist = [twist * (whole - square), opening * (whole - N::splat(6.0) * square)];
-        let squares = half_twist[0] * half_twist[0] + half_twist[1] * half_twist[1];
-        let product = distance * opening;
-        let shared = N::splat(1.0) / (product * squares);
-        let per_product = squares * shared;
-        let per_opening = distance * per_product;
-        let per_distance = opening * per_product;
-        Self {
-            axis: connection * per_distance,
-            distance,
-            per_distance,
-            middle: (connection + last) * N::splat(0.5),
-            bisector: sum * per_opening,
-            half_twist,
-            per_half_twist: N::splat(2.0) * product * shared,
-            half_angle: twist * per_opening,
-        }
+    pub fn none() -> Self {
+        Self { bisector: Vector::zero(), cosine: N::splat(1.0), sine: N::zero() }
     }
 
     /// The shortest turn from the axis of the last step to that of this one, of a vector across the former. Any vector
     /// loses what it has along the mean axis; what is across that comes to lie across the axis of this step, right to
     /// the second order.
     #[inline(always)]
-    pub fn onwards(&self, vector: Vector<N>) -> Vector<N> {
-        vector - self.bisector * vector.dot(self.axis)
+    pub fn onwards(&self, vector: Vector<N>, axis: Vector<N>) -> Vector<N> {
+        vector - self.bisector * vector.dot(axis)
     }
 
-    /// About the axis of this step by the mean spin's turn, of a vector across it.
+    /// What was kept across the axis of the last step, and an increment of mid-step: both turned with the bond. The
+    /// increment turns about the axis by half, right to the second order.
     #[inline(always)]
-    pub fn about(&self, vector: Vector<N>) -> Vector<N> {
-        let [above, below] = self.half_twist;
-        let lost = above * above * self.per_half_twist;
-        let sine = above * below * self.per_half_twist;
-        vector * (N::splat(1.0) - lost) + (self.axis * sine).cross(vector)
-    }
-
-    /// About the mean axis back by half of that, to the first order: for increments of mid-step, which turn on by the
-    /// other half alone.
-    #[inline(always)]
-    pub fn half_back(&self, vector: Vector<N>) -> Vector<N> {
-        vector - (self.bisector * self.half_angle).cross(vector)
-    }
-
-    /// Relative velocity of the two ends of a bond at mid-step, the normal part included \[m/s\].
-    #[inline(always)]
-    pub fn slip(&self, pair: &Pair<N>) -> Vector<N> {
-        pair.velocity + self.middle.cross(pair.spin_i * pair.share_i + pair.spin_j * pair.share_j)
+    pub fn advance(&self, kept: Vector<N>, increment: Vector<N>, axis: Vector<N>) -> Vector<N> {
+        let sum = self.onwards(kept + increment, axis);
+        let about = sum - increment * N::splat(0.5);
+        sum * self.cosine + (axis * self.sine).cross(about)
     }
 }
 
@@ -220,48 +177,174 @@ pub struct Motion<N: Number = f64> {
     pub twist_rate: N,
     /// w_t: relative angular velocity across the axis \[rad/s\].
     pub bending_rate: Vector<N>,
+    /// How the pair turned, where the rates are those about the mean axis of the step.
+    pub turn: Turn<N>,
     /// The cross-section.
     pub section: Section<N>,
 }
 
-impl<N: Number> Motion<N> {
-    /// Of this pair, the spin of i entering the shear velocity with this share of the distance.
+/// About which axis a law takes its rates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rates {
+    /// It looks at none.
+    Unseen,
+    /// That of this step, half a step behind the velocities, as the engine does.
+    AtEnd,
+    /// The mean axis of the step, at whose middle the velocities are: a bond that turns as a whole has no rates.
+    Midway,
+}
+
+/// The first of three parts in which a motion is found: what takes roots. Each part ends with what the processor takes long
+/// for, so that it need not wait for it where there are many bonds.
+#[derive(Clone, Copy, Debug)]
+pub struct Lengths<N: Number = f64> {
+    /// r \[m\].
+    pub distance: N,
+    /// r at the last step, for rates at [`Rates::Midway`] \[m\].
+    pub last_distance: N,
+}
+
+impl<N: Number> Lengths<N> {
+    /// Of this pair.
     #[inline(always)]
-    pub fn with_arm(law: &Coefficients<N>, pair: &Pair<N>, slip_share_i: N) -> Self {
+    pub fn of(rates: Rates, law: &Coefficients<N>, pair: &Pair<N>) -> Self {
         let distance = pair.connection.length();
-        let per_distance = N::splat(1.0) / distance;
-        let axis = pair.connection * per_distance;
-        let normal_velocity = pair.velocity.dot(axis);
-        let turning = pair.spin_i * slip_share_i + pair.spin_j * pair.share_j;
-        let slip = pair.velocity - axis * normal_velocity + pair.connection.cross(turning);
-        let relative_spin = pair.spin_i - pair.spin_j;
-        let twist_rate = relative_spin.dot(axis);
+        let last_distance = match rates {
+            Rates::Midway => pair.last(law).length(),
+            Rates::Unseen | Rates::AtEnd => distance,
+        };
+        Self { distance, last_distance }
+    }
+}
+
+/// The second part: what takes a division.
+#[derive(Clone, Copy, Debug)]
+pub struct Opening<N: Number = f64> {
+    /// d₀ r + d r₀: along e₀ + e \[m²\].
+    pub sum: Vector<N>,
+    /// r₀ r (1 + e₀·e) \[m²\].
+    pub size: N,
+    /// Tangent of half of the mean spin's turn about the axis: what stands above.
+    pub above: N,
+    /// What stands below.
+    pub below: N,
+    /// 1 over r, and where rates are those at [`Rates::Midway`] over `size` and `above`² + `below`², too.
+    pub shared: N,
+}
+
+impl<N: Number> Opening<N> {
+    /// Of this pair. tan x/x = (15 − x²)/(15 − 6 x²), x half of the turn's angle; off by x⁷/1575.
+    #[inline(always)]
+    pub fn of(rates: Rates, law: &Coefficients<N>, pair: &Pair<N>, lengths: &Lengths<N>) -> Self {
+        let one = N::splat(1.0);
+        let Lengths { distance, last_distance } = *lengths;
+        if rates != Rates::Midway {
+            let zero = N::zero();
+            return Self { sum: Vector::zero(), size: zero, above: zero, below: zero, shared: one / distance };
+        }
+        let (connection, last) = (pair.connection, pair.last(law));
+        let sum = last * distance + connection * last_distance;
+        let size = distance * last_distance + connection.dot(last);
+        let angle = (pair.spin_i + pair.spin_j).dot(sum) * (law.step * N::splat(0.25));
+        let (square, whole) = (angle * angle, N::splat(15.0) * (size * size));
+        let (above, below) = (angle * (whole - square), size * (whole - N::splat(6.0) * square));
+        let shared = one / (distance * size * (above * above + below * below));
+        Self { sum, size, above, below, shared }
+    }
+}
+
+impl<N: Number> Motion<N> {
+    /// Of this pair, in one go.
+    #[inline(always)]
+    pub fn of(rates: Rates, law: &Coefficients<N>, pair: &Pair<N>) -> Self {
+        let lengths = Lengths::of(rates, law, pair);
+        Self::after(rates, law, pair, &lengths, &Opening::of(rates, law, pair, &lengths))
+    }
+
+    /// The third part. With rates at [`Rates::Midway`], slip and bending rate are those of both ends as they are, along the
+    /// axis included, until [`Motion::settled`].
+    #[inline(always)]
+    pub fn after(
+        rates: Rates,
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        lengths: &Lengths<N>,
+        opening: &Opening<N>,
+    ) -> Self {
+        match rates {
+            Rates::Unseen => Self::at_rest(law, pair, lengths.distance, opening.shared),
+            Rates::AtEnd => Self::at_end(law, pair, lengths.distance, opening.shared),
+            Rates::Midway => Self::midway(law, pair, lengths.distance, opening),
+        }
+    }
+
+    /// Without rates.
+    #[inline(always)]
+    fn at_rest(law: &Coefficients<N>, pair: &Pair<N>, distance: N, per_distance: N) -> Self {
         Self {
-            axis,
+            axis: pair.connection * per_distance,
             distance,
             per_distance,
-            normal_velocity,
-            slip,
-            twist_rate,
-            bending_rate: relative_spin - axis * twist_rate,
+            normal_velocity: N::zero(),
+            slip: Vector::zero(),
+            twist_rate: N::zero(),
+            bending_rate: Vector::zero(),
+            turn: Turn::none(),
             section: Section::of(law.radius_multiplier, pair.least_radius),
         }
     }
-    /// Of this pair, with rates about the mean axis of the step, at whose middle the velocities are; slip and bending lie
-    /// across the axis of this step. A bond that turns as a whole has no rates.
+
+    /// Rates about the axis of this step.
     #[inline(always)]
-    pub fn midway(law: &Coefficients<N>, pair: &Pair<N>) -> Self {
-        let turn = Turn::of(law, pair);
+    fn at_end(law: &Coefficients<N>, pair: &Pair<N>, distance: N, per_distance: N) -> Self {
+        let standing = Self::at_rest(law, pair, distance, per_distance);
+        let axis = standing.axis;
+        let normal_velocity = pair.velocity.dot(axis);
+        let turning = pair.spin_i * pair.slip_share_i + pair.spin_j * pair.share_j;
+        let relative_spin = pair.spin_i - pair.spin_j;
+        let twist_rate = relative_spin.dot(axis);
+        Self {
+            normal_velocity,
+            slip: pair.velocity - axis * normal_velocity + pair.connection.cross(turning),
+            twist_rate,
+            bending_rate: relative_spin - axis * twist_rate,
+            ..standing
+        }
+    }
+
+    /// Rates about the mean axis of the step.
+    #[inline(always)]
+    fn midway(law: &Coefficients<N>, pair: &Pair<N>, distance: N, opening: &Opening<N>) -> Self {
+        let Opening { sum, size, above, below, shared } = *opening;
+        let above_square = above * above;
+        let squares = above_square + below * below;
+        let per_product = squares * shared;
+        let per_squares = N::splat(2.0) * (distance * size) * shared;
+        let turn = Turn {
+            bisector: sum * (distance * per_product),
+            // 1 where nothing turns, to the last bit.
+            cosine: N::splat(1.0) - above_square * per_squares,
+            sine: above * below * per_squares,
+        };
+        let middle = pair.connection - pair.velocity * (law.step * N::splat(0.5));
         let relative_spin = pair.spin_i - pair.spin_j;
         Self {
-            axis: turn.axis,
-            distance: turn.distance,
-            per_distance: turn.per_distance,
             normal_velocity: pair.velocity.dot(turn.bisector),
-            slip: turn.onwards(turn.slip(pair)),
+            slip: pair.velocity + middle.cross(pair.spin_j + relative_spin * pair.share_i),
             twist_rate: relative_spin.dot(turn.bisector),
-            bending_rate: turn.onwards(relative_spin),
-            section: Section::of(law.radius_multiplier, pair.least_radius),
+            bending_rate: relative_spin,
+            turn,
+            ..Self::at_rest(law, pair, distance, size * per_product)
+        }
+    }
+
+    /// The same with slip and bending rate across the axis of this step.
+    #[inline(always)]
+    pub fn settled(&self) -> Self {
+        Self {
+            slip: self.turn.onwards(self.slip, self.axis),
+            bending_rate: self.turn.onwards(self.bending_rate, self.axis),
+            ..*self
         }
     }
 }

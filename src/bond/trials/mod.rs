@@ -2,6 +2,7 @@
 
 mod compare;
 mod conservation;
+mod dashpots;
 mod failures;
 mod gradient;
 mod keys;

@@ -7,6 +7,7 @@
 mod batch;
 mod book;
 mod list;
+mod ring;
 
 pub(super) use book::{Done, book};
 pub(super) use list::{longest, sort};

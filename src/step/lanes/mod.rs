@@ -24,6 +24,27 @@ pub trait Lane: Number {
     /// `index` holds [`Lane::WIDTH`] numbers, each below the length of what `rows` points to.
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4];
 
+    /// Reads [`Lane::WIDTH`] consecutive rows and transposes them.
+    ///
+    /// # Safety
+    /// `rows` points to [`Lane::WIDTH`] rows.
+    #[inline(always)]
+    unsafe fn load_block(rows: *const Row) -> [Self; 4] {
+        // SAFETY: the caller's promise.
+        unsafe { Self::load_rows(rows, [0, 1, 2, 3, 4, 5, 6, 7].as_ptr()) }
+    }
+
+    /// Reads two times [`Lane::WIDTH`] rows, and transposes the first ones less the second ones.
+    ///
+    /// # Safety
+    /// As for [`Lane::load_rows`], both times.
+    #[inline(always)]
+    unsafe fn load_difference(rows: *const Row, first: *const u32, second: *const u32) -> [Self; 4] {
+        // SAFETY: the caller's promise.
+        let ([a, b, c, d], [e, f, g, h]) = unsafe { (Self::load_rows(rows, first), Self::load_rows(rows, second)) };
+        [a - e, b - f, c - g, d - h]
+    }
+
     /// Transposes back and writes the rows, the last one last.
     ///
     /// # Safety

@@ -70,13 +70,15 @@ impl Number for Eight {
 
 /// Orders of lanes, of two registers (8 and above: the second one). They are read as if they could change: knowing
 /// them, the compiler takes the transpositions apart into twice as many narrower ones.
-static ORDERS: [[i64; 8]; 6] = [
+static ORDERS: [[i64; 8]; 8] = [
     [0, 1, 8, 9, 4, 5, 12, 13],
     [2, 3, 10, 11, 6, 7, 14, 15],
     [0, 8, 1, 9, 2, 10, 3, 11],
     [4, 12, 5, 13, 6, 14, 7, 15],
     [0, 1, 8, 9, 2, 3, 10, 11],
     [4, 5, 12, 13, 6, 7, 14, 15],
+    [0, 4, 8, 12, 1, 5, 9, 13],
+    [2, 6, 10, 14, 3, 7, 11, 15],
 ];
 
 /// One of [`ORDERS`].
@@ -167,6 +169,39 @@ impl Lane for Eight {
                 row_pair(rows, *index.add(2), *index.add(6)),
                 row_pair(rows, *index.add(3), *index.add(7)),
             ]);
+            [Self(x), Self(y), Self(z), Self(w)]
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn load_block(rows: *const Row) -> [Self; 4] {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let pair = |place: usize| _mm512_loadu_pd(rows.add(2 * place).cast());
+            let [a, b, c, d] = [pair(0), pair(1), pair(2), pair(3)];
+            let (front, back) = (order(6), order(7));
+            let (low_front, low_back) = (_mm512_permutex2var_pd(a, front, b), _mm512_permutex2var_pd(a, back, b));
+            let (high_front, high_back) = (_mm512_permutex2var_pd(c, front, d), _mm512_permutex2var_pd(c, back, d));
+            [
+                Self(_mm512_shuffle_f64x2::<0x44>(low_front, high_front)),
+                Self(_mm512_shuffle_f64x2::<0xee>(low_front, high_front)),
+                Self(_mm512_shuffle_f64x2::<0x44>(low_back, high_back)),
+                Self(_mm512_shuffle_f64x2::<0xee>(low_back, high_back)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn load_difference(rows: *const Row, first: *const u32, second: *const u32) -> [Self; 4] {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let difference = |lane: usize| {
+                _mm512_sub_pd(
+                    row_pair(rows, *first.add(lane), *first.add(lane + 4)),
+                    row_pair(rows, *second.add(lane), *second.add(lane + 4)),
+                )
+            };
+            let [x, y, z, w] = transpose_in([difference(0), difference(1), difference(2), difference(3)]);
             [Self(x), Self(y), Self(z), Self(w)]
         }
     }
