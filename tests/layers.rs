@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
 const ROWS: [&[&str]; 9] = [
-    &["choices", "quantity", "number"],
+    &["choices", "memory", "quantity", "number"],
     &["contact", "bond"],
     &["scene"],
     &["state"],
