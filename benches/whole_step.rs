@@ -1,10 +1,15 @@
 //! Whole time steps of the common scenes: user CPU time of a contact (or bond) and step.
 //!
-//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz]`
+//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz] [--laws]`
 //!
+//! `--laws` runs the dense packing with every contact law there is instead, or those whose names hold SCENE.
 //! SCENE is part of a name below; without one all of them run. `--widths` repeats each in every lane width: the states
 //! must be the same. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
 
+use cograin::contact::cohesion::CohesionChoice;
+use cograin::contact::normal::NormalChoice;
+use cograin::contact::rolling::RollingChoice;
+use cograin::contact::tangential::TangentialChoice;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
 use cograin::step::lanes::Width;
@@ -64,21 +69,30 @@ restitution = 0.5
 friction = 0.5
 rolling_friction = 0.1
 cohesion_energy_density = 5.0e3
-normal_stiffness = 4.0e3
-tangential_stiffness = 3.0e3
-normal_damping = 100.0
-tangential_damping = 100.0
+fluid_viscosity = 1.0e-3
+critical_stokes_number = 10.0
+maximum_restitution = 0.9
 "#;
+
+/// Stiffness and damping of linear springs, then of springs that grow with the root of the overlap.
+const SPRINGS: [&str; 2] = [
+    "normal_stiffness = 4.0e3\ntangential_stiffness = 3.0e3\nnormal_damping = 100.0\ntangential_damping = 100.0\n",
+    "normal_stiffness = 3.7e7\ntangential_stiffness = 3.0e7\nnormal_damping = 1.0e5\ntangential_damping = 1.0e5\n",
+];
 
 /// The dense packing: time step [s] of 10 % of Rayleigh's, in a box around it.
 fn dense(packing: Vec<u8>, law: [&str; 4], threads: usize) -> Source {
     let width = box_width(&packing);
     let mut text = format!(
-        "gravity = [0.0, 0.0, -9.81]\n[run]\nstep = 1.54807158678598e-5\nend = 1.0\nthreads = {threads}\nmax_overlap = 0.5\n{MATERIALS}"
+        "gravity = [0.0, 0.0, -9.81]\n[run]\nstep = 1.54807158678598e-5\nend = 1.0\nthreads = {threads}\nmax_overlap = 0.5\n{MATERIALS}{}",
+        SPRINGS[usize::from(law[0] == "hertz_stiffness")]
     );
     for (kind, model) in ["normal", "tangential", "rolling", "cohesion"].iter().zip(law) {
         if model != "none" {
             let _ = writeln!(text, "[contact.touch.{kind}.{model}]");
+            if *kind == "normal" && matches!(model, "hooke" | "hooke_viscous") {
+                text += "characteristic_velocity = 1.0\n";
+            }
         }
     }
     text += "[particles.bed]\nmaterial = \"grain\"\nfile = \"bed.csv.gz\"\n";
@@ -124,7 +138,7 @@ fn bonded(formulation: &str, threads: usize) -> Source {
 step = 2.0e-6
 end = 1.0
 threads = {threads}
-{MATERIALS}
+{MATERIALS}{}
 [contact.touch.normal.hertz]
 [contact.touch.tangential.history]
 [particles.block]
@@ -140,7 +154,8 @@ normal_stiffness = 1.0e10
 tangential_stiffness = 4.0e9
 [bond.glue.breakage]
 max_distance = 0.012
-"#
+"#,
+        SPRINGS[0]
     );
     Source { name: "bonded".into(), text, files: BTreeMap::from([("block.csv".into(), rows.into_bytes())]) }
 }
@@ -164,6 +179,8 @@ struct Options {
     widths: bool,
     /// Whether to print the parts of a step.
     parts: bool,
+    /// Whether to run every contact law.
+    laws: bool,
     /// The dense packing.
     packing: String,
 }
@@ -177,6 +194,7 @@ impl Options {
             threads: 1,
             widths: false,
             parts: false,
+            laws: false,
             packing: "models/loaded_beam/dense_20k.csv.gz".into(),
         };
         let mut arguments = std::env::args().skip(1);
@@ -188,6 +206,7 @@ impl Options {
                 "--threads" => options.threads = value().parse().expect("a number of threads"),
                 "--widths" => options.widths = true,
                 "--parts" => options.parts = true,
+                "--laws" => options.laws = true,
                 "--packing" => options.packing = value(),
                 name => options.name = name.into(),
             }
@@ -209,7 +228,7 @@ impl Options {
         let (count, what) = if bonds > 0 { (bonds, "bonds") } else { (simulation.contact_count(), "contacts") };
         let work = (self.steps * count) as f64 * 1e-9;
         println!(
-            "{name:22} {:6}: {:5.2} ns user, {:5.2} ns wall; {count} {what}, {} lists, state {:016x}, energy {:.6e} J",
+            "{name:40} {:6}: {:5.2} ns user, {:5.2} ns wall; {count} {what}, {} lists, state {:016x}, energy {:.6e} J",
             format!("{width:?}"),
             user / work,
             wall / work,
@@ -239,9 +258,27 @@ impl Options {
     }
 }
 
+/// The dense packing with every contact law: name, and what it is made of.
+fn every_law() -> Vec<(String, Kind)> {
+    let mut laws = Vec::new();
+    for &normal in NormalChoice::NAMES {
+        for &tangential in TangentialChoice::NAMES {
+            for &rolling in RollingChoice::NAMES {
+                for &cohesion in CohesionChoice::NAMES {
+                    let name = [normal, tangential, rolling, cohesion].join(" ");
+                    laws.push((name, Kind::Dense { normal, tangential, rolling, cohesion }));
+                }
+            }
+        }
+    }
+    laws
+}
+
 fn main() {
     let options = Options::read();
-    for (name, kind) in SCENES.into_iter().filter(|(name, _)| name.contains(&options.name)) {
+    let named = || SCENES.map(|(name, kind)| (name.to_owned(), kind)).to_vec();
+    let scenes = if options.laws { every_law() } else { named() };
+    for (name, kind) in scenes.into_iter().filter(|(name, _)| name.contains(&options.name)) {
         let source = match kind {
             Kind::Dense { normal, tangential, rolling, cohesion } => {
                 let packing = std::fs::read(&options.packing).expect("the packing can be read");
@@ -252,7 +289,7 @@ fn main() {
         let scene = Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")));
         for width in Width::ALL.into_iter().filter(|width| width.offered()) {
             if options.widths || width == Width::widest() {
-                options.run(name, &scene, width);
+                options.run(&name, &scene, width);
             }
         }
     }
