@@ -4,15 +4,25 @@
 //! [`step::Simulation::advance`] → interface and outputs → unit and command line.
 
 pub mod bond;
+mod books;
 mod choices;
 pub mod contact;
 pub mod export;
+pub mod geometry;
+mod integration;
+mod interactions;
 pub mod interface;
+pub mod lanes;
 pub mod memory;
+mod motion;
+mod neighbours;
 pub mod number;
 pub mod output;
 pub mod quantity;
+mod run_error;
 pub mod scene;
+mod stability;
 pub mod state;
 pub mod step;
+mod threads;
 pub mod verify;

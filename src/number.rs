@@ -2,6 +2,9 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+/// A row of four numbers, 32 bytes.
+pub type Row = [f64; 4];
+
 /// A real number, or a lane vector of real numbers, in IEEE 754 double precision.
 ///
 /// Every operation is exactly rounded and none is fused, so a law written over this trait gives the

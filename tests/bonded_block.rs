@@ -1,9 +1,9 @@
 //! A bonded block that breaks: the same bits for threads, lane widths and saved states, and books that close.
 
+use cograin::lanes::Width;
 use cograin::scene::{Scene, Source};
 use cograin::state::State;
 use cograin::step::Simulation;
-use cograin::step::lanes::Width;
 use std::sync::Arc;
 
 /// A block that is glued to a plane and thrown sideways, half of it faster than the other half.

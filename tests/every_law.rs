@@ -9,9 +9,9 @@ use cograin::contact::cohesion::CohesionChoice;
 use cograin::contact::normal::NormalChoice;
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
+use cograin::lanes::Width;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
-use cograin::step::lanes::Width;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! Contacts that a bond hides: nothing of them while bonded, and no jump when the bond breaks.
 
+use cograin::lanes::Width;
 use cograin::scene::{Scene, Source};
 use cograin::state::State;
 use cograin::step::Simulation;
-use cograin::step::lanes::Width;
 use std::sync::Arc;
 
 /// The simulation of a scene as text.

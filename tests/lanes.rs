@@ -2,9 +2,9 @@
 //!
 //! One at a time is what processors without such registers work with; no scene can ask for it on the others.
 
+use cograin::lanes::{Kernel, Lane, Width, run};
 use cograin::number::Number;
 use cograin::state::Row;
-use cograin::step::lanes::{Kernel, Lane, Width, run};
 
 /// Numbers of every kind: signs, zeros, the smallest, the largest, none.
 const NUMBERS: [f64; 16] = [

@@ -1,9 +1,9 @@
 //! Neighbour lists hold what they must, whatever the sizes; motion alone asks for new ones.
 
+use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
-use cograin::step::lanes::Width;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;

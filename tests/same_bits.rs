@@ -3,11 +3,11 @@
 //! Hashes are of the whole state: positions alone would forgive what has not yet moved them. `every_law.rs` looks at
 //! every law, and at what the platform brings along.
 
+use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::state::State;
 use cograin::step::Simulation;
-use cograin::step::lanes::Width;
 use std::sync::Arc;
 
 /// Two materials, rolling friction and cohesion, a driven floor, damping, a falling cloud that meets it: enough

@@ -20,7 +20,6 @@
 //! The velocities are those of half a time step before the positions (velocity Verlet).
 
 pub mod angle;
-pub mod attitude;
 pub mod breakage;
 pub mod coefficients;
 pub mod creation;
@@ -34,7 +33,7 @@ pub mod motion;
 #[cfg(test)]
 mod trials;
 
-pub use attitude::Quaternion;
+pub use crate::geometry::Quaternion;
 pub use breakage::{Breakage, Cause};
 pub use coefficients::{Coefficients, Law};
 pub use damping::Damping;

@@ -147,8 +147,8 @@ impl<V: TakeLaw, A: Normal, B: Tangential, C: Rolling> TakeCohesion for WithRoll
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::fixtures::{contact, properties, with_pair};
     use crate::contact::normal::{hooke, hooke_stiffness};
-    use crate::contact::specimen::{contact, properties, with_pair};
     use crate::contact::{Beyond, Contact, NoKeys, PairProperties, Reaction, cohesion};
     use crate::number::{Number, Vector};
     use crate::quantity::{Positive, Restitution};

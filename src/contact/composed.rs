@@ -282,9 +282,9 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Law for Composed
 mod tests {
     use super::*;
     use crate::contact::cohesion::{attraction, none, sjkr};
+    use crate::contact::fixtures::{assert_close, contact, properties, with_pair};
     use crate::contact::normal::hooke_stiffness;
     use crate::contact::rolling::{cdt, none as free};
-    use crate::contact::specimen::{assert_close, contact, properties, with_pair};
     use crate::contact::tangential::{history, no_history, none as smooth};
     use crate::contact::{NoKeys, PairProperties};
     use crate::quantity::NonNegative;
@@ -298,13 +298,13 @@ mod tests {
         Composed::of::<hooke_stiffness::HookeStiffness, sjkr::Sjkr>(normal, NoKeys {}, NoKeys {}, cohesion, switches)
     }
 
-    /// What it does to the specimen's contact at this normal velocity.
+    /// What it does to the fixture's contact at this normal velocity.
     fn react<B: Tangential<Keys = NoKeys>>(law: Whole<B>, normal_velocity: f64) -> Reaction {
         let row = with_pair(&properties(), |pair| law.row(pair)).unwrap();
         Whole::<B>::react(&row, &Contact { normal_velocity, ..contact() }, Vector::zero(), 0.0)
     }
 
-    /// k_n δ of the specimen's contact.
+    /// k_n δ of the fixture's contact.
     const ELASTIC: f64 = 100.0 / 16384.0;
 
     #[test]

@@ -11,11 +11,11 @@ mod choice;
 mod coefficients;
 pub mod cohesion;
 mod composed;
+#[cfg(test)]
+mod fixtures;
 mod material;
 pub mod normal;
 pub mod rolling;
-#[cfg(test)]
-mod specimen;
 pub mod tangential;
 
 pub use choice::{LawChoice, TakeLaw};

@@ -1,8 +1,8 @@
 //! The text of a scene as tables whose lines are known, and from tables to typed values.
 
 use super::error::{SceneError, SceneErrors};
+use super::messages;
 use super::mistake::Mistake;
-use super::words;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use toml::Spanned;
@@ -117,13 +117,15 @@ impl<'a> Document<'a> {
             };
             let mut path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
             // A table that only its sub-tables name lies in their headers; the unknown key is where the way ends.
-            if let Some(end) = words::unknown_field(&error).and_then(|field| path.iter().position(|key| key == field)) {
+            if let Some(end) =
+                messages::unknown_field(&error).and_then(|field| path.iter().position(|key| key == field))
+            {
                 path.truncate(end + 1);
             }
-            let mistake = words::mistake(&error, path.last().map_or("", String::as_str));
+            let mistake = messages::mistake(&error, path.last().map_or("", String::as_str));
             let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
             // What was taken out as wrong is not missing, nor is the sub-model that it was.
-            let missing = words::missing_field(&error);
+            let missing = messages::missing_field(&error);
             if !wrong.is_empty() && path.is_empty() && missing.is_none_or(|field| wrong.iter().any(|key| key == field))
             {
                 return None;
@@ -149,7 +151,7 @@ impl<'a> Document<'a> {
             table = below;
             path.remove(0);
         }
-        let key = match words::missing_field(error) {
+        let key = match messages::missing_field(error) {
             Some(field) => path.iter().map(String::as_str).chain([field]).collect::<Vec<_>>().join("."),
             None => path.join("."),
         };

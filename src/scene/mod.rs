@@ -9,10 +9,10 @@ mod error;
 mod file;
 mod generate;
 mod import;
+mod messages;
 mod mistake;
 mod nearest;
 mod source;
-mod words;
 
 pub use error::{SceneError, SceneErrors};
 pub use mistake::Mistake;

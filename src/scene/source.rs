@@ -4,7 +4,7 @@ use super::check;
 use super::document::{Document, Faults};
 use super::error::{SceneError, SceneErrors};
 use super::mistake::Mistake;
-use super::{Scene, check::written};
+use super::{Scene, check::raw_tables};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -50,7 +50,7 @@ impl Scene {
         let mut source = Source { name, text, files: BTreeMap::new() };
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (table, key, file) in written::files(&document) {
+        for (table, key, file) in raw_tables::files(&document) {
             match fs::read(folder.join(&file)) {
                 Ok(bytes) => {
                     source.files.insert(file, bytes);
@@ -66,7 +66,7 @@ impl Scene {
     pub fn from_source(source: &Source) -> Result<Self, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (table, key, file) in written::files(&document) {
+        for (table, key, file) in raw_tables::files(&document) {
             if !source.files.contains_key(&file) {
                 let reason = "it was not handed over with the scene".to_owned();
                 faults.add(&table, key, Mistake::Unreadable { file, reason });

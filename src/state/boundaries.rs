@@ -1,6 +1,7 @@
 //! Where the boundaries stand and what they feel.
 
 use super::Row;
+use crate::geometry::Quaternion;
 use serde::{Deserialize, Serialize};
 
 /// Motion and loads of one boundary. Force and moment are those *of the particles on the boundary*.
@@ -70,6 +71,18 @@ pub struct Inertial {
 /// A unit quaternion: scalar, x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attitude(pub Row);
+
+impl From<Quaternion> for Attitude {
+    fn from(orientation: Quaternion) -> Self {
+        Self(orientation.to_row())
+    }
+}
+
+impl From<Attitude> for Quaternion {
+    fn from(attitude: Attitude) -> Self {
+        Self::from_row(attitude.0)
+    }
+}
 
 impl Default for Attitude {
     /// As at time 0.

@@ -21,10 +21,9 @@ pub use hidden::{Hidden, HiddenContact};
 pub use ledger::Ledger;
 pub use particles::Particles;
 
-use serde::{Deserialize, Serialize};
+pub use crate::number::Row;
 
-/// A row of four numbers, 32 bytes.
-pub type Row = [f64; 4];
+use serde::{Deserialize, Serialize};
 
 /// Everything that changes while a scene runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,15 +1,16 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
-use super::bodies::{Body, sphere_inertia};
-use super::bonds::BondPass;
-use super::contacts::ContactPass;
-use super::neighbours;
-use super::pass::Pass;
-use super::table::{MOST_COEFFICIENTS, Table};
-use super::wall_bonds::WallBondPass;
-use super::walls::{Plane, WallPass};
 use crate::bond::{BondLaw, keys};
 use crate::contact::{Law, TakeLaw};
+use crate::interactions::Pass;
+use crate::interactions::bonds::BondPass;
+use crate::interactions::contacts::ContactPass;
+use crate::interactions::wall_bonds::WallBondPass;
+use crate::interactions::walls::{Plane, WallPass};
+use crate::interactions::{MOST_COEFFICIENTS, Table};
+use crate::motion::RigidBody;
+use crate::motion::rigid_body::sphere_inertia;
+use crate::neighbours;
 use crate::number::Vector;
 use crate::scene::{AxisMotion, Boundary, Scene, Shape};
 use crate::state::{
@@ -87,7 +88,7 @@ fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
         pivot: boundary.reference,
         ..BoundaryState::default()
     };
-    if let Some(body) = Body::of(scene, boundary) {
+    if let Some(body) = RigidBody::of(scene, boundary) {
         body.begin(scene, boundary, &mut moved);
     }
     moved

@@ -1,48 +1,28 @@
 //! One time step: the passes, in their order, over the state.
 
 mod assemble;
-mod batch;
-mod bodies;
-mod bonds;
-mod boundaries;
-mod contacts;
-mod energy;
-mod error;
-mod fields;
-mod gap;
-mod guards;
-mod hidden;
-mod hiding;
-mod integrate;
-pub mod lanes;
-mod near;
-mod neighbours;
 mod observe;
-mod pass;
 mod placement;
-mod rotation;
+mod run_checks;
 mod settled;
-mod stable;
-mod table;
-mod team;
-mod wall_bonds;
-mod walls;
-mod workers;
 
-pub use error::RunError;
-pub use observe::{BondRecord, ContactRecord};
-pub use placement::{PlacedBond, PlacedParticle, PlacedSpring, Placement};
-pub use stable::Limit;
+pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
+pub use crate::run_error::RunError;
+pub use crate::stability::Limit;
+pub use placement::{PlacedBond, PlacedParticle, Placement};
 
-use crate::bond::Quaternion;
 use crate::bond::creation::Moment;
+use crate::geometry::Quaternion;
+use crate::integration::{self, Fields};
+use crate::interactions::{Pass, suppression, walls};
+use crate::lanes::Width;
+use crate::motion::{Progress, RigidBody, course, rigid_body};
 use crate::quantity::BoundaryIndex;
 use crate::scene::{Scene, Step};
 use crate::state::State;
 use crate::state::ledger::{Loads, Source};
-use boundaries::Progress;
-use lanes::Width;
-use pass::{Context, Pass};
+use crate::threads::{Context, Workers};
+use crate::{books, neighbours, stability};
 use std::sync::Arc;
 
 /// Time steps between two looks at the stable time step, where it is chosen automatically.
@@ -66,19 +46,19 @@ pub struct Simulation {
     /// Interactions, in the order they are evaluated.
     passes: Vec<Box<dyn Pass>>,
     /// Gravity, applied forces, damping.
-    fields: fields::Fields,
+    fields: Fields,
     /// Groups that turn or that forces move; `None` for other boundaries.
-    bodies: Vec<Option<bodies::Body>>,
+    bodies: Vec<Option<RigidBody>>,
     /// The neighbour search.
     search: neighbours::Search,
     /// Which contacts bonds hide.
-    hiding: hiding::Hiding,
+    hiding: suppression::Hiding,
     /// Whether anything turns the particles.
     turning: bool,
     /// Lane width.
     width: Width,
     /// Threads.
-    workers: workers::Workers,
+    workers: Workers,
     /// Where the state came from.
     origin: Origin,
     /// Who is told what has just been done, in benchmarks.
@@ -112,12 +92,12 @@ impl Simulation {
         Self {
             turning: passes.iter().any(|pass| pass.has_torque()),
             passes,
-            fields: fields::Fields::of(&scene),
-            bodies: bodies::of(&scene),
+            fields: Fields::of(&scene),
+            bodies: rigid_body::of(&scene),
             search: neighbours::Search::of(&scene),
-            hiding: hiding::Hiding::of(&scene),
+            hiding: suppression::Hiding::of(&scene),
             width: Width::widest(),
-            workers: workers::Workers::new(scene.run.threads, scene.particles.len()),
+            workers: Workers::new(scene.run.threads, scene.particles.len()),
             scene,
             state,
             origin: Origin::Reached,
@@ -128,7 +108,7 @@ impl Simulation {
     /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
     fn begin(&mut self) -> Result<(), RunError> {
         self.give_attitudes();
-        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
+        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let context = self.standing();
         self.rebuild(&context);
         let time = self.state.clock.time;
@@ -157,7 +137,7 @@ impl Simulation {
 
     /// Makes the neighbour lists anew, as motion does from time to time: results change by rounding only.
     pub fn renew_lists(&mut self) {
-        let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
+        let workers = std::mem::replace(&mut self.workers, Workers::new(Some(1), 0));
         workers.run(|team| self.rebuild(&Context { step: 0.0, width: self.width, team }));
         self.workers = workers;
     }
@@ -234,12 +214,12 @@ impl Simulation {
             self.state = assemble::state(&self.scene);
         }
         for &(boundary, axis, value) in starts {
-            boundaries::put(&mut self.state.boundaries[boundary.index()], axis, value);
+            course::put(&mut self.state.boundaries[boundary.index()], axis, value);
         }
         if from_scene {
             return self.begin();
         }
-        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
+        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         self.rebuild(&self.standing());
         self.start()
     }
@@ -258,15 +238,15 @@ impl Simulation {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });
         }
-        boundaries::begin(&self.scene, &mut self.state, interval)?;
+        course::begin(&self.scene, &mut self.state, interval)?;
         self.lengthen_step();
         let (count, step) = divide(interval, self.state.clock.step);
         self.state.breaks.clear();
-        let workers = std::mem::replace(&mut self.workers, workers::Workers::new(Some(1), 0));
+        let workers = std::mem::replace(&mut self.workers, Workers::new(Some(1), 0));
         let width = self.width;
         let (done, result) = workers.run(|team| self.run(count, step, &Context { step, width, team }));
         self.workers = workers;
-        boundaries::end(&mut self.state, done as f64 * step);
+        course::end(&mut self.state, done as f64 * step);
         result.map_err(|error| self.named(error))
     }
 
@@ -290,13 +270,13 @@ impl Simulation {
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
-        energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
-        let speed = integrate::kick_and_drift(&mut self.state.particles, step, self.turning, context);
-        integrate::turn(&mut self.state.particles, step, context);
+        books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
+        integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
         let time = self.state.clock.time;
-        let ways = boundaries::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress });
-        bodies::place_groups(&self.scene, &self.bodies, &mut self.state);
+        let ways = course::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress });
+        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
         self.state.neighbours.travel += (speed * step).max(carried);
         let mut result = Ok(());
@@ -309,17 +289,17 @@ impl Simulation {
             self.bond(&Moment { number, from: earlier, to: time }, context);
         }
         self.done("lists and boundaries");
-        let before = boundaries::clear_loads(&mut self.state);
+        let before = course::clear_loads(&mut self.state);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
         result = result.and(self.evaluate(gravity.is_none(), context));
-        energy::book(&mut self.state, &self.fields, &self.bodies, step, context);
-        let speed = integrate::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
-        let free_groups = bodies::kick_again(&self.bodies, &mut self.state, step);
+        books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
+        let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
         self.done("kick");
-        boundaries::book(&self.scene, &mut self.state, &before, &ways, step);
+        course::book(&self.scene, &mut self.state, &before, &ways, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
         }
@@ -344,17 +324,17 @@ impl Simulation {
             });
             let source = pass.source();
             if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
-                energy::record(&mut self.state, source, &mut seen);
+                books::record(&mut self.state, source, &mut seen);
                 self.done(source.name());
             }
         }
         let state = &mut self.state;
         self.hiding.broken(state, told);
-        boundaries::sum_groups(&self.scene, state);
+        course::sum_groups(&self.scene, state);
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         if self.fields.damps() {
-            energy::record(state, Source::Damping, &mut seen);
-            energy::settle_damping(state, &self.fields);
+            books::record(state, Source::Damping, &mut seen);
+            books::settle_damping(state, &self.fields);
         }
         let braking = self.fields.load_bodies(&self.bodies, state);
         for (sum, part) in state.damping_force.iter_mut().zip(braking) {
@@ -366,9 +346,9 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     fn start(&mut self) -> Result<(), RunError> {
-        boundaries::clear_loads(&mut self.state);
+        course::clear_loads(&mut self.state);
         let context = self.standing();
-        integrate::clear_loads(&mut self.state.particles);
+        integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);
         for boundary in &mut self.state.boundaries {
             boundary.mean_force = boundary.force;
@@ -394,19 +374,19 @@ impl Simulation {
             }
         }
         let step = self.state.clock.step;
-        let groups = bodies::coming_speed(&self.bodies, &self.state, step);
-        self.state.clock.speed = integrate::coming_speed(&self.state.particles, step).max(groups);
+        let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
+        self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
         Ok(())
     }
 
     /// The stable time step of the present network of contacts, and of impacts at the present speeds.
     pub fn limit(&self) -> Limit {
-        let mut network = stable::Network::of(&self.state, &self.bodies);
+        let mut network = stability::Network::of(&self.state, &self.bodies);
         for pass in &self.passes {
             pass.stiffness(&self.state, &mut |link| network.add(link));
         }
         let mut limit = network.limit();
-        if let Some((safe, particle)) = stable::impact_limit(&self.scene, &self.state, &self.bodies, &self.passes)
+        if let Some((safe, particle)) = stability::impact_limit(&self.scene, &self.state, &self.bodies, &self.passes)
             && safe < limit.safe
         {
             limit.safe = safe;

@@ -1,7 +1,9 @@
 //! Bodies put where another program had them, in the middle of their way.
 
-use super::{RunError, Simulation, assemble, boundaries, hiding};
+use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
+use crate::interactions::{PlacedSpring, suppression};
+use crate::motion::course;
 use crate::number::Vector;
 use crate::scene::{Scene, Shape, Step};
 use crate::state::contacts::TOUCHING;
@@ -34,17 +36,6 @@ pub struct PlacedBond {
     pub rows: Rows,
 }
 
-/// The spring of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlacedSpring {
-    /// The bodies: indices into the scene's particles.
-    pub bodies: [u32; 2],
-    /// Tangential spring, as the first sees the second \[m\].
-    pub spring: [f64; 3],
-    /// Overlap from which the normal force is taken, of a contact that a bond hides or has hidden \[m\].
-    pub offset: f64,
-}
-
 /// Everything that a scene without planes remembers from one time step to the next.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement {
@@ -75,7 +66,7 @@ impl Simulation {
         }
         state.clock.steps = placement.steps;
         let time = state.clock.time;
-        boundaries::put_prescribed(&scene, &mut state, time);
+        course::put_prescribed(&scene, &mut state, time);
         put_particles(&mut state, &placement.particles);
         for bond in &placement.bonds {
             put_bond(&mut state, bond, scene.bonds.get(bond.law).is_some_and(|law| law.law.dissipates()));
@@ -135,7 +126,7 @@ fn put_spring(state: &mut State, placed: &PlacedSpring) {
     if distance >= one[3] + other[3] {
         return;
     }
-    if hiding::put_spring(state, placed) {
+    if suppression::put_spring(state, placed) {
         return;
     }
     for list in &mut state.contacts {

@@ -1,8 +1,8 @@
 //! Closed loops, rigid rotation, relaxation: what is kept and what is booked.
 
 use super::placement::{Placement, Random, answer, created, law, turn};
-use crate::bond::Quaternion;
 use crate::bond::finite_rotation::FiniteRotation;
+use crate::geometry::Quaternion;
 use crate::number::Vector;
 
 /// The formulation under trial.

@@ -58,7 +58,7 @@ impl Cohesion for Sjkr {
 mod tests {
     use super::*;
     use crate::contact::CohesionForm;
-    use crate::contact::specimen::{contact, properties, with_pair};
+    use crate::contact::fixtures::{contact, properties, with_pair};
 
     /// c = 7 J/m³; the contact's section is 3 m².
     fn law(tangential_reduce: bool) -> Attraction {

@@ -43,7 +43,7 @@ impl Cohesion for Sjkr2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{contact, properties, with_pair};
+    use crate::contact::fixtures::{contact, properties, with_pair};
     use crate::contact::{CohesionForm, Contact};
 
     /// c = 7 J/m³; the contact's section radius is ½ m, its overlap 2⁻¹⁴ m.

@@ -50,7 +50,7 @@ impl Normal for Hertz {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{ALL, assert_close, contact, properties, with_pair};
+    use crate::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
     use crate::contact::{Contact, NormalForm, PairProperties};
     use crate::quantity::Restitution;
 

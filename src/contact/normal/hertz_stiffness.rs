@@ -43,7 +43,7 @@ impl Normal for HertzStiffness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{ALL, NOTHING, assert_close, contact, properties, with_pair};
+    use crate::contact::fixtures::{ALL, NOTHING, assert_close, contact, properties, with_pair};
     use crate::contact::{Contact, NormalForm, PairProperties};
 
     /// κ_n = 100 Pa, κ_t = 50 Pa, g_n = 6/(m s), g_t = 3/(m s).

@@ -96,7 +96,7 @@ impl NormalForm for Hooke {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{ALL, assert_close, contact, properties, with_pair};
+    use crate::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
     use crate::quantity::Restitution;
 
     /// At V = 2 m/s; E* is 1 Pa.

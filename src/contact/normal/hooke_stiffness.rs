@@ -94,9 +94,9 @@ impl NormalForm for HookeStiffness {
 mod tests {
     use super::*;
     use crate::contact::PairProperties;
-    use crate::contact::specimen::{ALL, NOTHING, contact, properties, with_pair};
+    use crate::contact::fixtures::{ALL, NOTHING, contact, properties, with_pair};
 
-    /// What the law says of the specimen's contact, m* = 4 kg.
+    /// What the law says of the fixture's contact, m* = 4 kg.
     fn response(absolute_damping: bool, friction: FrictionNeeds) -> Response {
         let keys = Keys { absolute_damping };
         let law = with_pair(&properties(), |pair| HookeStiffness::between(pair, &keys, friction)).unwrap();

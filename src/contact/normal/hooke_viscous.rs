@@ -96,7 +96,7 @@ impl NormalForm for HookeViscous {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{ALL, assert_close, contact, properties, with_pair};
+    use crate::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
     use crate::quantity::Positive;
 
     /// At V = 2 m/s, e_max = ⅞, St_c = 30, η = ½ Pa s.

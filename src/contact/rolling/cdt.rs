@@ -49,7 +49,7 @@ impl Rolling for Cdt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{assert_close, contact, response};
+    use crate::contact::fixtures::{assert_close, contact, response};
 
     /// µ_r = ⅛, k_n δ = 1024/16384 N, R* = ¼ m.
     const SIZE: f64 = 0.125 * (1024.0 / 16384.0) * 0.25;

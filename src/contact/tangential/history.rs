@@ -71,7 +71,7 @@ impl Tangential for History {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{contact, response};
+    use crate::contact::fixtures::{contact, response};
 
     /// Force and spring after `step`; µ = ¼, k_t = 8 N/m, γ_t = 2 kg/s, slip (3, 4, 0) m/s, normal z.
     fn force(pressure: f64, spring: Vector, step: f64) -> (Vector, Vector, bool) {

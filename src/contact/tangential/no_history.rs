@@ -56,7 +56,7 @@ impl Tangential for NoHistory {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::specimen::{contact, response};
+    use crate::contact::fixtures::{contact, response};
 
     /// µ = ¼; slip is (3, 4, 0) m/s, γ_t = 2 kg/s.
     fn force(slip: Vector, pressure: f64) -> Vector {

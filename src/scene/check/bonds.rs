@@ -1,9 +1,9 @@
 //! Bond laws: between whom, and which bonds are there at the start.
 
-use super::close::for_each_overlap;
+use super::consistency::Finding;
+use super::overlaps::for_each_overlap;
 use super::particles::Born;
-use super::sense::Finding;
-use super::written::Written;
+use super::raw_tables::RawTables;
 use crate::bond::creation::Creation;
 use crate::bond::keys::Keys;
 use crate::quantity::{BoundaryIndex, SetIndex};
@@ -15,7 +15,7 @@ use crate::scene::{Bond, Particle, Scene, Shape, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
-    written: &Written,
+    written: &RawTables,
     document: &Document,
     source: &Source,
     born: &Born,
@@ -80,7 +80,7 @@ fn between(
     keys: &Keys,
     document: &Document,
     table: &str,
-    written: &Written,
+    written: &RawTables,
     born: &Born,
     faults: &mut Faults,
 ) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {

@@ -3,8 +3,8 @@
 use super::contacts::material_index;
 use super::motion;
 use super::particles::Born;
+use super::raw_tables::RawTables;
 use super::selection::{Owners, members};
-use super::written::Written;
 use crate::contact::Material;
 use crate::scene::document::Faults;
 use crate::scene::file::{BoundaryTable, PlaneTable};
@@ -12,7 +12,12 @@ use crate::scene::mistake::Mistake;
 use crate::scene::{AxisMotion, Boundary, Shape};
 
 /// All boundaries.
-pub(super) fn boundaries(written: &Written, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Boundary> {
+pub(super) fn boundaries(
+    written: &RawTables,
+    materials: &[Material],
+    born: &Born,
+    faults: &mut Faults,
+) -> Vec<Boundary> {
     let mut owners = Owners::of(born);
     let mut boundaries = Vec::new();
     for (name, boundary) in &written.boundaries {

@@ -1,6 +1,6 @@
 //! Materials, what two of them have in common, and which law governs them.
 
-use super::written::{Law, Named, Written};
+use super::raw_tables::{Law, Named, RawTables};
 use crate::contact::{Material, PairProperties, Switches};
 use crate::quantity::MaterialIndex;
 use crate::scene::ContactLaw;
@@ -9,7 +9,7 @@ use crate::scene::file::Between;
 use crate::scene::mistake::Mistake;
 
 /// The materials, in the order of the text.
-pub(super) fn materials(written: &Written) -> Vec<Material> {
+pub(super) fn materials(written: &RawTables) -> Vec<Material> {
     let material = |(name, table): &(String, crate::scene::file::MaterialTable)| Material {
         name: name.clone(),
         density: table.density.get(),
@@ -41,7 +41,7 @@ pub(super) fn unknown_material(materials: &[Material], name: &str) -> Mistake {
 }
 
 /// Properties of each two materials, a square.
-pub(super) fn pairs(written: &Written, materials: &[Material], faults: &mut Faults) -> Vec<PairProperties> {
+pub(super) fn pairs(written: &RawTables, materials: &[Material], faults: &mut Faults) -> Vec<PairProperties> {
     let count = materials.len();
     let mut square = vec![PairProperties::default(); count * count];
     for ([a, b], properties) in &written.pairs {

@@ -2,8 +2,8 @@
 
 use super::contacts::material_index;
 use super::particles::Born;
+use super::raw_tables::RawTables;
 use super::selection::{Owners, members};
-use super::written::Written;
 use crate::contact::Material;
 use crate::scene::document::Faults;
 use crate::scene::file::{DampingTable, ScaleTable};
@@ -11,7 +11,7 @@ use crate::scene::mistake::Mistake;
 use crate::scene::{AppliedForce, Damping};
 
 /// All damping.
-pub(super) fn damping(written: &Written, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Damping> {
+pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Damping> {
     let mut owners = Owners::of(born);
     let mut list = Vec::new();
     for (name, damping) in &written.damping {
@@ -107,7 +107,7 @@ fn from_column(column: &str, members: &[u32], table: &str, born: &Born, faults: 
 }
 
 /// All applied forces.
-pub(super) fn forces(written: &Written, born: &Born, faults: &mut Faults) -> Vec<AppliedForce> {
+pub(super) fn forces(written: &RawTables, born: &Born, faults: &mut Faults) -> Vec<AppliedForce> {
     let mut forces = Vec::new();
     for (name, force) in &written.forces {
         let members = members(&force.particles, born, &format!("force.{name}"), faults);

@@ -2,15 +2,15 @@
 
 mod bonds;
 mod boundaries;
-mod close;
+mod consistency;
 mod contacts;
 mod damping;
 mod motion;
-mod nursery;
+mod overlaps;
 mod particles;
+pub(super) mod raw_tables;
 mod selection;
-mod sense;
-pub(super) mod written;
+mod set_reader;
 
 use super::document::{Document, Faults};
 use super::error::SceneErrors;
@@ -18,12 +18,12 @@ use super::file::{OutputTable, RunTable, StepKey};
 use super::mistake::Mistake;
 use super::source::Source;
 use super::{Output, Run, Scene, Step};
-use sense::Finding;
-use written::Written;
+use consistency::Finding;
+use raw_tables::RawTables;
 
 /// The scene that a source describes. Mistakes found so far are in `faults`.
 pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) -> Result<Scene, SceneErrors> {
-    let written = Written::read(document, &mut faults);
+    let written = RawTables::read(document, &mut faults);
     faults.so_far()?;
     let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
     let materials = contacts::materials(&written);
@@ -54,7 +54,7 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
         output,
         fingerprint: source.fingerprint(),
     };
-    for finding in sense::laws(&scene).into_iter().chain(sense::places(&scene)) {
+    for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
         report(finding, document, &mut faults);
     }
     faults.finish().map(|()| scene)

@@ -1,7 +1,7 @@
 //! From particle sets as they are written to the particles of the scene.
 
-use super::nursery::{Newborn, Nursery, Place};
-use super::written::{Named, Written};
+use super::raw_tables::{Named, RawTables};
+use super::set_reader::{Place, SetReader, Unnumbered};
 use crate::contact::Material;
 use crate::quantity::{ParticleId, SetIndex};
 use crate::scene::document::Faults;
@@ -26,7 +26,7 @@ pub(super) struct Born {
 }
 
 /// Reads all sets.
-pub(super) fn particles(written: &Written, source: &Source, materials: &[Material], faults: &mut Faults) -> Born {
+pub(super) fn particles(written: &RawTables, source: &Source, materials: &[Material], faults: &mut Faults) -> Born {
     let extra: Vec<String> = written
         .damping
         .iter()
@@ -38,8 +38,8 @@ pub(super) fn particles(written: &Written, source: &Source, materials: &[Materia
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
         let set = SetIndex(index as u32);
-        let nursery = Nursery { table: format!("particles.{name}"), set, written: table, materials, seed };
-        let (list, place, columns) = nursery.read(source, &extra, faults);
+        let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed };
+        let (list, place, columns) = reader.read(source, &extra, faults);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());
         born.columns.push(columns);
@@ -51,7 +51,7 @@ pub(super) fn particles(written: &Written, source: &Source, materials: &[Materia
 
 /// Gives numbers to those who have none, above all given ones, and sorts by number.
 fn number(
-    newborn: Vec<(u32, Newborn)>,
+    newborn: Vec<(u32, Unnumbered)>,
     born: &mut Born,
     places: &[Place],
     sets: &Named<ParticlesTable>,

@@ -1,0 +1,232 @@
+//! Gravity, applied forces and Cundall's global damping.
+
+use super::Rows;
+use crate::geometry::Quaternion;
+use crate::lanes::Shared;
+use crate::motion::RigidBody;
+use crate::number::Vector;
+use crate::scene::Scene;
+use crate::state::{BoundaryState, Particles, Row, State};
+use crate::threads::{CHUNK, Context};
+
+/// Force \[N\] and moment about the reference point of a group \[N m\].
+pub(crate) type Load = [Vector; 2];
+
+/// What acts on each particle by itself.
+pub(crate) struct Fields {
+    /// Acceleration of gravity \[m/s²\].
+    gravity: [f64; 3],
+    /// Applied force of each particle of the scene \[N\]; empty where there is none.
+    applied: Vec<[f64; 3]>,
+    /// Damping of each particle of the scene; empty where there is none.
+    damping: Vec<Damped>,
+}
+
+/// Cundall's damping of one particle.
+#[derive(Clone, Copy, Default)]
+struct Damped {
+    /// Fraction of the force.
+    linear: f64,
+    /// Fraction of the torque.
+    angular: f64,
+    /// Whether gravity is damped.
+    gravity: bool,
+    /// Whether applied forces are damped.
+    applied: bool,
+}
+
+impl Fields {
+    /// Reads them from the scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let count = scene.particles.len();
+        let mut applied = vec![[0.0; 3]; if scene.forces.is_empty() { 0 } else { count }];
+        for force in &scene.forces {
+            for &member in &force.members {
+                for (sum, part) in applied[member as usize].iter_mut().zip(force.force) {
+                    *sum += part;
+                }
+            }
+        }
+        let mut damping = vec![Damped::default(); if scene.damping.is_empty() { 0 } else { count }];
+        for set in &scene.damping {
+            for (index, damped) in damping.iter_mut().enumerate() {
+                if set.linear[index] != 0.0 || set.angular[index] != 0.0 {
+                    *damped = Damped {
+                        linear: set.linear[index],
+                        angular: set.angular[index],
+                        gravity: set.gravity_damped,
+                        applied: set.applied_forces_damped,
+                    };
+                }
+            }
+        }
+        Self { gravity: scene.gravity, applied, damping }
+    }
+
+    /// Damps particles that the scene does not damp by this fraction of force and torque, gravity included.
+    pub(crate) fn damp_rest(&mut self, fraction: f64, count: usize) {
+        self.damping.resize(count, Damped::default());
+        for damped in &mut self.damping {
+            if damped.linear == 0.0 && damped.angular == 0.0 {
+                *damped = Damped { linear: fraction, angular: fraction, gravity: true, applied: true };
+            }
+        }
+    }
+
+    /// Whether any particle is damped.
+    pub(crate) fn damps(&self) -> bool {
+        !self.damping.is_empty()
+    }
+
+    /// Gravity \[m/s²\], if nothing else acts and nobody asks for it by itself: it is then added by the kick that
+    /// follows.
+    pub(crate) fn weight_alone(&self, state: &State) -> Option<[f64; 3]> {
+        let alone = self.damping.is_empty() && self.applied.is_empty() && state.ledger.is_none();
+        (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
+    }
+
+    /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
+    pub(crate) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
+        if self.damping.is_empty() && self.applied.is_empty() {
+            self.weigh(state, context);
+            return [0.0; 3];
+        }
+        for (slot, force) in state.particles.force.iter_mut().enumerate() {
+            if state.particles.owner[slot] != 0 {
+                let load = self.loads(state.particles.velocity[slot][3], state.particles.id[slot]);
+                add(force, load);
+            }
+        }
+        let ids = std::mem::take(&mut state.particles.id);
+        let rows = Rows::of(&mut state.particles);
+        let sums = context.collect(rows.pieces(), |piece| {
+            let mut sum = [0.0; 3];
+            rows.each_free(piece, |body| {
+                let id = ids[body.slot];
+                if self.damping.is_empty() {
+                    add(body.force, self.loads(body.velocity[3], id));
+                    return;
+                }
+                let damped = self.damping[id as usize];
+                let (before, after) = self.split(body.velocity[3], id, damped);
+                add(body.force, before);
+                for axis in 0..3 {
+                    let loss = brake(damped.linear, body.force[axis], body.velocity[axis]);
+                    body.force[axis] -= loss;
+                    sum[axis] -= loss;
+                    body.torque[axis] -= brake(damped.angular, body.torque[axis], body.spin[axis]);
+                }
+                add(body.force, after);
+            });
+            sum
+        });
+        state.particles.id = ids;
+        sums.into_iter().fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
+    }
+
+    /// Puts the whole load on each group that forces move: that of the particles, weight, applied forces and damping.
+    /// Returns the sum of the damping forces \[N\].
+    pub(crate) fn load_bodies(&self, bodies: &[Option<RigidBody>], state: &mut State) -> [f64; 3] {
+        let mut sum = Vector::zero();
+        for (index, body) in bodies.iter().enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+            let [weight, applied] = self.on_body(body, &state.boundaries[index], &state.particles);
+            // The spheres of a group are damped alike.
+            let damped = self.damping.get(body.members[0] as usize).copied().unwrap_or_default();
+            let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
+            let moved = &mut state.boundaries[index];
+            let before: Load = [0, 1].map(|k| {
+                let particles = if k == 0 { moved.force } else { moved.moment };
+                Vector::from(particles) + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
+            });
+            let braking = [
+                body.along_free(brakes(damped.linear, before[0], moved.velocity)),
+                body.about_free(brakes(damped.angular, before[1], moved.angular_velocity)),
+            ];
+            let load: Load = [0, 1]
+                .map(|k| before[k] + braking[k] + part(!damped.gravity, weight)[k] + part(!damped.applied, applied)[k]);
+            sum += braking[0];
+            let inertial = &mut moved.inertial;
+            [inertial.load, inertial.couple] = load.map(Vector::to_array);
+            [inertial.braking_force, inertial.braking_moment] = braking.map(Vector::to_array);
+        }
+        sum.to_array()
+    }
+
+    /// Weight of a group and the forces applied to its spheres.
+    pub(crate) fn on_body(&self, body: &RigidBody, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
+        let weight = Vector::from(self.weight(body.mass));
+        let weight = [weight, Quaternion::from(moved.attitude).turn(body.offset).cross(weight)];
+        let mut applied = [Vector::zero(); 2];
+        for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
+            let row = particles.position[particles.slot[member as usize] as usize];
+            let force = Vector::from(self.applied(member));
+            applied[0] += force;
+            applied[1] += (Vector::from(row) - moved.pivot.into()).cross(force);
+        }
+        [weight, applied]
+    }
+
+    /// Adds gravity, where nothing else acts.
+    fn weigh(&self, state: &mut State, context: &Context) {
+        if self.gravity == [0.0; 3] {
+            return;
+        }
+        let (force, velocity) = (Shared::new(&mut state.particles.force), &state.particles.velocity);
+        context.each(velocity.len().div_ceil(CHUNK), |piece| {
+            let slots = piece * CHUNK..((piece + 1) * CHUNK).min(velocity.len());
+            // SAFETY: pieces do not overlap.
+            let forces = unsafe { force.part(slots.start, slots.end) };
+            for (force, velocity) in forces.iter_mut().zip(&velocity[slots]) {
+                add(force, self.weight(velocity[3]));
+            }
+        });
+    }
+
+    /// Applied force on a particle of the scene \[N\].
+    pub(crate) fn applied(&self, id: u32) -> [f64; 3] {
+        self.applied.get(id as usize).copied().unwrap_or_default()
+    }
+
+    /// Weight of a mass \[N\].
+    pub(crate) fn weight(&self, mass: f64) -> [f64; 3] {
+        self.gravity.map(|part| mass * part)
+    }
+
+    /// Weight and applied force \[N\].
+    fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        [weight[0] + applied[0], weight[1] + applied[1], weight[2] + applied[2]]
+    }
+
+    /// What comes before the damping, and what after it \[N\].
+    fn split(&self, mass: f64, id: u32, damped: Damped) -> ([f64; 3], [f64; 3]) {
+        let (mut before, mut after) = ([0.0; 3], [0.0; 3]);
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        for axis in 0..3 {
+            *(if damped.gravity { &mut before[axis] } else { &mut after[axis] }) += weight[axis];
+            *(if damped.applied { &mut before[axis] } else { &mut after[axis] }) += applied[axis];
+        }
+        (before, after)
+    }
+}
+
+/// What damping takes from a component of a load: a fraction that lowers its power, also at rest.
+#[inline(always)]
+fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {
+    if load * velocity >= 0.0 { fraction * load } else { -fraction * load }
+}
+
+/// What damping adds to a load, component by component.
+fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3] {
+    let load = load.to_array();
+    [0, 1, 2].map(|axis| -brake(fraction, load[axis], velocity[axis]))
+}
+
+/// Adds a load to a row.
+#[inline(always)]
+fn add(row: &mut Row, load: [f64; 3]) {
+    for axis in 0..3 {
+        row[axis] += load[axis];
+    }
+}

@@ -1,0 +1,214 @@
+//! The law on the touching entries of a list, whatever the bodies are.
+//!
+//! Entries are worked on in batches whose buffers stay in the first-level cache, in four phases:
+//!
+//! 1. *touch*: which entries touch, several at a time; they are compacted without a branch, and where their bodies
+//!    are to each other with them;
+//! 2. *meet*: geometry and relative motion, written as columns;
+//! 3. *react*: the law on the columns; forces and torques as rows;
+//! 4. *spread*: the rows are added to the bodies, one by one, in the order of the list.
+//!
+//! Phases 1, 2 and 4 know the bodies and no law, phase 3 knows the law and no bodies: each is compiled once for each
+//! of what it knows. Short phases also let the processor work on several registers' worth of contacts at once. Roots
+//! and quotients, for which what follows would wait, are found one register ahead.
+
+mod buffer;
+mod phases;
+
+use super::coefficients::Table;
+use crate::contact::{Contact, Law};
+use crate::lanes::{self, Lane, Shared, Width};
+use crate::state::Row;
+use buffer::Buffer;
+use phases::{Meet, React, Spread, Touch};
+use std::ops::Range;
+
+/// What a law looks at beyond the normal motion; the rest is not found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Needs {
+    /// Slip and arms, and that there are torques.
+    pub torque: bool,
+    /// The relative spin.
+    pub spin: bool,
+    /// The section of the overlap.
+    pub section: bool,
+}
+
+impl Needs {
+    /// Those of a law.
+    pub(crate) fn of<L: Law>() -> Self {
+        Self { torque: L::HAS_TORQUE, spin: L::HAS_ROLLING, section: L::HAS_SECTION }
+    }
+}
+
+/// A contact and the arms of its bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Meeting<N = f64> {
+    /// The contact.
+    pub contact: Contact<N>,
+    /// Arm at the first body \[m\].
+    pub first_arm: N,
+    /// Arm at the second body; 0 where it has none \[m\].
+    pub second_arm: N,
+}
+
+/// Numbers that phase 1 leaves of a touching entry to phase 2, at most.
+pub(crate) const FOUND: usize = 5;
+
+/// Which bodies an entry of a list brings together.
+pub(crate) trait Bodies: Copy {
+    /// What is summed up beside the loads on particles.
+    type Sum: Default;
+
+    /// Numbers that [`Bodies::touch`] leaves to [`Bodies::meet`].
+    const FOUND: usize;
+
+    /// The first body of each entry (slot).
+    fn first(&self) -> &[u32];
+
+    /// The second body of each entry (slot); where the second body is always the same, anything.
+    fn second(&self) -> &[u32];
+
+    /// Which entries touch, a bit for each, and what [`Bodies::meet`] has to know of their places.
+    ///
+    /// # Safety
+    /// Both point to [`Lane::WIDTH`] slots of the lists.
+    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, sum: &mut Self::Sum) -> (u32, [N; FOUND]);
+
+    /// What takes the processor long, is needed early, and follows from the places alone: roots and quotients.
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2];
+
+    /// Geometry and relative motion; slip, spin and arms where there is torque.
+    ///
+    /// # Safety
+    /// As for [`Bodies::touch`].
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> Meeting<N>;
+
+    /// The row of the law's table for two bodies.
+    fn row(&self, table: &Table, first: u32, second: u32) -> u32;
+
+    /// Tells the processor that these particles (slots) will be needed soon, with what the law looks at.
+    fn prefetch(&self, _slots: Range<usize>, _needs: Needs) {}
+
+    /// Adds the loads of touching entries to their bodies, one by one.
+    fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
+}
+
+/// Touching entries of a batch with what they do to their bodies, in the order of the list.
+#[derive(Clone, Copy)]
+pub(crate) struct Touching<'a> {
+    /// First body.
+    pub first: &'a [u32],
+    /// Second body.
+    pub second: &'a [u32],
+    /// Force on the first body \[N\].
+    pub force: &'a [Row],
+    /// What friction turns both bodies by, over its arm \[N\]; anything where there is no torque.
+    pub couple: &'a [Row],
+    /// Rolling torque from the first body to the second \[N m\]; anything where there is none.
+    pub rolling: &'a [Row],
+    /// Arm at the first body \[m\].
+    pub first_arm: &'a [f64],
+    /// Arm at the second body \[m\].
+    pub second_arm: &'a [f64],
+}
+
+impl Touching<'_> {
+    /// Torque of friction on the two bodies of an entry \[N m\].
+    #[inline(always)]
+    pub(crate) fn torques(&self, place: usize) -> [Row; 2] {
+        let [x, y, z, rest] = self.couple[place];
+        let turned = |arm: f64| [-(x * arm), -(y * arm), -(z * arm), -(rest * arm)];
+        [turned(self.first_arm[place]), turned(self.second_arm[place])]
+    }
+}
+
+/// What a list keeps of each entry.
+#[derive(Clone, Copy)]
+pub(crate) struct Entries<'a> {
+    /// Its bits.
+    pub flags: Shared<u8>,
+    /// Its spring; empty where the law has none.
+    pub spring: Shared<Row>,
+    /// Its pair constant; empty where the law has none.
+    pub pair_constant: &'a [f64],
+}
+
+/// A list to be worked on, in pieces.
+#[derive(Clone, Copy)]
+pub(crate) struct Batches<'a, B> {
+    /// Which bodies meet.
+    pub bodies: B,
+    /// What the list keeps.
+    pub entries: Entries<'a>,
+    /// Coefficients of the law.
+    pub table: &'a Table,
+    /// The coefficients of all entries, if they are the same.
+    pub uniform: Option<&'a [f64]>,
+    /// Time since springs were last advanced \[s\].
+    pub step: f64,
+    /// Lane width.
+    pub width: Width,
+}
+
+impl<B: Bodies> Batches<'_, B> {
+    /// The law on a piece of the list. Pieces worked on at the same time share no body that is written to. `ahead` are
+    /// particles (slots) that a later piece will need: they come into the cache bit by bit.
+    pub(crate) fn run<L: Law>(&self, from: usize, to: usize, ahead: Range<usize>) -> B::Sum {
+        Buffer::with(|buffer| self.run_in::<L>(buffer, from..to, ahead))
+    }
+
+    /// The same, in this room.
+    fn run_in<L: Law>(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
+        let (width, needs) = (self.width, Needs::of::<L>());
+        let Range { start: from, end: to } = entries;
+        let mut sum = B::Sum::default();
+        let (mut next, mut fetched) = (from, ahead.start);
+        while next < to {
+            let share = ahead.start + ahead.len() * (next - from) / (to - from);
+            self.bodies.prefetch(fetched..share, needs);
+            fetched = share;
+            lanes::run(width, Touch { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            buffer.complete::<B>(next == to);
+            self.meet(needs, buffer);
+            let Self { entries, table, uniform, step, .. } = *self;
+            lanes::run(width, React::<L> { entries, table, uniform, step, buffer, law: Default::default() });
+            lanes::run(width, Spread { bodies: self.bodies, needs, buffer, sum: &mut sum });
+            buffer.proceed::<B>();
+        }
+        sum
+    }
+
+    /// Phase 2, and the rows of the table where they differ.
+    fn meet(&self, needs: Needs, buffer: &mut Buffer) {
+        let bodies = self.bodies;
+        if self.uniform.is_none() {
+            for place in 0..buffer.ready.next_multiple_of(8) {
+                buffer.row[place] = bodies.row(self.table, buffer.first[place], buffer.second[place]);
+            }
+        }
+        if needs.torque {
+            lanes::run(self.width, Meet::<B, true> { bodies, needs, buffer });
+        } else {
+            lanes::run(self.width, Meet::<B, false> { bodies, needs, buffer });
+        }
+    }
+}
+
+/// Adds a row to another.
+#[inline(always)]
+pub(crate) fn add(sum: &mut Row, row: &Row) {
+    *sum = [sum[0] + row[0], sum[1] + row[1], sum[2] + row[2], sum[3] + row[3]];
+}
+
+/// Takes a row from another.
+#[inline(always)]
+pub(crate) fn subtract(sum: &mut Row, row: &Row) {
+    *sum = [sum[0] - row[0], sum[1] - row[1], sum[2] - row[2], sum[3] - row[3]];
+}

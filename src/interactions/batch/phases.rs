@@ -1,0 +1,230 @@
+//! The phases of a batch.
+
+use super::buffer::{BATCH, Buffer};
+use super::{Batches, Bodies, Entries, Needs};
+use crate::contact::Law;
+use crate::interactions::coefficients::{MOST_COEFFICIENTS, Table};
+use crate::lanes::{Kernel, Lane, columns, prefetch, vector};
+use crate::number::Vector;
+use crate::state::contacts::{SLIDING, TOUCHING};
+
+/// Phase 1: fills the batch with touching entries and ends the contacts that came apart.
+pub(crate) struct Touch<'a, 'b, B: Bodies> {
+    /// The list.
+    pub(crate) work: &'a Batches<'a, B>,
+    /// Behind the last entry.
+    pub(crate) to: usize,
+    /// The first entry not yet looked at.
+    pub(crate) next: &'b mut usize,
+    /// Where the touching ones go.
+    pub(crate) buffer: &'b mut Buffer,
+    /// What is summed up.
+    pub(crate) sum: &'b mut B::Sum,
+}
+
+impl<B: Bodies> Kernel for Touch<'_, '_, B> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { work, to, next, buffer, sum } = self;
+        let Batches { bodies, entries, .. } = work;
+        let (firsts, seconds) = (bodies.first().as_ptr(), bodies.second().as_ptr());
+        let (mut entry, mut count) = (*next, buffer.count);
+        while entry < to && count < BATCH {
+            // SAFETY: entries up to `to` are in the lists and belong to this piece; the buffer has room for a register
+            // behind a batch.
+            unsafe {
+                let (mut first, mut second) = (firsts.add(entry), seconds.add(entry));
+                let (mut some_first, mut some_second) = ([*first; 8], [*second; 8]);
+                let here = if to - entry < N::WIDTH { to - entry } else { N::WIDTH };
+                if here < N::WIDTH {
+                    let mut lane = 0;
+                    while lane < here {
+                        some_first[lane] = *first.add(lane);
+                        some_second[lane] = *second.add(lane);
+                        lane += 1;
+                    }
+                    (first, second) = (some_first.as_ptr(), some_second.as_ptr());
+                }
+                let (touching, found) = bodies.touch::<N>(first, second, sum);
+                let bits = touching & ((1 << here) - 1);
+                if here == N::WIDTH {
+                    end(entries, entry, N::WIDTH, bits);
+                } else {
+                    end(entries, entry, here, bits);
+                }
+                let springs = entries.spring.pointer().wrapping_add(entry);
+                let mut lane = 0;
+                while lane < N::WIDTH {
+                    prefetch(springs.wrapping_add(lane));
+                    lane += 2;
+                }
+                N::compact(first, bits, buffer.first.as_mut_ptr().add(count));
+                N::compact(second, bits, buffer.second.as_mut_ptr().add(count));
+                let start = entry as u32;
+                let all = [start, start + 1, start + 2, start + 3, start + 4, start + 5, start + 6, start + 7];
+                N::compact(all.as_ptr(), bits, buffer.entry.as_mut_ptr().add(count));
+                let mut column = 0;
+                while column < B::FOUND {
+                    found[column].store_compact(bits, buffer.found[column].as_mut_ptr().add(count));
+                    column += 1;
+                }
+                count += bits.count_ones() as usize;
+                entry += here;
+            }
+        }
+        (*next, buffer.count) = (entry, count);
+    }
+}
+
+/// Writes the flags of some entries of which those touch whose bit is set; ends the contacts that came apart.
+///
+/// # Safety
+/// The entries, at most 8, belong to this piece of the list.
+#[inline(always)]
+unsafe fn end(entries: &Entries, entry: usize, count: usize, bits: u32) {
+    /// A bit in each byte.
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    // Bit k comes into byte k: each byte gets all bits, keeps its own, and is 1 where that is set.
+    let kept = u64::from(bits).wrapping_mul(ONES) & 0x8040_2010_0804_0201;
+    let now = (kept + 0x7f * ONES) >> 7 & ONES;
+    let mut before = [0; 8];
+    // SAFETY: the caller's promise.
+    unsafe {
+        let flags = entries.flags.pointer().add(entry);
+        std::ptr::copy_nonoverlapping(flags, before.as_mut_ptr(), count);
+        std::ptr::copy_nonoverlapping(now.to_le_bytes().as_ptr(), flags, count);
+    }
+    let mut ended = u64::from_le_bytes(before) & (u64::from(TOUCHING) * ONES) & !now;
+    while ended != 0 && entries.spring.length() > 0 {
+        let lane = ended.trailing_zeros() as usize / 8;
+        // SAFETY: the caller's promise; there is a spring for each entry.
+        unsafe { *entries.spring.at(entry + lane) = [0.0; 4] };
+        ended &= ended - 1;
+    }
+}
+
+/// Phase 2: geometry and relative motion.
+pub(crate) struct Meet<'b, B, const TORQUE: bool> {
+    /// Which bodies meet.
+    pub(crate) bodies: B,
+    /// What of it the law needs.
+    pub(crate) needs: Needs,
+    /// The batch.
+    pub(crate) buffer: &'b mut Buffer,
+}
+
+impl<B: Bodies, const TORQUE: bool> Kernel for Meet<'_, B, TORQUE> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { bodies, needs, buffer } = self;
+        let mut done = 0;
+        // SAFETY: there is room for a register behind the batch.
+        let mut roots = B::roots(&unsafe { buffer.found::<N, B>(0) });
+        while done < buffer.ready {
+            // SAFETY: the slots are filled up to a whole register, for which there is room.
+            unsafe {
+                let (first, second) = (buffer.first.as_ptr().add(done), buffer.second.as_ptr().add(done));
+                let found = buffer.found::<N, B>(done);
+                let next = B::roots(&buffer.found::<N, B>(done + N::WIDTH));
+                let meeting = bodies.meet::<N, TORQUE>(first, second, found, roots);
+                buffer.put::<N, TORQUE>(done, &meeting, needs);
+                roots = next;
+            }
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// Phase 3: the law.
+pub(crate) struct React<'a, 'b, L> {
+    /// What the list keeps.
+    pub(crate) entries: Entries<'a>,
+    /// Coefficients of the law.
+    pub(crate) table: &'a Table,
+    /// The coefficients of all entries, if they are the same.
+    pub(crate) uniform: Option<&'a [f64]>,
+    /// Time since springs were last advanced \[s\].
+    pub(crate) step: f64,
+    /// The batch.
+    pub(crate) buffer: &'b mut Buffer,
+    /// The law.
+    pub(crate) law: std::marker::PhantomData<fn() -> L>,
+}
+
+impl<L: Law> Kernel for React<'_, '_, L> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { entries, table, uniform, step, buffer, .. } = self;
+        let mut row = [N::zero(); MOST_COEFFICIENTS];
+        if let Some(coefficients) = uniform {
+            let mut k = 0;
+            while k < L::COUNT {
+                row[k] = N::splat(coefficients[k]);
+                k += 1;
+            }
+        }
+        let step = N::splat(step);
+        let mut done = 0;
+        if L::HAS_ROOTS {
+            // SAFETY: there is room for a register behind the batch; so below.
+            unsafe { buffer.find_roots::<N, L>(0) };
+        }
+        while done < buffer.ready {
+            // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
+            // piece of the list, and each has what the law keeps. A repeated entry is written twice, with the same.
+            unsafe {
+                if uniform.is_none() {
+                    table.gather::<L, N>(buffer.row.as_ptr().add(done), &mut row);
+                }
+                let places = buffer.entry.as_ptr().add(done);
+                let constant =
+                    if L::HAS_PAIR_CONSTANT { N::gather(entries.pair_constant.as_ptr(), places, 1) } else { N::zero() };
+                let contact = buffer.take::<N>(done, constant);
+                let spring =
+                    if L::HAS_SPRING { vector(N::load_rows(entries.spring.pointer(), places)) } else { Vector::zero() };
+                let mut roots = [N::zero(); 2];
+                if L::HAS_ROOTS {
+                    buffer.find_roots::<N, L>(done + N::WIDTH);
+                    roots = buffer.roots(done);
+                }
+                let reaction = L::react_at(&row[..L::COUNT], &contact, roots, spring, step);
+                N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(done));
+                if L::HAS_TORQUE {
+                    N::store_block(columns(reaction.couple), buffer.couple.as_mut_ptr().add(done));
+                    if L::HAS_ROLLING {
+                        N::store_block(columns(reaction.rolling), buffer.rolling.as_mut_ptr().add(done));
+                    }
+                    let mut sliding = N::bits(reaction.sliding);
+                    while sliding != 0 {
+                        let lane = sliding.trailing_zeros() as usize;
+                        *entries.flags.pointer().add(*places.add(lane) as usize) = TOUCHING | SLIDING;
+                        sliding &= sliding - 1;
+                    }
+                }
+                if L::HAS_SPRING {
+                    N::store_rows(columns(reaction.spring), entries.spring.pointer(), places);
+                }
+            }
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// Phase 4.
+pub(crate) struct Spread<'b, B: Bodies> {
+    /// Which bodies meet.
+    pub(crate) bodies: B,
+    /// What the law does to the bodies.
+    pub(crate) needs: Needs,
+    /// The batch.
+    pub(crate) buffer: &'b Buffer,
+    /// What is summed up.
+    pub(crate) sum: &'b mut B::Sum,
+}
+
+impl<B: Bodies> Kernel for Spread<'_, B> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        self.bodies.spread(&self.buffer.touching(), self.needs, self.sum);
+    }
+}

@@ -1,0 +1,255 @@
+//! Bonds between particles: one pass for each bond law.
+//!
+//! As the contacts, slab by slab and batch by batch: the law on several bonds at once, results added one by one in the
+//! order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
+//! through.
+
+mod batch;
+mod book;
+mod pipeline_buffer;
+
+pub(crate) use book::{Done, book};
+
+use super::pass::{Link, Pass};
+use super::records::{BondRecord, ContactRecord};
+use crate::bond::creation::{Creation, Moment, near_pair};
+use crate::bond::{Body, BondLaw, Carried, Law, Pair, Quaternion, Rows};
+use crate::contact::Response;
+use crate::lanes::Shared;
+use crate::neighbours::PairCache;
+use crate::neighbours::bonds::is_bonded;
+use crate::neighbours::near_pairs;
+use crate::number::Vector;
+use crate::quantity::SetIndex;
+use crate::run_error::RunError;
+use crate::scene::Scene;
+use crate::state::ledger::Source;
+use crate::state::{Particles, State};
+use crate::threads::Context;
+use batch::Work;
+use std::marker::PhantomData;
+use std::sync::{Mutex, PoisonError};
+
+/// The pass of one bond law between particles.
+pub(crate) struct BondPass<L> {
+    /// Which list of the state is its own; also the law's index in the scene.
+    pub index: usize,
+    /// The law in numbers.
+    pub numbers: Law,
+    /// When bonds are made.
+    pub creation: Creation,
+    /// Centres nearer than this are bonded \[m\].
+    pub create_distance: f64,
+    /// Set of each of the scene's particles.
+    pub sets: Vec<SetIndex>,
+    /// Between which sets.
+    pub between: [SetIndex; 2],
+    /// Listed pairs: indices into the scene's particles.
+    pub pairs: Vec<[u32; 2]>,
+    /// Pairs that may be near, where bonds are made in every step.
+    pub near: Mutex<PairCache>,
+    /// The law.
+    pub law: PhantomData<fn() -> L>,
+}
+
+impl<L: BondLaw> BondPass<L> {
+    /// The pass of this bond of the scene.
+    pub(crate) fn of(scene: &Scene, index: usize) -> Self {
+        let bond = &scene.bonds[index];
+        Self {
+            index,
+            numbers: bond.law,
+            creation: bond.create.clone(),
+            create_distance: bond.create_distance.unwrap_or(0.0),
+            sets: scene.particles.iter().map(|particle| particle.set).collect(),
+            between: bond.between,
+            pairs: bond.pairs.clone(),
+            near: Mutex::default(),
+            law: PhantomData,
+        }
+    }
+
+    /// Whether these two particles (indices into the scene's) may be bonded by this law.
+    fn may_bond(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.sets[a as usize], self.sets[b as usize]);
+        [a, b] == self.between || [b, a] == self.between
+    }
+
+    /// What a bond carries.
+    fn carried(&self, state: &State, bond: usize) -> Carried {
+        let list = &state.bonds[self.index];
+        let mut rows = Rows::default();
+        for (row, column) in rows.iter_mut().zip(&list.rows) {
+            *row = column[bond];
+        }
+        let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
+        L::carried(&self.numbers, &pair_of(&state.particles, i, j), &rows)
+    }
+
+    /// Pairs without a bond that are to be bonded at this moment, as slots of i and j; i has the smaller id.
+    fn wanted(&self, state: &State, moment: &Moment) -> Vec<[u32; 2]> {
+        let particles = &state.particles;
+        let mut pairs = Vec::new();
+        if moment.number == 0 {
+            pairs.extend(self.pairs.iter().map(|pair| pair.map(|index| particles.slot[index as usize])));
+        }
+        let list = &state.bonds[self.index];
+        let hand = |a: u32, b: u32, distance: f64| {
+            let ids = [particles.id[a as usize], particles.id[b as usize]];
+            if near_pair(distance, self.create_distance) && self.may_bond(ids[0], ids[1]) && !is_bonded(list, a, b) {
+                pairs.push([a, b]);
+            }
+        };
+        if self.creation == Creation::Always && moment.number > 0 {
+            let mut near = self.near.lock().unwrap_or_else(PoisonError::into_inner);
+            near.pairs(particles, self.create_distance, hand);
+        } else if self.creation.bonds_near_pairs(moment) {
+            near_pairs(particles, self.create_distance, hand);
+        }
+        for pair in &mut pairs {
+            pair.sort_unstable_by_key(|&slot| particles.id[slot as usize]);
+        }
+        pairs.sort_unstable_by_key(|pair| pair.map(|slot| particles.id[slot as usize]));
+        pairs.dedup();
+        pairs
+    }
+}
+
+impl<L: BondLaw> Pass for BondPass<L> {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        let list = &mut state.bonds[self.index];
+        let particles = &mut state.particles;
+        let slabs = list.slabs.len().saturating_sub(1);
+        let mut columns = list.rows.iter_mut();
+        let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
+        let work = Work::<L> {
+            numbers: &self.numbers,
+            first: &list.first,
+            second: &list.second,
+            rows: [column(), column(), column()],
+            lost: Shared::new(&mut list.lost),
+            position: &particles.position,
+            velocity: &particles.velocity,
+            angular_velocity: &particles.angular_velocity,
+            attitude: &particles.attitude,
+            force: Shared::new(&mut particles.force),
+            torque: Shared::new(&mut particles.torque),
+            step: context.step,
+            law: PhantomData,
+        };
+        let ends = &list.slabs;
+        let mut results = vec![Done::default(); slabs];
+        let places = Shared::new(&mut results);
+        context.slabs(slabs, |slab| {
+            let done = work.slab(ends[slab] as usize, ends[slab + 1] as usize, context.width);
+            // SAFETY: each slab is done once, and has a place of its own.
+            unsafe { *places.at(slab) = done };
+        });
+        for done in &mut results {
+            done.release(context.step, |bond| self.carried(state, bond));
+        }
+        book(state, self.index, results)
+    }
+
+    fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
+        let wanted = self.wanted(state, moment);
+        let law = self.numbers.coefficients::<f64>(step);
+        let list = &mut state.bonds[self.index];
+        list.rows.resize(L::ROWS, Vec::new());
+        for &[i, j] in &wanted {
+            let pair = pair_of(&state.particles, i as usize, j as usize);
+            let rows = L::create(&law, &pair);
+            list.first.push(i);
+            list.second.push(j);
+            if self.numbers.dissipates() {
+                list.lost.push(0.0);
+            }
+            for (column, row) in list.rows.iter_mut().zip(rows) {
+                column.push(row);
+            }
+            let bodies = [i, j].map(|slot| state.particles.id[slot as usize]);
+            state.particles.count_bond(bodies);
+        }
+        list.made += wanted.len() as u64;
+        !wanted.is_empty()
+    }
+
+    fn has_torque(&self) -> bool {
+        true
+    }
+
+    fn needs_attitudes(&self) -> bool {
+        L::NEEDS_ATTITUDES
+    }
+
+    fn source(&self) -> Source {
+        Source::Bonds
+    }
+
+    fn prepare(&self, _state: &mut State) {}
+
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        let list = &state.bonds[self.index];
+        for (&i, &j) in list.first.iter().zip(&list.second) {
+            let pair = pair_of(&state.particles, i as usize, j as usize);
+            let distance = pair.connection.length();
+            let [normal, shear, torsion, bending] = self.numbers.stiffness(pair.least_radius);
+            let response = Response {
+                normal_stiffness: normal,
+                tangential_stiffness: shear,
+                normal_damping: 0.0,
+                tangential_damping: 0.0,
+            };
+            tell(Link {
+                first: i,
+                second: Some(j),
+                response,
+                first_arm: pair.share_i * distance,
+                second_arm: pair.share_j * distance,
+                normal: pair.connection * (1.0 / distance),
+                torsion,
+                bending,
+            });
+        }
+    }
+
+    fn impact(&self, _radius: f64, _mass: f64, _speed: f64) -> Option<Response> {
+        None
+    }
+
+    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
+    }
+
+    fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
+        let (list, particles) = (&state.bonds[self.index], &state.particles);
+        for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
+            let carried = self.carried(state, bond);
+            let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
+            let other = Vector::from(particles.position[j as usize]).to_array();
+            let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
+            tell(BondRecord { law: self.index as u32, first, second: Some(second), other, carried, dissipated });
+        }
+    }
+}
+
+/// Two particles as bodies of a bond.
+pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
+    Pair::of_spheres(&body_of(particles, i), &body_of(particles, j))
+}
+
+/// A particle as a body of a bond.
+pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
+    let attitude = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    Body {
+        position: particles.position[slot].into(),
+        velocity: particles.velocity[slot].into(),
+        spin: particles.angular_velocity[slot].into(),
+        attitude: Quaternion::from_row(attitude),
+        radius: particles.position[slot][3],
+        mass: particles.velocity[slot][3],
+        inertia: particles.angular_velocity[slot][3],
+    }
+}

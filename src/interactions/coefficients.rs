@@ -1,0 +1,114 @@
+//! Coefficients of a contact law for each two materials of a scene.
+
+use crate::contact::{Contact, Law, MaterialPair, Response};
+use crate::lanes::Lane;
+use crate::number::Vector;
+
+/// Most coefficients that a composed law may have.
+pub(crate) const MOST_COEFFICIENTS: usize = 24;
+
+/// Coefficients of a law for each two materials of the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    /// A row of coefficients for each two materials.
+    rows: Vec<f64>,
+    /// How many coefficients a row has.
+    count: usize,
+    /// How many materials there are.
+    materials: usize,
+    /// The one material that all particles of the scene are made of, if it is one.
+    single: Option<u32>,
+    /// Whether the law governs these two materials.
+    governed: Vec<bool>,
+}
+
+impl Table {
+    /// Takes the coefficients of `law` for all pairs of materials it governs; others get zeros.
+    pub(crate) fn of<L: Law>(law: &L, scene: &crate::scene::Scene, between: &[bool]) -> Self {
+        let materials = scene.materials.len();
+        let mut rows = Vec::with_capacity(materials * materials * L::COUNT);
+        for a in 0..materials {
+            for b in 0..materials {
+                let entry = a * materials + b;
+                let pair =
+                    MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties: &scene.pairs[entry] };
+                let row = if between[entry] { law.row(&pair).ok() } else { None };
+                rows.extend(row.unwrap_or_else(|| vec![0.0; L::COUNT]));
+            }
+        }
+        let mut present = scene.particles.iter().map(|particle| particle.material.0);
+        let single = present.next().filter(|&first| present.all(|other| other == first));
+        Self { rows, count: L::COUNT, materials, single, governed: between.to_vec() }
+    }
+
+    /// The one row that all particles have with each other, if it is one.
+    #[inline(always)]
+    pub(crate) fn uniform(&self) -> Option<&[f64]> {
+        self.uniform_with(self.single?)
+    }
+
+    /// The one row that all particles have with this material, if it is one.
+    #[inline(always)]
+    pub(crate) fn uniform_with(&self, material: u32) -> Option<&[f64]> {
+        Some(self.row(self.single?, material))
+    }
+
+    /// The row of two materials.
+    #[inline(always)]
+    pub(crate) fn entry(&self, a: u32, b: u32) -> u32 {
+        a * self.materials as u32 + b
+    }
+
+    /// The coefficients of each lane, of the rows with these numbers.
+    ///
+    /// # Safety
+    /// `entry` points to [`Lane::WIDTH`] results of [`Table::entry`].
+    #[inline(always)]
+    pub(crate) unsafe fn gather<L: Law, N: Lane>(&self, entry: *const u32, row: &mut [N; MOST_COEFFICIENTS]) {
+        let mut k = 0;
+        while k < L::COUNT {
+            // SAFETY: the table has a row of `L::COUNT` numbers for each two materials.
+            row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry, L::COUNT) };
+            k += 1;
+        }
+    }
+
+    /// The stiffest response of an impact between any two of the materials.
+    pub(crate) fn stiffest<L: Law>(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+        let rows = self.rows.chunks_exact(self.count.max(1));
+        let responses = rows.zip(&self.governed).filter(|(_, governed)| **governed);
+        let responses = responses.map(|(row, _)| impact::<L>(row, radius, mass, speed));
+        responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
+    }
+
+    /// The coefficients for two materials.
+    pub(crate) fn row(&self, a: u32, b: u32) -> &[f64] {
+        let entry = a as usize * self.materials + b as usize;
+        &self.rows[entry * self.count..(entry + 1) * self.count]
+    }
+}
+
+/// Stiffness at the deepest point of a head-on impact: where the spring has taken up the kinetic energy.
+fn impact<L: Law>(row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
+    /// Iterations of overlap = speed √(mass/stiffness); each at least halves the error of Hertz's law.
+    const ITERATIONS: usize = 30;
+    let mut contact = Contact {
+        overlap: 1e-6 * radius,
+        radius,
+        mass,
+        section_area: 0.0,
+        section_radius: radius,
+        normal: Vector::new(1.0, 0.0, 0.0),
+        normal_velocity: 0.0,
+        slip: Vector::zero(),
+        relative_spin: Vector::zero(),
+        pair_constant: L::pair_constant(row, radius, mass),
+    };
+    for _ in 0..ITERATIONS {
+        let stiffness = L::stiffness(row, &contact).normal_stiffness;
+        if stiffness > 0.0 {
+            contact.overlap = (speed * (mass / stiffness).sqrt()).max(1e-12 * radius);
+        }
+    }
+    L::stiffness(row, &contact)
+}

@@ -1,0 +1,280 @@
+//! Contacts between particles: one pass for each contact law.
+//!
+//! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
+//! neighbours are done. The order in which a particle gets its loads is thus always the same.
+
+use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
+use super::coefficients::Table;
+use super::pass::{Link, Pass};
+use super::records::{self, ContactRecord};
+use super::sphere_geometry::Gap;
+use crate::contact::{Contact, Law, Response};
+use crate::lanes::{self, Lane, Shared};
+use crate::number::Vector;
+use crate::run_error::RunError;
+use crate::state::contacts::TOUCHING;
+use crate::state::ledger::Source;
+use crate::state::{ContactList, Particles, Row, State};
+use crate::threads::Context;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// The pass of one contact law.
+pub(crate) struct ContactPass<L> {
+    /// Which list of the state is its own.
+    pub index: usize,
+    /// Its coefficients.
+    pub table: Table,
+    /// The law.
+    pub law: PhantomData<fn() -> L>,
+}
+
+impl<L: Law> Pass for ContactPass<L> {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        let list = &mut state.contacts[self.index];
+        let particles = &mut state.particles;
+        let batches = Batches {
+            bodies: Pairs {
+                first: &list.first,
+                second: &list.second,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut particles.force),
+                torque: Shared::new(&mut particles.torque),
+            },
+            entries: Entries {
+                flags: Shared::new(&mut list.flags),
+                spring: Shared::new(&mut list.spring),
+                pair_constant: &list.pair_constant,
+            },
+            table: &self.table,
+            uniform: self.table.uniform(),
+            step: context.step,
+            width: context.width,
+        };
+        let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
+        context.slabs(ends.len().saturating_sub(1), |slab| {
+            // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
+            let next = slab + if slab % 2 == 0 { 2 } else { 4 };
+            let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
+            batches.run::<L>(ends[slab] as usize, ends[slab + 1] as usize, ahead);
+        });
+        self.apply_hidden(state, context.step);
+        Ok(())
+    }
+
+    fn has_torque(&self) -> bool {
+        L::HAS_TORQUE
+    }
+
+    fn source(&self) -> Source {
+        Source::Contacts
+    }
+
+    fn prepare(&self, state: &mut State) {
+        self.prepare_hidden(state);
+        let list = &mut state.contacts[self.index];
+        if !L::HAS_SPRING {
+            list.spring.clear();
+        }
+        list.pair_constant.clear();
+        if L::HAS_PAIR_CONSTANT {
+            let particles = &state.particles;
+            list.pair_constant.extend(list.first.iter().zip(&list.second).map(|(&i, &j)| {
+                let (radius, mass) = effective(particles, i, j);
+                let row = self.table.row(particles.material[i as usize], particles.material[j as usize]);
+                L::pair_constant(row, radius, mass)
+            }));
+        }
+    }
+
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        self.hidden_stiffness(state, tell);
+        let list = &state.contacts[self.index];
+        for pair in 0..list.first.len() {
+            let (i, j) = (list.first[pair], list.second[pair]);
+            if let Some((contact, arms)) = pair_contact(&state.particles, list, pair) {
+                let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
+                let response = L::stiffness(row, &contact);
+                let [first_arm, second_arm] = arms;
+                tell(Link {
+                    first: i,
+                    second: Some(j),
+                    response,
+                    first_arm,
+                    second_arm,
+                    normal: contact.normal,
+                    torsion: 0.0,
+                    bending: 0.0,
+                });
+            }
+        }
+    }
+
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+        self.table.stiffest::<L>(radius, mass, speed)
+    }
+
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+        let list = &state.contacts[self.index];
+        let before = |slot: u32| records::half_step_back(state, slot as usize, step);
+        for pair in (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0) {
+            let (i, j) = (list.first[pair], list.second[pair]);
+            let ((v, w), (u, z)) = (before(i), before(j));
+            let positions = &state.particles.position;
+            let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
+            let positions = [positions[i as usize], positions[j as usize]];
+            let Meeting { contact, first_arm, .. } = Gap::of(positions).meet([v, u], [w, z], constant);
+            let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
+            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
+            let (reaction, sliding) = records::react::<L>(row, &contact, spring, list.flags[pair]);
+            let point = Vector::from(positions[0]) - contact.normal * first_arm;
+            let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
+            tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
+        }
+        self.hidden_records(state, tell);
+    }
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        let list = &state.contacts[self.index];
+        let material = |slot: u32| state.particles.material[slot as usize];
+        let energy = |pair: usize| {
+            let (contact, _) = pair_contact(&state.particles, list, pair)?;
+            let row = self.table.row(material(list.first[pair]), material(list.second[pair]));
+            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
+            Some(L::elastic_energy(row, &contact, 0.0, spring.into()))
+        };
+        let touching = (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0);
+        touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
+    }
+}
+
+/// Effective radius \[m\] and mass \[kg\] of two particles.
+pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
+    let (i, j) = (i as usize, j as usize);
+    let (r, s) = (particles.position[i][3], particles.position[j][3]);
+    let (m, n) = (particles.velocity[i][3], particles.velocity[j][3]);
+    (r * s / (r + s), m * n / (m + n))
+}
+
+/// The contact of a listed pair and its arms, if the two touch.
+pub(crate) fn pair_contact(particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
+    let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
+    let reach = particles.position[i][3] + particles.position[j][3];
+    let apart = Vector::from(particles.position[i]) - Vector::from(particles.position[j]);
+    if apart.dot(apart) >= reach * reach {
+        return None;
+    }
+    let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
+    let rows = |rows: &[Row]| [rows[i], rows[j]];
+    let Particles { position, velocity, angular_velocity, .. } = particles;
+    let Meeting { contact, first_arm, second_arm } =
+        Gap::of(rows(position)).meet(rows(velocity), rows(angular_velocity), constant);
+    Some((contact, [first_arm, second_arm]))
+}
+
+/// Pairs of particles.
+#[derive(Clone, Copy)]
+struct Pairs<'a> {
+    /// First particle of each pair.
+    first: &'a [u32],
+    /// Second particle of each pair.
+    second: &'a [u32],
+    /// Positions and radii.
+    position: &'a [Row],
+    /// Velocities and masses.
+    velocity: &'a [Row],
+    /// Angular velocities.
+    angular_velocity: &'a [Row],
+    /// Materials.
+    material: &'a [u32],
+    /// Forces.
+    force: Shared<Row>,
+    /// Torques.
+    torque: Shared<Row>,
+}
+
+impl Bodies for Pairs<'_> {
+    type Sum = ();
+    const FOUND: usize = FOUND;
+
+    fn first(&self) -> &[u32] {
+        self.first
+    }
+
+    fn second(&self) -> &[u32] {
+        self.second
+    }
+
+    #[inline(always)]
+    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> (u32, [N; FOUND]) {
+        let positions = self.position.as_ptr();
+        // SAFETY: a list holds slots of particles, below their number.
+        let gap = unsafe { Gap::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
+        (N::bits(gap.closed()), gap.to_found())
+    }
+
+    #[inline(always)]
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
+        Gap::from_found(*found).roots()
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> Meeting<N> {
+        let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
+        // SAFETY: a list holds slots of particles, below their number.
+        let (velocities, spins) = unsafe {
+            let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+            ([N::load_rows(v, first), N::load_rows(v, second)], spins)
+        };
+        Gap::from_found(found).meet_at(roots, velocities, spins, N::zero())
+    }
+
+    fn row(&self, table: &Table, first: u32, second: u32) -> u32 {
+        table.entry(self.material[first as usize], self.material[second as usize])
+    }
+
+    fn prefetch(&self, slots: Range<usize>, needs: Needs) {
+        let (force, torque) = (self.force.pointer(), self.torque.pointer());
+        // A line of the cache holds two rows.
+        for slot in slots.step_by(2) {
+            lanes::prefetch(self.position.as_ptr().wrapping_add(slot));
+            lanes::prefetch(self.velocity.as_ptr().wrapping_add(slot));
+            lanes::prefetch(force.wrapping_add(slot));
+            if needs.torque {
+                lanes::prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+                lanes::prefetch(torque.wrapping_add(slot));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
+        let Touching { first, second, force, .. } = *touching;
+        for place in 0..first.len() {
+            let (i, j) = (first[place] as usize, second[place] as usize);
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                batch::add(self.force.at(i), &force[place]);
+                batch::subtract(self.force.at(j), &force[place]);
+                if needs.torque {
+                    let [mut on_i, mut on_j] = touching.torques(place);
+                    if needs.spin {
+                        batch::subtract(&mut on_i, &touching.rolling[place]);
+                        batch::add(&mut on_j, &touching.rolling[place]);
+                    }
+                    batch::add(self.torque.at(i), &on_i);
+                    batch::add(self.torque.at(j), &on_j);
+                }
+            }
+        }
+    }
+}

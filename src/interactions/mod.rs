@@ -1,0 +1,17 @@
+//! Interactions: what particles, surfaces and bonds do to each other, pass by pass over the lists.
+
+mod batch;
+pub(crate) mod bonds;
+mod coefficients;
+pub(crate) mod contacts;
+mod pass;
+mod records;
+mod sphere_geometry;
+mod suppressed;
+pub(crate) mod suppression;
+pub(crate) mod wall_bonds;
+pub(crate) mod walls;
+
+pub(crate) use coefficients::{MOST_COEFFICIENTS, Table};
+pub(crate) use pass::{Link, Pass};
+pub use records::{BondRecord, ContactRecord, PlacedSpring};

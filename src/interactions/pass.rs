@@ -1,0 +1,80 @@
+//! What the passes of a time step have in common.
+
+use super::records::{BondRecord, ContactRecord};
+use super::walls::PlanePass;
+use crate::bond::creation::Moment;
+use crate::contact::Response;
+use crate::number::Vector;
+use crate::run_error::RunError;
+use crate::state::State;
+use crate::state::ledger::Source;
+use crate::threads::Context;
+
+/// One kind of interaction, composed for the scene.
+pub(crate) trait Pass: Send + Sync {
+    /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
+    /// that must not be continued from; the evaluation is complete all the same.
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
+
+    /// The pass as that of a plane, if it is one: those of all planes are done together, not by [`Pass::apply`].
+    fn at_plane(&self) -> Option<&dyn PlanePass> {
+        None
+    }
+
+    /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
+    /// whether anything was made: the lists are then made anew.
+    fn create(&self, _state: &mut State, _moment: &Moment, _step: f64) -> bool {
+        false
+    }
+
+    /// Whether particles need an attitude for it.
+    fn needs_attitudes(&self) -> bool {
+        false
+    }
+
+    /// Whether particles feel torque from it.
+    fn has_torque(&self) -> bool;
+
+    /// Prepares its part of the state after the neighbour lists were made anew.
+    fn prepare(&self, state: &mut State);
+
+    /// The kind of force it is, for the energy book.
+    fn source(&self) -> Source;
+
+    /// Tells the stiffness of each interaction at work, for the stable time step.
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link));
+
+    /// The stiffest that it gets between two bodies of this effective radius \[m\] and mass \[kg\] which meet at
+    /// this speed \[m/s\].
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response>;
+
+    /// Tells each contact at work as it was in the last evaluation. Changes nothing.
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord));
+
+    /// Elastic energy at the present time, as far as it has a closed form \[J\].
+    fn elastic_energy(&self, state: &State) -> f64;
+
+    /// Tells each living bond and what it carries. Changes nothing.
+    fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
+}
+
+/// The stiffness of one interaction at work.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    /// One particle (slot).
+    pub first: u32,
+    /// The other particle (slot), or none at a wall.
+    pub second: Option<u32>,
+    /// Stiffnesses \[N/m\] and damping coefficients \[kg/s\].
+    pub response: Response,
+    /// Arm at the first particle \[m\].
+    pub first_arm: f64,
+    /// Arm at the second particle \[m\].
+    pub second_arm: f64,
+    /// Unit normal, from the second to the first.
+    pub normal: Vector,
+    /// Stiffness against twisting about the normal \[N m\].
+    pub torsion: f64,
+    /// Stiffness against bending \[N m\].
+    pub bending: f64,
+}

@@ -1,0 +1,122 @@
+//! What is told of the contacts and bonds at work.
+
+use crate::bond::Carried;
+use crate::contact::{Contact, Law, Reaction};
+use crate::number::Vector;
+use crate::state::contacts::SLIDING;
+use crate::state::{Row, State};
+
+/// One contact at work, as it was when the present forces were evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRecord {
+    /// The particle: index into the scene's particles.
+    pub first: u32,
+    /// The other particle, unless it is a plane.
+    pub second: Option<u32>,
+    /// The plane: index into the scene's boundaries.
+    pub boundary: Option<u32>,
+    /// Where they touch \[m\].
+    pub point: [f64; 3],
+    /// Unit normal, from the other body to the first particle.
+    pub normal: [f64; 3],
+    /// Overlap \[m\].
+    pub overlap: f64,
+    /// Force along the normal on the first particle, cohesion included \[N\].
+    pub normal_force: f64,
+    /// Force in the tangent plane on the first particle \[N\].
+    pub tangential_force: [f64; 3],
+    /// Whether the tangential spring is at its limit.
+    pub sliding: bool,
+}
+
+/// One living bond and what it carries at the present time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondRecord {
+    /// Its law: index into the scene's bond laws.
+    pub law: u32,
+    /// Body i: index into the scene's particles.
+    pub first: u32,
+    /// Body j: index into the scene's particles; none where it is the law's plane.
+    pub second: Option<u32>,
+    /// Where body j is, or the foot of the bond on the plane \[m\].
+    pub other: [f64; 3],
+    /// Forces, torques, stresses and energy.
+    pub carried: Carried,
+    /// Energy that damping and relaxation took of it so far \[J\].
+    pub dissipated: f64,
+}
+
+impl BondRecord {
+    /// Whether it is a bond of these two of the scene's particles, in this order.
+    pub fn joins(&self, [i, j]: [u32; 2]) -> bool {
+        self.first == i && self.second == Some(j)
+    }
+}
+
+impl ContactRecord {
+    /// The record of a contact and what it does.
+    pub(crate) fn new(
+        (first, second): (u32, Option<u32>),
+        boundary: Option<u32>,
+        point: Vector,
+        contact: &Contact,
+        reaction: &Reaction,
+        sliding: bool,
+    ) -> Self {
+        let along = reaction.force.dot(contact.normal);
+        Self {
+            first,
+            second,
+            boundary,
+            point: point.to_array(),
+            normal: contact.normal.to_array(),
+            overlap: contact.overlap,
+            normal_force: along,
+            tangential_force: (reaction.force - contact.normal * along).to_array(),
+            sliding,
+        }
+    }
+}
+
+/// Velocity with mass and angular velocity with moment of inertia of a particle at the middle of the last time step,
+/// when its forces were evaluated.
+pub(crate) fn half_step_back(state: &State, slot: usize, step: f64) -> (Row, Row) {
+    let particles = &state.particles;
+    let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+    if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+        let moved = &state.boundaries[group];
+        let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+        let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
+        for axis in 0..3 {
+            velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
+            spin[axis] -= moved.inertial.spin_kick[axis];
+        }
+    } else {
+        for axis in 0..3 {
+            velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
+            spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
+        }
+    }
+    (velocity, spin)
+}
+
+/// What a contact does, with the spring that the last evaluation left. A spring that slid then has no dashpot beside it.
+pub(crate) fn react<L: Law>(row: &[f64], contact: &Contact, spring: Row, flags: u8) -> (Reaction, bool) {
+    let sliding = flags & SLIDING != 0;
+    let mut contact = *contact;
+    if sliding && L::HAS_SPRING {
+        contact.slip = Vector::zero();
+    }
+    (L::react(row, &contact, spring.into(), 0.0), sliding)
+}
+
+/// The spring of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedSpring {
+    /// The bodies: indices into the scene's particles.
+    pub bodies: [u32; 2],
+    /// Tangential spring, as the first sees the second \[m\].
+    pub spring: [f64; 3],
+    /// Overlap from which the normal force is taken, of a contact that a bond hides or has hidden \[m\].
+    pub offset: f64,
+}

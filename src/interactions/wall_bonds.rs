@@ -1,0 +1,303 @@
+//! Bonds of particles to planes: one pass for each bond law between a set and a plane.
+//!
+//! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
+//! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
+
+use super::bonds::{Done, body_of, book};
+use super::pass::{Link, Pass};
+use super::records::{BondRecord, ContactRecord};
+use crate::bond::creation::{Creation, Moment, near_plane};
+use crate::bond::{Body, BondLaw, Carried, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows};
+use crate::contact::Response;
+use crate::lanes::Shared;
+use crate::number::Vector;
+use crate::quantity::{BoundaryIndex, SetIndex};
+use crate::run_error::RunError;
+use crate::scene::{Boundary, Scene, Shape};
+use crate::state::ledger::Source;
+use crate::state::{BoundaryState, Row, State};
+use crate::threads::{CHUNK, Context};
+use std::marker::PhantomData;
+
+/// The pass of one bond law at a plane.
+pub(crate) struct WallBondPass<L> {
+    /// Which list of the state is its own; also the law's index in the scene.
+    index: usize,
+    /// The law in numbers.
+    numbers: Law,
+    /// When bonds are made.
+    creation: Creation,
+    /// Twice the distance of a centre below which it is bonded \[m\].
+    create_distance: f64,
+    /// Set of each of the scene's particles.
+    sets: Vec<SetIndex>,
+    /// The set that is bonded.
+    set: SetIndex,
+    /// The plane.
+    boundary: BoundaryIndex,
+    /// A point on it at time 0 \[m\].
+    point: Vector,
+    /// Unit normal towards the particles.
+    normal: Vector,
+    /// Point about which the moment is taken, at time 0 \[m\].
+    reference: Vector,
+    /// The law.
+    law: PhantomData<fn() -> L>,
+}
+
+/// What a piece of a list came to.
+struct Piece {
+    /// Energies and breakage.
+    done: Done,
+    /// Force on the plane \[N\].
+    force: Vector,
+    /// Moment on the plane about its moved reference point \[N m\].
+    moment: Vector,
+}
+
+impl<L: BondLaw> WallBondPass<L> {
+    /// The pass of this bond of the scene; none where the boundary is no plane.
+    pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
+        let bond = &scene.bonds[index];
+        let Boundary { shape: Shape::Plane { point, normal, .. }, reference, .. } = &scene.boundaries[boundary.index()]
+        else {
+            return None;
+        };
+        Some(Self {
+            index,
+            numbers: bond.law,
+            creation: bond.create.clone(),
+            create_distance: bond.create_distance.unwrap_or(0.0),
+            sets: scene.particles.iter().map(|particle| particle.set).collect(),
+            set: bond.between[0],
+            boundary,
+            point: (*point).into(),
+            normal: (*normal).into(),
+            reference: (*reference).into(),
+            law: PhantomData,
+        })
+    }
+
+    /// The foot of a bond as its second body.
+    fn foot(&self, foot: Row, plane: &BoundaryState) -> Body {
+        Body {
+            position: Vector::from(foot) + plane.displacement.into(),
+            velocity: plane.velocity.into(),
+            spin: Vector::zero(),
+            attitude: Quaternion::identity(),
+            radius: 0.0,
+            mass: f64::INFINITY,
+            inertia: f64::INFINITY,
+        }
+    }
+
+    /// A listed bond's bodies.
+    fn pair(&self, state: &State, bond: usize) -> Pair {
+        let list = &state.bonds[self.index];
+        let foot = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
+        Pair::at_wall(&body_of(&state.particles, list.first[bond] as usize), &foot)
+    }
+
+    /// What a bond carries.
+    fn carried(&self, state: &State, bond: usize) -> Carried {
+        let mut rows = Rows::default();
+        for (row, column) in rows.iter_mut().zip(&state.bonds[self.index].rows) {
+            *row = column[bond];
+        }
+        L::carried(&self.numbers, &self.pair(state, bond), &rows)
+    }
+
+    /// Particles to be bonded at this moment, with the feet of their bonds where the plane stood at time 0.
+    fn wanted(&self, state: &State, moment: &Moment) -> Vec<(u32, Row)> {
+        if !self.creation.bonds_near_pairs(moment) {
+            return Vec::new();
+        }
+        let (particles, list) = (&state.particles, &state.bonds[self.index]);
+        let displacement = Vector::from(state.boundaries[self.boundary.index()].displacement);
+        let mut bonded = list.first.clone();
+        bonded.sort_unstable();
+        let near = |slot: usize| {
+            let member = self.sets[particles.id[slot] as usize] == self.set;
+            let position = Vector::from(particles.position[slot]) - displacement;
+            let distance = (position - self.point).dot(self.normal);
+            let free = member && distance > 0.0 && bonded.binary_search(&(slot as u32)).is_err();
+            let [x, y, z] = (position - self.normal * distance).to_array();
+            (free && near_plane(distance, self.create_distance)).then_some((slot as u32, [x, y, z, 0.0]))
+        };
+        (0..particles.len()).filter_map(near).collect()
+    }
+}
+
+/// What all pieces of a list share.
+struct Work<'a> {
+    /// The law in numbers.
+    law: Coefficients<f64>,
+    /// Rows of the list, each a column.
+    rows: [Shared<Row>; MOST_ROWS],
+    /// Energy that each bond lost; empty where none does.
+    lost: Shared<f64>,
+    /// Forces.
+    force: Shared<Row>,
+    /// Torques.
+    torque: Shared<Row>,
+    /// The particle of each bond.
+    first: &'a [u32],
+    /// The bodies of each bond.
+    pairs: &'a [Pair],
+    /// Foot of each bond, from the reference point \[m\].
+    arms: &'a [Vector],
+    /// Time since bonds were last advanced \[s\].
+    step: f64,
+}
+
+impl Work<'_> {
+    /// The law on a piece of the list. Each piece is for one thread only.
+    fn piece<L: BondLaw>(&self, from: usize, to: usize) -> Piece {
+        let mut piece = Piece { done: Done::default(), force: Vector::zero(), moment: Vector::zero() };
+        for bond in from..to {
+            let mut rows: Rows = [[0.0; 4]; MOST_ROWS];
+            for (row, column) in rows.iter_mut().zip(&self.rows).take(L::ROWS) {
+                // SAFETY: pieces do not overlap, and each column has a row for each bond.
+                *row = unsafe { *column.at(bond) };
+            }
+            let reaction = L::react(&self.law, &self.pairs[bond], &rows);
+            if self.step > 0.0 {
+                for (row, column) in reaction.rows.iter().zip(&self.rows).take(L::ROWS).skip(L::FIXED_ROWS) {
+                    // SAFETY: as above.
+                    unsafe { *column.at(bond) = *row };
+                }
+            }
+            let slot = self.first[bond] as usize;
+            // SAFETY: a particle stands once in a list.
+            let (force, torque) = unsafe { (self.force.at(slot), self.torque.at(slot)) };
+            for (axis, (f, t)) in reaction.force.to_array().into_iter().zip(reaction.torque_i.to_array()).enumerate() {
+                force[axis] += f;
+                torque[axis] += t;
+            }
+            piece.force += -reaction.force;
+            piece.moment += reaction.torque_j - self.arms[bond].cross(reaction.force);
+            if self.lost.length() > 0 {
+                // SAFETY: pieces do not overlap, and there is one for each bond.
+                unsafe { *self.lost.at(bond) += reaction.relaxed + reaction.damped };
+            }
+            piece.done.add(bond as u32, &reaction);
+        }
+        piece
+    }
+}
+
+impl<L: BondLaw> Pass for WallBondPass<L> {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        let count = state.bonds[self.index].first.len();
+        let pairs: Vec<Pair> = (0..count).map(|bond| self.pair(state, bond)).collect();
+        let list = &mut state.bonds[self.index];
+        let arms: Vec<Vector> = list.foot.iter().map(|foot| Vector::from(*foot) - self.reference).collect();
+        let mut columns = list.rows.iter_mut();
+        let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
+        let work = Work {
+            law: self.numbers.coefficients(context.step),
+            rows: [column(), column(), column()],
+            lost: Shared::new(&mut list.lost),
+            force: Shared::new(&mut state.particles.force),
+            torque: Shared::new(&mut state.particles.torque),
+            first: &list.first,
+            pairs: &pairs,
+            arms: &arms,
+            step: context.step,
+        };
+        let pieces = context
+            .collect(count.div_ceil(CHUNK), |piece| work.piece::<L>(piece * CHUNK, ((piece + 1) * CHUNK).min(count)));
+        let plane = &mut state.boundaries[self.boundary.index()];
+        let mut results = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            plane.force = (Vector::from(plane.force) + piece.force).to_array();
+            plane.moment = (Vector::from(plane.moment) + piece.moment).to_array();
+            results.push(piece.done);
+        }
+        for done in &mut results {
+            done.release(context.step, |bond| self.carried(state, bond));
+        }
+        book(state, self.index, results)
+    }
+
+    fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
+        let wanted = self.wanted(state, moment);
+        let law = self.numbers.coefficients::<f64>(step);
+        for &(slot, foot) in &wanted {
+            let plane = &state.boundaries[self.boundary.index()];
+            let pair = Pair::at_wall(&body_of(&state.particles, slot as usize), &self.foot(foot, plane));
+            let rows = L::create(&law, &pair);
+            let list = &mut state.bonds[self.index];
+            list.rows.resize(L::ROWS, Vec::new());
+            list.first.push(slot);
+            list.foot.push(foot);
+            if self.numbers.dissipates() {
+                list.lost.push(0.0);
+            }
+            state.particles.count_bond([state.particles.id[slot as usize]]);
+            for (column, row) in list.rows.iter_mut().zip(rows) {
+                column.push(row);
+            }
+        }
+        state.bonds[self.index].made += wanted.len() as u64;
+        !wanted.is_empty()
+    }
+
+    fn has_torque(&self) -> bool {
+        true
+    }
+
+    fn needs_attitudes(&self) -> bool {
+        L::NEEDS_ATTITUDES
+    }
+
+    fn source(&self) -> Source {
+        Source::Bonds
+    }
+
+    fn prepare(&self, _state: &mut State) {}
+
+    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+        for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
+            let pair = self.pair(state, bond);
+            let distance = pair.connection.length();
+            let [normal, shear, torsion, bending] = self.numbers.stiffness(pair.least_radius);
+            tell(Link {
+                first,
+                second: None,
+                response: Response {
+                    normal_stiffness: normal,
+                    tangential_stiffness: shear,
+                    normal_damping: 0.0,
+                    tangential_damping: 0.0,
+                },
+                first_arm: distance,
+                second_arm: 0.0,
+                normal: pair.connection * (1.0 / distance),
+                torsion,
+                bending,
+            });
+        }
+    }
+
+    fn impact(&self, _radius: f64, _mass: f64, _speed: f64) -> Option<Response> {
+        None
+    }
+
+    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
+        let list = &state.bonds[self.index];
+        for (bond, &slot) in list.first.iter().enumerate() {
+            let carried = self.carried(state, bond);
+            let foot = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
+            let (first, other) = (state.particles.id[slot as usize], foot.position.to_array());
+            let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
+            tell(BondRecord { law: self.index as u32, first, second: None, other, carried, dissipated });
+        }
+    }
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
+    }
+}

@@ -1,0 +1,396 @@
+//! Groups of particles as rigid bodies: what they weigh, and how forces move their free axes.
+
+use crate::geometry::Quaternion;
+use crate::geometry::rotation::vector_near;
+use crate::number::Vector;
+use crate::scene::{AxisMotion, Boundary, Scene, Shape};
+use crate::state::{Attitude, BoundaryState, Particles, State};
+
+/// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
+const ITERATIONS: usize = 40;
+
+/// Change of an angular velocity, over its length, that is no change.
+const STANDS: f64 = 4.0 * f64::EPSILON;
+
+/// How a group turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turning {
+    /// It does not.
+    Still,
+    /// As the outside or the scene says.
+    Led,
+    /// By the moment about this axis through the reference point, held against the others.
+    About(usize),
+    /// As a free body.
+    Freely,
+}
+
+/// A group that turns, or that forces move.
+#[derive(Clone, Debug)]
+pub(crate) struct RigidBody {
+    /// Indices into the scene's particles.
+    pub members: Vec<u32>,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Mass centre at time 0, from the reference point \[m\].
+    pub offset: Vector,
+    /// Inertia about the reference point in the attitude of time 0 \[kg m²\].
+    inertia: Matrix,
+    /// Its inverse.
+    inverse: Matrix,
+    /// Which of x, y, z are free.
+    pub moves: [bool; 3],
+    /// How it turns.
+    pub turning: Turning,
+    /// From the reference point to the centre furthest away \[m\].
+    pub farthest: f64,
+    /// Radius of the smallest sphere \[m\].
+    pub smallest: f64,
+    /// Radius of the largest sphere \[m\].
+    pub largest: f64,
+}
+
+/// A motion: velocity of the reference point \[m/s\] and angular velocity \[rad/s\].
+pub(crate) type Motion = [Vector; 2];
+
+/// The bodies of a scene; `None` for boundaries that only stand or shift.
+pub(crate) fn of(scene: &Scene) -> Vec<Option<RigidBody>> {
+    scene.boundaries.iter().map(|boundary| RigidBody::of(scene, boundary)).collect()
+}
+
+impl RigidBody {
+    /// The body of a boundary, if it needs one.
+    pub(crate) fn of(scene: &Scene, boundary: &Boundary) -> Option<Self> {
+        let Shape::Particles { members } = &boundary.shape else { return None };
+        let moves = [0, 1, 2].map(|axis| boundary.axes[axis] == AxisMotion::Free);
+        let turning = turning(boundary);
+        if moves == [false; 3] && turning == Turning::Still {
+            return None;
+        }
+        let mut body = Self {
+            members: members.clone(),
+            mass: 0.0,
+            offset: Vector::zero(),
+            inertia: Matrix::default(),
+            inverse: Matrix::default(),
+            moves,
+            turning,
+            farthest: 0.0,
+            smallest: f64::INFINITY,
+            largest: 0.0,
+        };
+        for particle in members.iter().map(|&member| &scene.particles[member as usize]) {
+            let (mass, radius) = (particle.mass(), particle.radius);
+            let arm = Vector::from(particle.position) - boundary.reference.into();
+            body.mass += mass;
+            body.offset += arm * mass;
+            body.inertia.add_sphere(mass, radius, arm);
+            body.farthest = body.farthest.max(arm.length());
+            body.smallest = body.smallest.min(radius);
+            body.largest = body.largest.max(radius);
+        }
+        body.offset = body.offset * (1.0 / body.mass);
+        body.inverse = body.inertia.inverse();
+        Some(body)
+    }
+
+    /// Whether forces move any of its axes.
+    pub(crate) fn is_free(&self) -> bool {
+        self.moves != [false; 3] || self.spins()
+    }
+
+    /// Whether moments turn it.
+    pub(crate) fn spins(&self) -> bool {
+        matches!(self.turning, Turning::About(_) | Turning::Freely)
+    }
+
+    /// The components of a force along its free axes.
+    pub(crate) fn along_free(&self, force: [f64; 3]) -> Vector {
+        Vector::from([0, 1, 2].map(|axis| if self.moves[axis] { force[axis] } else { 0.0 }))
+    }
+
+    /// The components of a moment about its free axes.
+    pub(crate) fn about_free(&self, moment: [f64; 3]) -> Vector {
+        Vector::from(match self.turning {
+            Turning::Still | Turning::Led => [0.0; 3],
+            Turning::About(axis) => [0, 1, 2].map(|k| if k == axis { moment[k] } else { 0.0 }),
+            Turning::Freely => moment,
+        })
+    }
+
+    /// The angular velocity that an angular momentum gives it in an attitude \[rad/s\].
+    pub(crate) fn spin(&self, attitude: Quaternion, momentum: Vector) -> Vector {
+        match self.turning {
+            Turning::Still | Turning::Led => Vector::zero(),
+            Turning::About(axis) => {
+                let share = momentum.to_array()[axis] / self.inertia.0[axis][axis];
+                Vector::from([0, 1, 2].map(|k| if k == axis { share } else { 0.0 }))
+            }
+            Turning::Freely => attitude.turn(self.inverse.times(attitude.conjugate().turn(momentum))),
+        }
+    }
+
+    /// Half a kick to the free axes.
+    pub(crate) fn kick(&self, moved: &mut BoundaryState, step: f64) {
+        let [velocity, spin] = self.kicked(moved, step);
+        let before = moved.angular_velocity;
+        for axis in 0..3 {
+            if self.moves[axis] {
+                moved.inertial.kick[axis] = velocity.to_array()[axis] - moved.velocity[axis];
+                moved.velocity[axis] = velocity.to_array()[axis];
+            }
+        }
+        if self.spins() {
+            let momentum = Vector::from(moved.inertial.angular_momentum) + self.twist(moved, step);
+            moved.inertial.angular_momentum = momentum.to_array();
+            moved.angular_velocity = spin.to_array();
+            moved.inertial.spin_kick = (spin - before.into()).to_array();
+        }
+    }
+
+    /// Angular momentum that half a kick gives \[kg m²/s\].
+    fn twist(&self, moved: &BoundaryState, step: f64) -> Vector {
+        self.about_free(moved.inertial.couple) * (0.5 * step)
+    }
+
+    /// The motion of the free axes after half a kick with the present load.
+    fn kicked(&self, moved: &BoundaryState, step: f64) -> Motion {
+        let velocity =
+            self.along_free(moved.velocity) + self.along_free(moved.inertial.load) * (0.5 * step / self.mass);
+        let momentum = Vector::from(moved.inertial.angular_momentum) + self.twist(moved, step);
+        [velocity, self.spin(Quaternion::from(moved.attitude), momentum)]
+    }
+
+    /// Mean of the motion of the free axes before and after half a kick with the present load.
+    pub(crate) fn mean_motion(&self, moved: &BoundaryState, step: f64) -> Motion {
+        let after = self.kicked(moved, step);
+        let before = self.kicked(moved, 0.0);
+        [0, 1].map(|part| (before[part] + after[part]) * 0.5)
+    }
+
+    /// Largest speed that one of its spheres can have after half a kick with the present load \[m/s\].
+    pub(crate) fn coming_speed(&self, moved: &BoundaryState, step: f64) -> f64 {
+        let [velocity, spin] = self.kicked(moved, step);
+        velocity.length() + spin.length() * self.farthest
+    }
+
+    /// Kinetic energy of the free axes \[J\].
+    pub(crate) fn kinetic(&self, moved: &BoundaryState) -> f64 {
+        let [velocity, spin] = self.kicked(moved, 0.0);
+        0.5 * self.mass * velocity.dot(velocity) + 0.5 * spin.dot(moved.inertial.angular_momentum.into())
+    }
+
+    /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].
+    pub(crate) fn drift(&self, moved: &mut BoundaryState, step: f64) -> Vector {
+        let attitude = Quaternion::from(moved.attitude);
+        let momentum = Vector::from(moved.inertial.angular_momentum);
+        let spin = self.drift_spin(attitude, momentum, step);
+        let attitude = attitude.turned(spin, step);
+        moved.attitude = Attitude::from(attitude);
+        moved.rotation = match self.turning {
+            Turning::Freely => vector_near(attitude, moved.rotation.into()).to_array(),
+            Turning::About(_) => (Vector::from(moved.rotation) + spin * step).to_array(),
+            Turning::Still | Turning::Led => moved.rotation,
+        };
+        moved.angular_velocity = self.spin(attitude, momentum).to_array();
+        spin * step
+    }
+
+    /// The angular velocity \[rad/s\] that turns the body through a drift of `step` \[s\] with this angular momentum.
+    ///
+    /// ```text
+    /// w = (w₀ + w₁)/2,  w₁ = J⁻¹ R(w Δt)ᵀ J w₀        (in axes that turn with the body)
+    /// ```
+    ///
+    /// A turn about the mean of the angular velocities before and after leaves the component of J w along it as it
+    /// is, hence the kinetic energy w · J w/2, too; the angular momentum in space does not change (Simo and Wong
+    /// 1991). The map is of second order and its own inverse in reversed time. For a sphere it is exact.
+    fn drift_spin(&self, attitude: Quaternion, momentum: Vector, step: f64) -> Vector {
+        let before = self.spin(attitude, momentum);
+        if self.turning != Turning::Freely {
+            return before;
+        }
+        let mut mean = before;
+        for _ in 0..ITERATIONS {
+            let turned = attitude.turned(mean, step);
+            // The angular velocity afterwards, carried back by the turn: what the body itself sees.
+            let seen = self.inverse.times(turned.conjugate().turn(momentum));
+            let next = (before + attitude.turn(seen)) * 0.5;
+            let change = (next - mean).length();
+            mean = next;
+            if change <= STANDS * next.length() {
+                break;
+            }
+        }
+        mean
+    }
+
+    /// The acceleration that unit forces and moments give to its free axes: 1/mass \[1/kg\] and the inverse of the
+    /// inertia in global axes \[1/(kg m²)\].
+    pub(crate) fn mobility(&self, moved: &BoundaryState) -> [[f64; 6]; 6] {
+        let mut mobility = [[0.0; 6]; 6];
+        let attitude = Quaternion::from(moved.attitude);
+        for axis in 0..3 {
+            mobility[axis][axis] = if self.moves[axis] { 1.0 / self.mass } else { 0.0 };
+            let unit = Vector::from([0, 1, 2].map(|k| f64::from(u8::from(k == axis))));
+            let spin = self.spin(attitude, self.about_free(unit.to_array())).to_array();
+            for (k, part) in spin.into_iter().enumerate() {
+                mobility[3 + k][3 + axis] = part;
+            }
+        }
+        mobility
+    }
+
+    /// Starts with the momentum and angular momentum that its spheres have.
+    pub(crate) fn begin(&self, scene: &Scene, boundary: &Boundary, moved: &mut BoundaryState) {
+        let (mut momentum, mut angular) = (Vector::zero(), Vector::zero());
+        for particle in self.members.iter().map(|&member| &scene.particles[member as usize]) {
+            let (mass, radius) = (particle.mass(), particle.radius);
+            let arm = Vector::from(particle.position) - boundary.reference.into();
+            let push = Vector::from(particle.velocity) * mass;
+            momentum += push;
+            let roll = Vector::from(particle.angular_velocity) * sphere_inertia(mass, radius);
+            angular += roll + arm.cross(push);
+        }
+        let velocity = (momentum * (1.0 / self.mass)).to_array();
+        for axis in (0..3).filter(|&axis| self.moves[axis]) {
+            moved.velocity[axis] = velocity[axis];
+        }
+        if self.spins() {
+            let angular = self.about_free(angular.to_array());
+            moved.inertial.angular_momentum = angular.to_array();
+            moved.angular_velocity = self.spin(Quaternion::from(moved.attitude), angular).to_array();
+        }
+    }
+}
+
+/// How the axes of a boundary make it turn.
+fn turning(boundary: &Boundary) -> Turning {
+    let turns = &boundary.axes[3..];
+    let free = |axis: &usize| turns[*axis] == AxisMotion::Free;
+    match (0..3).filter(free).collect::<Vec<_>>()[..] {
+        [] if turns.iter().all(|motion| *motion == AxisMotion::Fixed) => Turning::Still,
+        [] => Turning::Led,
+        [axis] => Turning::About(axis),
+        _ => Turning::Freely,
+    }
+}
+
+/// Moment of inertia of a full sphere \[kg m²\].
+pub(crate) fn sphere_inertia(mass: f64, radius: f64) -> f64 {
+    0.4 * mass * radius * radius
+}
+
+/// Puts the particles of groups where their boundary stands, with the motion that it has.
+pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State) {
+    let State { boundaries, particles, .. } = state;
+    for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(boundaries) {
+        moved.pivot = (Vector::from(boundary.reference) + moved.displacement.into()).to_array();
+        let Shape::Particles { members } = &boundary.shape else { continue };
+        if body.as_ref().is_some_and(|body| body.turning != Turning::Still) {
+            place_turned(scene, boundary, moved, members, particles);
+            continue;
+        }
+        for &member in members {
+            let slot = particles.slot[member as usize] as usize;
+            let home = scene.particles[member as usize].position;
+            for axis in 0..3 {
+                particles.position[slot][axis] = home[axis] + moved.displacement[axis];
+                particles.velocity[slot][axis] = moved.velocity[axis];
+            }
+        }
+    }
+}
+
+/// Puts the particles of a group that turns where it stands.
+fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+    let attitude = Quaternion::from(moved.attitude);
+    for &member in members {
+        let slot = particles.slot[member as usize] as usize;
+        let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
+        let place = Vector::from(moved.pivot) + attitude.turn(home);
+        particles.position[slot][..3].copy_from_slice(&place.to_array());
+        if let Some(row) = particles.attitude.get_mut(slot) {
+            *row = moved.attitude.0;
+        }
+    }
+    give_motion(moved, members, particles);
+}
+
+/// Gives the particles of a group the motion of their body.
+fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+    let (velocity, spin) = (Vector::from(moved.velocity), Vector::from(moved.angular_velocity));
+    for &member in members {
+        let slot = particles.slot[member as usize] as usize;
+        let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+        particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(arm)).to_array());
+        particles.angular_velocity[slot][..3].copy_from_slice(&spin.to_array());
+    }
+}
+
+/// The second half of the kick to all free axes. Returns the largest speed of a sphere of theirs at the middle of the
+/// next step \[m/s\]; not a number where a load is none.
+pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &mut State, step: f64) -> f64 {
+    let mut fastest = 0.0;
+    for (index, body) in bodies.iter().enumerate() {
+        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+        let moved = &mut state.boundaries[index];
+        body.kick(moved, step);
+        fastest = larger(fastest, body.coming_speed(moved, step));
+        give_free_motion(body, moved, &mut state.particles);
+    }
+    fastest
+}
+
+/// Largest speed of a sphere of a free group at the middle of a step of this length \[m/s\].
+pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f64) -> f64 {
+    let free = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some((body.as_ref()?, moved)));
+    free.fold(0.0, |most, (body, moved)| larger(most, body.coming_speed(moved, step)))
+}
+
+/// The larger of two numbers, or the second where it is none.
+fn larger(most: f64, one: f64) -> f64 {
+    if one > most || one.is_nan() { one } else { most }
+}
+
+/// Gives the spheres of a group the motion that it has after a kick.
+fn give_free_motion(body: &RigidBody, moved: &BoundaryState, particles: &mut Particles) {
+    if body.turning != Turning::Still {
+        return give_motion(moved, &body.members, particles);
+    }
+    for &member in &body.members {
+        let slot = particles.slot[member as usize] as usize;
+        particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
+    }
+}
+
+/// A symmetric 3 × 3 matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Matrix([[f64; 3]; 3]);
+
+impl Matrix {
+    /// Adds the inertia of a sphere at an arm \[m\].
+    fn add_sphere(&mut self, mass: f64, radius: f64, arm: Vector) {
+        let (square, parts) = (arm.dot(arm), arm.to_array());
+        for a in 0..3 {
+            self.0[a][a] += sphere_inertia(mass, radius) + mass * square;
+            for b in 0..3 {
+                self.0[a][b] -= mass * parts[a] * parts[b];
+            }
+        }
+    }
+
+    /// Its product with a vector.
+    fn times(&self, vector: Vector) -> Vector {
+        Vector::from(self.0.map(|row| Vector::from(row).dot(vector)))
+    }
+
+    /// The inverse of a positive definite one.
+    fn inverse(&self) -> Self {
+        let rows = self.0.map(Vector::from);
+        // Each row of the inverse is normal to two rows of the matrix.
+        let across = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
+        let determinant = rows[0].dot(across[0]);
+        Self(across.map(|row| (row * (1.0 / determinant)).to_array()))
+    }
+}

@@ -1,0 +1,269 @@
+//! Which particles are near each other, and the order they are kept in.
+//!
+//! Particles are sorted into slabs across the longest extent of the packing, each at least as thick as the largest
+//! reach of a pair, and inside a slab by size and cell. Pairs therefore reach no further than the next slab. Springs
+//! follow the pair of particles, never a place in a list. Pieces of work are those of geometry or of fixed length:
+//! lists and their order do not depend on the number of threads.
+
+pub(crate) mod bonds;
+mod grid;
+mod lists;
+mod order;
+mod pair_cache;
+mod pairs;
+mod planes;
+mod sizes;
+mod skin;
+
+use crate::contact::{Law, TakeLaw};
+use crate::scene::{Scene, Shape};
+use crate::state::{Particles, State};
+use crate::threads::{CHUNK, Context};
+use grid::Grid;
+use lists::Making;
+use order::Order;
+pub(crate) use pair_cache::PairCache;
+use pairs::{Found, Laws, Look};
+use planes::Plane;
+use sizes::Sizes;
+pub(crate) use skin::FIRST as FIRST_SKIN;
+
+/// The search: what it knows of the scene, and room to work in.
+pub(crate) struct Search {
+    /// Which pairs have a law.
+    laws: Laws,
+    /// Whether each law keeps a spring.
+    springs: Vec<bool>,
+    /// Planes of the scene.
+    planes: Vec<Plane>,
+    /// Levels of radii.
+    sizes: Sizes,
+    /// Radius of the smallest particle \[m\].
+    smallest: f64,
+    /// Skin that the scene asks for \[m\].
+    skin: Option<f64>,
+    /// Mean radius of the particles \[m\].
+    mean: f64,
+    /// Whether anything can touch.
+    touching: bool,
+    /// Whether particles can touch each other.
+    pairs: bool,
+    /// Whether there are lists at all.
+    needed: bool,
+    /// Order of the particles.
+    order: Order,
+    /// Pairs of each slab.
+    found: Vec<Found>,
+    /// Making of lists.
+    making: Making,
+    /// A number for each particle.
+    mark: Vec<u32>,
+}
+
+/// Asks a law whether it keeps a spring.
+struct HasSpring;
+
+impl TakeLaw for HasSpring {
+    type Output = bool;
+    fn take<L: Law>(self, _law: L) -> bool {
+        L::HAS_SPRING
+    }
+}
+
+impl Search {
+    /// Reads what concerns the search from the scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let radii = || scene.particles.iter().map(|particle| particle.radius);
+        let laws = laws(scene);
+        let here = present(scene);
+        let meet = |a: usize, b: usize| here[a] && here[b] && laws.between(a as u32, b as u32).is_some();
+        let count = scene.materials.len();
+        let planes = scene.boundaries.iter().enumerate().filter_map(|(index, boundary)| match &boundary.shape {
+            Shape::Plane { material, point, normal } => {
+                Some(Plane { boundary: index as u32, material: material.0, point: *point, normal: *normal })
+            }
+            Shape::Particles { .. } => None,
+        });
+        Self {
+            springs: scene.contacts.iter().map(|law| law.choice().visit(HasSpring)).collect(),
+            planes: planes.collect(),
+            sizes: Sizes::of(radii()),
+            smallest: radii().fold(f64::INFINITY, f64::min),
+            skin: scene.run.skin,
+            mean: radii().sum::<f64>() / scene.particles.len().max(1) as f64,
+            touching: !scene.contacts.is_empty() && !scene.particles.is_empty(),
+            pairs: (0..count).any(|a| (0..count).any(|b| meet(a, b))),
+            needed: !scene.particles.is_empty() && (!scene.contacts.is_empty() || !scene.bonds.is_empty()),
+            laws,
+            order: Order::default(),
+            found: Vec::new(),
+            making: Making::default(),
+            mark: Vec::new(),
+        }
+    }
+
+    /// Radius of the smallest particle \[m\].
+    pub(crate) fn smallest_radius(&self) -> f64 {
+        self.smallest
+    }
+
+    /// Whether the lists no longer hold every pair that can touch. Chooses the skin of the next ones, if so.
+    pub(crate) fn outdated(&self, state: &mut State, context: &Context) -> bool {
+        if !self.touching {
+            return false;
+        }
+        let walls = self.planes.iter().map(|plane| {
+            let now = state.boundaries[plane.boundary as usize].displacement;
+            let then = state.neighbours.boundary_reference[plane.boundary as usize];
+            way(&now, &then)
+        });
+        let wall = walls.fold(0.0, f64::max);
+        let skin = state.neighbours.skin;
+        let used = |travel: f64| travel + wall.max(travel);
+        if used(state.neighbours.travel) <= skin {
+            return false;
+        }
+        state.neighbours.travel = farthest(state, context);
+        let used = used(state.neighbours.travel);
+        if used <= skin {
+            return false;
+        }
+        if self.skin.is_none() {
+            state.neighbours.skin = skin::next(state, used, self.mean);
+        }
+        true
+    }
+
+    /// Sorts the particles and makes the lists anew.
+    pub(crate) fn rebuild(&mut self, state: &mut State, context: &Context) {
+        if !self.needed {
+            return;
+        }
+        let skin = if self.touching { state.neighbours.skin } else { 0.0 };
+        let grid = Grid::around(&state.particles, &self.sizes, skin, bonds::longest(state), context);
+        self.order.find(&grid, &self.sizes, &state.particles, context);
+        self.order.apply(&mut state.particles, context);
+        for list in &mut state.bonds {
+            bonds::sort(list, &self.order.new_slot, &self.order.slabs);
+        }
+        if self.touching {
+            order::fill(&mut state.neighbours.reference, &state.particles.position, context);
+        }
+        if self.pairs {
+            self.list_pairs(state, &grid, skin, context);
+        }
+        for index in 0..state.walls.len() {
+            self.list_near_plane(state, index, context);
+        }
+        state.neighbours.slabs.clone_from(&self.order.slabs);
+        state.neighbours.boundary_reference.clear();
+        state.neighbours.boundary_reference.extend(state.boundaries.iter().map(|boundary| boundary.displacement));
+        state.neighbours.travel = 0.0;
+        state.neighbours.made_at = state.clock.steps;
+        state.clock.rebuilds += 1;
+    }
+
+    /// Makes the lists of near particles.
+    fn list_pairs(&mut self, state: &mut State, grid: &Grid, skin: f64, context: &Context) {
+        let look = Look {
+            grid,
+            order: &self.order,
+            columns: &state.neighbours.reference,
+            particles: &state.particles,
+            laws: &self.laws,
+            skin,
+        };
+        pairs::find(&look, &mut self.found, context);
+        for (law, list) in state.contacts.iter_mut().enumerate() {
+            let of = (law as u32, &self.laws);
+            self.making.replace(list, &self.found, of, self.springs[law], (&self.order, context));
+        }
+    }
+
+    /// Makes the list of one plane and law.
+    fn list_near_plane(&mut self, state: &mut State, index: usize, context: &Context) {
+        let list = &mut state.walls[index];
+        let Some(plane) = self.planes.iter().find(|plane| plane.boundary == list.boundary) else { return };
+        let moved = state.boundaries[list.boundary as usize].displacement;
+        let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
+        let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin);
+        let near = planes::Side { columns, point, normal: plane.normal, skin };
+        let particles = (&state.particles, &self.laws);
+        planes::replace(list, plane, near, particles, &mut self.mark, (&self.order, context));
+    }
+}
+
+/// Which pairs of the scene have a law.
+fn laws(scene: &Scene) -> Laws {
+    let materials = scene.materials.len();
+    let of: Vec<Option<u32>> = (0..materials * materials)
+        .map(|entry| scene.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32))
+        .collect();
+    let groups = scene.boundaries.iter().any(|boundary| matches!(boundary.shape, Shape::Particles { .. }));
+    let here = present(scene);
+    let mut met =
+        (0..of.len()).filter(|entry| here[entry / materials] && here[entry % materials]).map(|entry| of[entry]);
+    let first = met.next().flatten();
+    let only = first.filter(|_| !groups && met.all(|law| law == first));
+    Laws { of, materials, only, count: scene.contacts.len() }
+}
+
+/// Whether each material is that of a particle.
+fn present(scene: &Scene) -> Vec<bool> {
+    let mut present = vec![false; scene.materials.len()];
+    for particle in &scene.particles {
+        present[particle.material.index()] = true;
+    }
+    present
+}
+
+/// How far the particle that has moved most since the lists were made is from where it was \[m\].
+fn farthest(state: &State, context: &Context) -> f64 {
+    let (position, then) = (&state.particles.position, &state.neighbours.reference);
+    let squares = context.collect(position.len().div_ceil(CHUNK), |piece| {
+        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
+        let moved = position[from..to].iter().zip(&then.x[from..]).zip(&then.y[from..]).zip(&then.z[from..]);
+        moved.fold(0.0, |most: f64, (((now, x), y), z)| {
+            let (x, y, z) = (now[0] - x, now[1] - y, now[2] - z);
+            most.max(x * x + y * y + z * z)
+        })
+    });
+    squares.into_iter().fold(0.0, f64::max).sqrt()
+}
+
+/// Hands out every two particles (slots) that are not further apart than `reach` \[m\], with their distance.
+pub(crate) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut(u32, u32, f64)) {
+    if particles.is_empty() || reach <= 0.0 {
+        return;
+    }
+    let context = Context { step: 0.0, width: super::lanes::Width::Least, team: None };
+    let sizes = Sizes::single(0.5 * reach, particles.len());
+    let grid = Grid::around(particles, &sizes, 0.0, 0.0, &context);
+    let mut order = Order::default();
+    order.find(&grid, &sizes, particles, &context);
+    let level = &grid.levels[0];
+    for (place, &slot) in order.slots.iter().enumerate() {
+        let a = particles.position[slot as usize];
+        let layer = grid.layer(level, a[grid.axes[0]]);
+        let [row, cell] = [0, 1].map(|within| grid.place(level, within, a[grid.axes[within + 1]]));
+        let (lower, upper) = (cell.saturating_sub(1), (cell + 2).min(level.counts[1]));
+        let (bases, count) = grid.ahead(level, layer, row);
+        let first = |cell: usize| order.starts[cell] as usize;
+        let own = [place + 1, first(grid.row(level, layer, row) + upper)];
+        let ahead = bases.into_iter().take(count).map(|base| [first(base + lower), first(base + upper)]);
+        for [from, to] in std::iter::once(own).chain(ahead) {
+            for &other in &order.slots[from..to.max(from)] {
+                let b = particles.position[other as usize];
+                let distance = way(&[a[0], a[1], a[2]], &[b[0], b[1], b[2]]);
+                if distance <= reach {
+                    hand(slot, other, distance);
+                }
+            }
+        }
+    }
+}
+
+/// Distance of two points \[m\].
+fn way(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,285 @@
+//! What must hold in any scene, read from a file or built in code.
+
+use super::bonds::{Bonded, idle};
+use super::overlaps::for_each_overlap;
+use crate::contact::cohesion::TakeCohesion;
+use crate::contact::normal::TakeNormal;
+use crate::contact::rolling::TakeRolling;
+use crate::contact::tangential::TakeTangential;
+use crate::contact::{Cohesion, FrictionNeeds, MaterialPair, Missing, Normal, Rolling, Tangential};
+use crate::scene::error::{SceneError, SceneErrors};
+use crate::scene::mistake::Mistake;
+use crate::scene::{ContactLaw, Scene, Shape};
+
+/// A mistake and the table and key where it shows.
+#[derive(Debug)]
+pub(super) struct Finding {
+    /// The table.
+    pub(super) table: String,
+    /// The key, or empty.
+    pub(super) key: String,
+    /// The table to name the line of where `table` is not written.
+    pub(super) otherwise: String,
+    /// What is wrong.
+    pub(super) mistake: Mistake,
+}
+
+impl Finding {
+    /// At a key of a table.
+    pub(super) fn at(table: String, key: &str, mistake: Mistake) -> Self {
+        Self { otherwise: table.clone(), table, key: key.to_owned(), mistake }
+    }
+}
+
+impl Scene {
+    /// Whether the scene can be run: laws have their properties, particles are where they may be.
+    ///
+    /// Scenes from a file have been asked already.
+    pub fn check(&self) -> Result<(), SceneErrors> {
+        let list: Vec<SceneError> = [laws(self), places(self)]
+            .into_iter()
+            .flatten()
+            .map(|Finding { table, key, mistake, .. }| SceneError {
+                file: String::new(),
+                line: None,
+                table,
+                key,
+                mistake,
+            })
+            .collect();
+        if list.is_empty() { Ok(()) } else { Err(SceneErrors { list }) }
+    }
+}
+
+/// Whether each two materials that can touch have a law, and the law its properties.
+pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = scene.contacts.iter().filter_map(objection).collect();
+    if scene.contacts.is_empty() {
+        return findings;
+    }
+    let count = scene.materials.len();
+    for (a, b) in touching(scene) {
+        let (first, second) = (&scene.materials[a], &scene.materials[b]);
+        let Some(law) = scene.contacts.iter().find(|law| law.between[a * count + b]) else {
+            let mistake = Mistake::NoLaw { a: first.name.clone(), b: second.name.clone() };
+            findings.push(Finding::at("contact".to_owned(), "", mistake));
+            continue;
+        };
+        let pair = MaterialPair { a: first, b: second, properties: &scene.pairs[a * count + b] };
+        for Missing { table, key } in missing(law, &pair) {
+            if findings.iter().any(|finding| finding.table == table && finding.key == key) {
+                continue;
+            }
+            let right = format!("[contact.{}] needs it for {} and {}", law.name, first.name, second.name);
+            let (key, otherwise) = (key.to_owned(), format!("contact.{}", law.name));
+            findings.push(Finding { table, key, otherwise, mistake: Mistake::Missing { right } });
+        }
+    }
+    findings
+}
+
+/// Pairs of materials (the first not after the second) of bodies that can touch.
+fn touching(scene: &Scene) -> Vec<(usize, usize)> {
+    let count = scene.materials.len();
+    let mut particles = vec![0_usize; count];
+    for particle in &scene.particles {
+        particles[particle.material.index()] += 1;
+    }
+    let mut walls = vec![false; count];
+    for boundary in &scene.boundaries {
+        if let Shape::Plane { material, .. } = boundary.shape {
+            walls[material.index()] = true;
+        }
+    }
+    let touch = |a: usize, b: usize| match a == b {
+        true => particles[a] > 1 || particles[a] > 0 && walls[a],
+        false => particles[a] > 0 && (particles[b] > 0 || walls[b]) || particles[b] > 0 && walls[a],
+    };
+    (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(|(a, b)| touch(*a, *b)).collect()
+}
+
+/// What the sub-models of a law miss for two materials, all of it.
+fn missing(law: &ContactLaw, pair: &MaterialPair) -> Vec<Missing> {
+    let (has_spring, has_dashpot) = law.tangential.visit(Parts);
+    let damping = has_dashpot && law.switches.damps_slip();
+    let ask = Ask(pair, FrictionNeeds { stiffness: has_spring, damping });
+    [law.normal.visit(ask), law.tangential.visit(ask), law.rolling.visit(ask), law.cohesion.visit(ask)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Asks a tangential model whether it has a spring, and a dashpot.
+struct Parts;
+
+impl TakeTangential for Parts {
+    type Output = (bool, bool);
+    fn take<M: Tangential>(self, _keys: &M::Keys) -> (bool, bool) {
+        (M::HAS_SPRING, M::HAS_DASHPOT)
+    }
+}
+
+/// Asks a sub-model for its coefficients, for what it misses.
+#[derive(Clone, Copy)]
+struct Ask<'a>(&'a MaterialPair<'a>, FrictionNeeds);
+
+impl TakeNormal for Ask<'_> {
+    type Output = Option<Missing>;
+    fn take<M: Normal>(self, keys: &M::Keys) -> Option<Missing> {
+        M::between(self.0, keys, self.1).err()
+    }
+}
+
+impl TakeTangential for Ask<'_> {
+    type Output = Option<Missing>;
+    fn take<M: Tangential>(self, keys: &M::Keys) -> Option<Missing> {
+        M::between(self.0, keys).err()
+    }
+}
+
+impl TakeRolling for Ask<'_> {
+    type Output = Option<Missing>;
+    fn take<M: Rolling>(self, keys: &M::Keys) -> Option<Missing> {
+        M::between(self.0, keys).err()
+    }
+}
+
+impl TakeCohesion for Ask<'_> {
+    type Output = Option<Missing>;
+    fn take<M: Cohesion>(self, keys: &M::Keys) -> Option<Missing> {
+        M::between(self.0, keys).err()
+    }
+}
+
+/// What speaks against the combination of a law's sub-models and switches.
+fn objection(law: &ContactLaw) -> Option<Finding> {
+    let objection = law.choice().objection()?;
+    let mut table = format!("contact.{}", law.name);
+    if !objection.table.is_empty() {
+        let model = match objection.table {
+            "normal" => law.normal.name(),
+            "tangential" => law.tangential.name(),
+            "rolling" => law.rolling.name(),
+            _ => law.cohesion.name(),
+        };
+        table = format!("{table}.{}.{model}", objection.table);
+    }
+    Some(Finding::at(table, objection.key, Mistake::Refused { message: objection.reason.to_owned() }))
+}
+
+/// Whether the particles are where they may be.
+pub(super) fn places(scene: &Scene) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    outside(scene, &mut findings);
+    planes(scene, &mut findings);
+    overlaps(scene, &mut findings);
+    findings.extend(idle(scene));
+    findings
+}
+
+/// Particles outside the domain.
+fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
+    let Some([lower, upper]) = scene.domain else { return };
+    let inside = |position: &[f64; 3]| (0..3).all(|axis| (lower[axis]..=upper[axis]).contains(&position[axis]));
+    let mut lost = scene.particles.iter().filter(|particle| !inside(&particle.position));
+    if let Some(first) = lost.next() {
+        let (id, position, more) = (first.id.0, first.position, lost.count());
+        let mistake = Mistake::Outside { id, position, more };
+        findings.push(Finding::at("domain".to_owned(), "box", mistake));
+    }
+}
+
+/// Particles behind planes or too deep in them.
+fn planes(scene: &Scene, findings: &mut Vec<Finding>) {
+    let permitted = scene.run.max_overlap;
+    for boundary in &scene.boundaries {
+        let Shape::Plane { material, point, normal } = &boundary.shape else { continue };
+        let height =
+            |position: &[f64; 3]| -> f64 { (0..3).map(|axis| (position[axis] - point[axis]) * normal[axis]).sum() };
+        let name = &boundary.name;
+        let (mut behind, mut deep) = ((0.0, 0, 0), (0.0, 0, 0));
+        for particle in &scene.particles {
+            let distance = height(&particle.position);
+            let overlap = 1.0 - distance / particle.radius;
+            if distance < 0.0 {
+                note(&mut behind, -distance, particle.id.0);
+            } else if overlap > permitted && governed(scene, material.index(), particle.material.index()) {
+                note(&mut deep, overlap, particle.id.0);
+            }
+        }
+        let table = format!("boundary.{name}");
+        if let (depth, id, count @ 1..) = behind {
+            let mistake = Mistake::Behind { id, boundary: name.clone(), depth, more: count - 1 };
+            findings.push(Finding::at(table, "plane", mistake));
+        } else if let (overlap, id, count @ 1..) = deep {
+            let mistake = Mistake::WallOverlap { id, boundary: name.clone(), overlap, permitted, more: count - 1 };
+            findings.push(Finding::at(table, "plane", mistake));
+        }
+    }
+}
+
+/// Keeps the worst, its number, and how many there are.
+fn note((worst, id, count): &mut (f64, u32, usize), value: f64, of: u32) {
+    *count += 1;
+    if value > *worst {
+        (*worst, *id) = (value, of);
+    }
+}
+
+/// Whether two materials have a contact law.
+fn governed(scene: &Scene, a: usize, b: usize) -> bool {
+    scene.contacts.iter().any(|law| law.between[a * scene.materials.len() + b])
+}
+
+/// The rigid group of each particle, counted from 1; 0 for free ones.
+fn rigid_groups(scene: &Scene) -> Vec<u32> {
+    let mut group = vec![0; scene.particles.len()];
+    for (number, boundary) in (1..).zip(&scene.boundaries) {
+        if let Shape::Particles { members } = &boundary.shape {
+            members.iter().for_each(|member| group[*member as usize] = number);
+        }
+    }
+    group
+}
+
+/// Particles too deep in one another.
+fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
+    if scene.contacts.is_empty() {
+        return;
+    }
+    let group = rigid_groups(scene);
+    let spheres: Vec<([f64; 3], f64)> =
+        scene.particles.iter().map(|particle| (particle.position, particle.radius)).collect();
+    let permitted = scene.run.max_overlap;
+    let bonded = Bonded::of(scene);
+    let mut worst: Option<(f64, u32, u32)> = None;
+    let mut count = 0;
+    for_each_overlap(&spheres, |i, j, overlap| {
+        let (i, j) = (i.min(j) as usize, i.max(j) as usize);
+        let (a, b) = (&scene.particles[i], &scene.particles[j]);
+        let relative = overlap / a.radius.min(b.radius);
+        let rigid = group[i] != 0 && group[i] == group[j];
+        if relative <= permitted || rigid || !governed(scene, a.material.index(), b.material.index()) {
+            return;
+        }
+        if bonded.holds(i, j, a.radius + b.radius - overlap) {
+            return;
+        }
+        count += 1;
+        // Ties go to the lower numbers, whatever the order of the search.
+        let this = (relative, a.id.0, b.id.0);
+        if worst.is_none_or(|(most, a, b)| relative > most || relative == most && (this.1, this.2) < (a, b)) {
+            worst = Some(this);
+        }
+    });
+    if let Some((overlap, a, b)) = worst {
+        let set = scene
+            .particles
+            .iter()
+            .find(|particle| particle.id.0 == b)
+            .and_then(|particle| scene.sets.get(particle.set.index()));
+        let table = set.map_or("particles".to_owned(), |set| format!("particles.{set}"));
+        let mistake = Mistake::Overlap { a, b, overlap, permitted, more: count - 1 };
+        findings.push(Finding::at(table, "", mistake));
+    }
+}

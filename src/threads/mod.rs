@@ -1,0 +1,8 @@
+//! Threads: who works on which piece of a loop. The bits of the result do not depend on it.
+
+mod context;
+mod helpers;
+mod workers;
+
+pub(crate) use context::{CHUNK, Context};
+pub(crate) use workers::Workers;
