@@ -128,6 +128,35 @@ fn a_bond_with_another_stiffness_or_strength_fails() {
     }
 }
 
+/// Bending that is rounding of the other engine (1e-20 N m) was measured against a torque that is rounding, too (1e-18
+/// N m), so that two right runs differed by percents. The scale of a torque that is round-off is force times radius.
+#[test]
+fn bending_that_is_round_off_is_measured_against_force_times_radius() {
+    let folder = Path::new(BOND).join("tension");
+    let scratch = Scratch::new("round-off");
+    let case = scratch.case(&fs::read_to_string(folder.join("case.json")).unwrap());
+    let rounding = |file: &str, columns: &[&str], value: &str| {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let mut lines = text.lines();
+        let header = lines.next().unwrap();
+        let places: Vec<usize> =
+            columns.iter().map(|column| header.split(',').position(|name| name == *column).unwrap()).collect();
+        let mut changed = header.to_owned();
+        for line in lines {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            for &place in &places {
+                cells[place] = value;
+            }
+            changed = format!("{changed}\n{}", cells.join(","));
+        }
+        fs::write(scratch.0.join(file), changed + "\n").unwrap();
+    };
+    rounding("samples.csv", &["tx", "ty", "tz"], "1e-18");
+    rounding("bonds.csv", &["ttx", "tty", "ttz"], "1e-20");
+    let report = replay(&case, &Options { free: true, ..Options::default() }).unwrap();
+    assert!(report.passed(), "{report}");
+}
+
 #[test]
 fn contacts_that_bonds_hide_are_replayed_and_without_the_flag_are_not() {
     let cases = find(&[HIDDEN.into()]).unwrap();

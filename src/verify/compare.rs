@@ -134,8 +134,9 @@ pub(super) fn length(a: [f64; 3]) -> f64 {
     (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt()
 }
 
-/// Largest magnitude of each quantity over all samples; of position, the largest displacement.
-fn scales(case: &Case, theirs: &Samples) -> [f64; QUANTITIES] {
+/// Largest magnitude of each quantity over all samples; of position, the largest displacement. An angular velocity or
+/// a torque that is round-off is measured against speed over radius or force times radius.
+pub(super) fn scales(case: &Case, theirs: &Samples) -> [f64; QUANTITIES] {
     let mut scales = [0.0_f64; QUANTITIES];
     let (_, start) = &theirs.rows[0];
     for (_, rows) in &theirs.rows {

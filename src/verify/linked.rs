@@ -1,6 +1,7 @@
 //! How far the bonds of two runs are apart.
 
-use super::compare::{Measure, distance, length};
+use super::case::Case;
+use super::compare::{Measure, distance, length, scales as scales_of_particles};
 use super::history::{History, PairRow};
 use super::samples::Samples;
 use super::trajectory::Sample;
@@ -40,8 +41,14 @@ fn ours_of(bond: &BondRecord) -> Quantities {
 
 impl LinkErrors {
     /// Compares with the stored bonds; a bond that is only in one of the runs counts in `same` alone.
-    pub(super) fn between(samples: &Samples, history: &History, ours: &[Sample], measure: &Measure) -> Self {
-        let scales = scales(samples, history);
+    pub(super) fn between(
+        case: &Case,
+        samples: &Samples,
+        history: &History,
+        ours: &[Sample],
+        measure: &Measure,
+    ) -> Self {
+        let scales = scales(case, samples, history);
         let (mut found, mut same) = ([0.0_f64; QUANTITIES], true);
         for (at, (step, _)) in samples.rows.iter().enumerate().filter(|(_, (step, _))| *step <= measure.until) {
             let ours = ours.get(at).map_or(&[][..], |sample| &sample.bonds);
@@ -77,18 +84,18 @@ impl fmt::Display for LinkErrors {
     }
 }
 
-/// Largest magnitude of each quantity over all samples.
-fn scales(samples: &Samples, history: &History) -> [f64; QUANTITIES] {
-    let (mut scales, mut force, mut torque) = ([0.0_f64; QUANTITIES], 0.0_f64, 0.0_f64);
+/// Largest magnitude of each quantity over all samples. A shear that is round-off is measured against the largest force
+/// of a pair; torsion and bending that are, against the torque of the particles, which is force times radius where it
+/// is round-off itself.
+fn scales(case: &Case, samples: &Samples, history: &History) -> [f64; QUANTITIES] {
+    let (mut scales, mut force) = ([0.0_f64; QUANTITIES], 0.0_f64);
     for pair in history.all() {
         force = force.max(length(pair.force));
         for (scale, part) in scales.iter_mut().zip(theirs_of(pair)) {
             *scale = scale.max(length(part));
         }
     }
-    for row in samples.rows.iter().flat_map(|(_, rows)| rows) {
-        torque = torque.max(length(row[4]));
-    }
+    let [.., torque] = scales_of_particles(case, samples);
     for (scale, other) in scales.iter_mut().zip([force, force, torque, torque]) {
         if *scale < ROUND_OFF * other {
             *scale = other;

@@ -100,7 +100,7 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let run = windows.or(free).unwrap_or_default();
     let errors = theirs.as_ref().map(|theirs| Errors::between(&case, theirs, &run.samples, &measure));
     let links = theirs.as_ref().zip(history.as_ref());
-    let links = links.map(|(theirs, history)| LinkErrors::between(theirs, history, &run.samples, &measure));
+    let links = links.map(|(theirs, history)| LinkErrors::between(&case, theirs, history, &run.samples, &measure));
     Ok(Report { name, errors, links, stopped: run.stopped })
 }
 
