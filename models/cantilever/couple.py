@@ -8,13 +8,11 @@ pushed. Writes couple.csv, ringing.csv and cantilever.png.
 import argparse
 import csv
 import math
-import subprocess
 from pathlib import Path
 
-import fmpy
 import numpy as np
 from beam import Beam
-from fmpy.fmi2 import FMU2Slave
+from cograin import Program, Unit
 from picture import draw
 
 HERE = Path(__file__).resolve().parent
@@ -33,41 +31,9 @@ def arguments():
     return parser.parse_args()
 
 
-class Unit:
-    """One unit in fmpy."""
-
-    def __init__(self, program, scene, output):
-        path = output / f"{scene}.fmu"
-        subprocess.run([program, "export", HERE / f"{scene}.toml", "-o", path], check=True)
-        description = fmpy.read_model_description(path)
-        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=fmpy.extract(path),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=scene,
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-
-    def read(self, *names):
-        """Values of outputs, by name."""
-        return self.slave.getReal([self.references[name] for name in names])
-
-    def step(self, interval, **inputs):
-        """Makes a communication step towards these inputs."""
-        for name, value in inputs.items():
-            self.slave.setReal([self.references[name]], [value])
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=interval)
-        self.time += interval
-
-    def close(self):
-        """Ends it."""
-        self.slave.terminate()
-        self.slave.freeInstance()
+def packaged(options, scene):
+    """A scene of this folder as a unit."""
+    return Unit(Program(options.program).export(HERE / f"{scene}.toml", options.output / f"{scene}.fmu"))
 
 
 def bend(unit, options, most=200, tolerance=1e-10):
@@ -77,14 +43,15 @@ def bend(unit, options, most=200, tolerance=1e-10):
         force = math.inf
         for _ in range(most):
             before = force
-            unit.step(options.interval, **{"tip.displacement.z": -deflection})
-            (force,) = unit.read("tip.mean_force.z")
+            unit["tip.displacement.z"] = -deflection
+            unit.step(options.interval)
+            force = unit["tip.mean_force.z"]
             if abs(force - before) <= tolerance * abs(force):
                 break
         else:
             raise RuntimeError(f"the force on the tip did not come to rest at a deflection of {deflection:g} m")
         names = ("tip.displacement.z", "tip.force.z", "tip.rotation.y", "clamp.moment.y", "tip.work")
-        yield [unit.time, *unit.read(*names)]
+        yield [unit.time, *unit.get(names)]
 
 
 def report_bending(beam, rows):
@@ -105,7 +72,7 @@ def ring(unit, interval, count):
     tip = np.empty(count)
     for k in range(count):
         unit.step(interval)
-        (tip[k],) = unit.read("tip.displacement.z")
+        tip[k] = unit["tip.displacement.z"]
     return tip
 
 
@@ -143,9 +110,8 @@ def main():
     options = arguments()
     options.output.mkdir(parents=True, exist_ok=True)
     beam = Beam()
-    unit = Unit(options.program, "scene", options.output)
-    rows = list(bend(unit, options))
-    unit.close()
+    with packaged(options, "scene") as unit:
+        rows = list(bend(unit, options))
     write(options.output / "couple.csv", COLUMNS, rows)
     report_bending(beam, rows)
     if not options.periods:
@@ -154,9 +120,8 @@ def main():
     chain = beam.chain_frequencies(MODES)
     step = 2.5e-7  # of ringing.toml [s]
     interval = step * math.floor(1.0 / (16.0 * chain[-1] * step))
-    unit = Unit(options.program, "ringing", options.output)
-    tip = ring(unit, interval, round(options.periods / (chain[0] * interval)))
-    unit.close()
+    with packaged(options, "ringing") as unit:
+        tip = ring(unit, interval, round(options.periods / (chain[0] * interval)))
     times = interval * np.arange(1, len(tip) + 1)
     write(options.output / "ringing.csv", ["time", "displacement"], zip(times, tip, strict=True))
     found = [frequency_near(tip, interval, guess) for guess in chain]

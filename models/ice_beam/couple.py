@@ -6,10 +6,9 @@ import subprocess
 import time
 from pathlib import Path
 
-import fmpy
 import numpy as np
+from cograin import Program, Unit
 from floating import Strip
-from fmpy.fmi2 import FMU2Slave
 
 HERE = Path(__file__).resolve().parent
 OUTPUTS = ["hull.force.x", "hull.force.z", "hull.mean_force.x", "hull.mean_force.z", "sea.mean_force.z", "hull.work"]
@@ -31,30 +30,12 @@ def arguments():
     return parser.parse_args()
 
 
-class Ice:
-    """The unit, driven by the way of the hull."""
-
-    def __init__(self, path):
-        description = fmpy.read_model_description(path)
-        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.unit = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=fmpy.extract(path),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="ice",
-        )
-        self.unit.instantiate()
-        self.unit.setupExperiment(startTime=0.0)
-        self.unit.enterInitializationMode()
-        self.unit.exitInitializationMode()
-
-    def step(self, begin, interval, displacement):
-        """Moves the hull there during the next interval; gives a row of COLUMNS."""
-        self.unit.setReal([self.references["hull.displacement.x"]], [displacement])
-        self.unit.doStep(currentCommunicationPoint=begin, communicationStepSize=interval)
-        reals = self.unit.getReal([self.references[name] for name in OUTPUTS + BOOK])
-        bonds = self.unit.getInteger([self.references[name] for name in COLUMNS[-2:]])
-        return [begin + interval, displacement, *reals, *bonds]
+def step(ice, end, interval, displacement):
+    """Moves the hull there during a communication step; gives a row of COLUMNS."""
+    ice["hull.displacement.x"] = displacement
+    ice.step(interval)
+    bonds = [ice[name] for name in COLUMNS[-2:]]
+    return [end, displacement, *ice.get(OUTPUTS + BOOK), *bonds]
 
 
 def framed(options):
@@ -114,13 +95,13 @@ def main():
     began, strip = time.monotonic(), Strip()
     frames = None if options.no_frames else framed(options)
     path = options.output / "ice_beam.fmu"
-    subprocess.run([options.program, "export", HERE / "scene.toml", "-o", path], check=True)
-    ice, rows = Ice(path), []
-    for step in range(round(options.end / options.interval)):
-        begin, end = step * options.interval, (step + 1) * options.interval
-        rows.append(ice.step(begin, options.interval, options.speed * end))
-        if step % 50 == 49:
+    ice, rows = Unit(Program(options.program).export(HERE / "scene.toml", path)), []
+    for count in range(1, round(options.end / options.interval) + 1):
+        end = count * options.interval
+        rows.append(step(ice, end, options.interval, options.speed * end))
+        if count % 50 == 0:
             print(f"t = {end:.2f} s: {rows[-1][5]:8.0f} N down on the edge, {rows[-1][-1]} bonds broken", flush=True)
+    ice.close()
     with open(options.output / "couple.csv", "w", newline="") as text:
         csv.writer(text).writerows([COLUMNS, *rows])
     peak = report(strip, rows)

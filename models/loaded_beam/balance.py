@@ -8,7 +8,7 @@ LAST = 0.05  # time at the end over which forces are averaged [s]
 
 def report(design, beam, rows, weight):
     """Prints the balances of a run and its error; gives the static reference of the floor's displacement [m]."""
-    time, height, _, mean_force, walls, jack, work, _ = np.array(rows).T
+    time, height, _, mean_force, walls, jack, work, _ = rows.T
     settled = time > time[-1] - LAST
     plate_weight = design.plate_mass * GRAVITY
     walls = walls[settled].mean()
@@ -32,8 +32,7 @@ def forces(floor, walls, weight):
 
 def sag(design, beam, height, reference):
     """The floor beside the static reference."""
-    unit_force = np.eye(len(beam.shape))[beam.middle]
-    elements = np.linalg.solve(beam.stiffness, unit_force)[beam.middle]
+    elements = beam.static_compliance
     print("\nstatic reference: (weight of bed and plate − vertical force on the walls) × compliance of the beam")
     print(f"  compliance {design.compliance:.6e} m/N; of the finite elements {elements:.6e} m/N")
     error = height / reference - 1.0
@@ -46,6 +45,6 @@ def energy(beam, work, of_grains, of_others):
     print(f"  interface: floor.work {work:+.12f}, −Σ mean_force·Δdisplacement {-of_grains:+.12f}")
     print(f"             difference {work + of_grains:+.1e}")
     print(f"  beam: work of the grains {of_grains:+.9f}, of jack and plate's weight {of_others:+.9f}")
-    print(f"        stored {beam.energy:.9f}, lost in damping {beam.damping_loss:.9f}")
-    residual = of_grains + of_others - beam.energy - beam.damping_loss
+    print(f"        stored {beam.energy:.9f}, lost in damping {beam.loss:.9f}")
+    residual = of_grains + of_others - beam.energy - beam.loss
     print(f"        residual {residual:+.1e}: what the tolerance of the exchange lets through")

@@ -7,20 +7,29 @@ import argparse
 import csv
 import gzip
 import math
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 from balance import report
 from beam import Beam, Design
-from fmpy.fmi1 import FMICallException
-from master import Explicit, Grains, Implicit
+from cograin import (
+    Coupling,
+    CouplingStopped,
+    GaussSeidel,
+    Interface,
+    Program,
+    Secant,
+    Step,
+    StepControl,
+    Unit,
+    stiffness,
+)
 from picture import draw
 
 HERE = Path(__file__).resolve().parent
 GRAVITY = 9.81  # [m/s²], as in scene.toml
+FLOOR = "floor.displacement.z"
 WALLS = [f"{wall}.force.z" for wall in ("x_low", "x_high", "y_low", "y_high")]
 COLUMNS = ["time", "displacement", "force", "mean_force", "wall_force", "jack_force", "work", "evaluations"]
 
@@ -43,10 +52,10 @@ def packaged(program, output):
     """The settled bed as a unit; made anew only when the scene, its particles or the program is newer."""
     unit, settled = output / "loaded_beam.fmu", output / "settled.checkpoint"
     scene = HERE / "scene.toml"
-    sources = [scene, HERE / "dense_20k.csv.gz", *(path for path in [Path(program)] if path.exists())]
+    sources = [scene, HERE / "dense_20k.csv.gz", *(path for path in [program.path] if path.exists())]
     if not unit.exists() or unit.stat().st_mtime < max(path.stat().st_mtime for path in sources):
-        subprocess.run([program, "settle", scene, "-o", settled], check=True)
-        subprocess.run([program, "export", scene, "--from", settled, "-o", unit], check=True)
+        print(program.settle(scene, settled), flush=True)
+        program.export(scene, unit, start=settled)
     return unit
 
 
@@ -61,31 +70,37 @@ def jack_force(load, now, lowering):
     return 0.5 * load * (1.0 + math.cos(math.pi * min(now / lowering, 1.0)))
 
 
-def couple(beam, grains, exchange, load, options, end):
-    """Rows of COLUMNS, one a communication step, as they come; `load` is what the jack carries at first [N]."""
+def coupling(design, bed, exchange, load, options):
+    """Beam and bed from the present state; `load` is what the jack carries at first [N]."""
     plate_weight = options.plate_mass * GRAVITY
-    interval = exchange.interval
-    for step in range(round(end / interval)):
-        jack = jack_force(load, (step + 0.5) * interval, options.lowering)
-        done = exchange.exchange(beam, grains, jack - plate_weight)
-        force, work, *walls = grains.read("floor.force.z", "floor.work", *WALLS)
-        yield [(step + 1) * interval, done.height, force, done.force, sum(walls), jack, work, done.evaluations]
+    beam = Beam(design, lambda now: jack_force(load, now, options.lowering) - plate_weight)
+    watched = ["floor.force.z", "floor.mean_force.z", "floor.work", *WALLS]
+    return Coupling(Interface(bed, FLOOR), beam, exchange, options.interval, watch=watched)
 
 
-def margins(design, grains, interval):
+def rows(record, load, options):
+    """Rows of COLUMNS, one a communication step."""
+    middles = record["time"] - 0.5 * record["length"]
+    jack = [jack_force(load, now, options.lowering) for now in middles]
+    walls = sum(record[name] for name in WALLS)
+    names = ["time", FLOOR, "floor.force.z", "floor.mean_force.z"]
+    columns = [*(record[name] for name in names), walls, jack, record["floor.work"], record["evaluations"]]
+    return np.array(columns).T
+
+
+def margins(design, bed, interval):
     """Prints how near the explicit exchange is to its limit; gives the interface stiffness at `interval`."""
     print("\nexplicit exchange: a change of the force comes back multiplied by the gain, and grows above 1")
     print("  interval   stiffness of the bed   compliance of the beam     gain")
-    stiffness = {}
+    stiffnesses = {}
     for trial in sorted({0.25 * interval, 0.5 * interval, interval, 2.0 * interval, 4.0 * interval}):
-        beam = Beam(design)
-        beam.prepare(trial)
-        stiffness[trial] = grains.interface_stiffness(trial)
-        gain = stiffness[trial] * beam.step_compliance
+        compliance = Beam(design).compliance(Step(0.0, trial, trial))[0, 0]
+        stiffnesses[trial] = stiffness(Interface(bed, FLOOR), trial)[0]
+        gain = stiffnesses[trial] * compliance
         verdict = "grows" if gain > 1.0 else "decays"
-        figures = f"{stiffness[trial]:12.4g} N/m   {beam.step_compliance:16.4g} m/N   {gain:10.2f} {verdict}"
+        figures = f"{stiffnesses[trial]:12.4g} N/m   {compliance:16.4g} m/N   {gain:10.2f} {verdict}"
         print(f"  {trial * 1e3:5.2f} ms   {figures}")
-    return stiffness[interval]
+    return stiffnesses[interval]
 
 
 def tenths(values):
@@ -93,41 +108,29 @@ def tenths(values):
     return [part for part in np.array_split(values, 10) if len(part)]
 
 
-def failing(design, grains, load, options):
+def failing(design, bed, load, options, weight):
     """Runs the explicit exchange until its oscillation is past doubt; gives its rows, and goes back."""
-    beam = Beam(design)
-    beam.prepare(options.interval)
-    exchange = Explicit(options.interval, grains.read("floor.force.z")[0])
-    weight = -exchange.force
-    grains.save()
-    rows = []
+    start = bed.save()
+    run = coupling(design, bed, GaussSeidel("mean"), load, options)
+    run.control = StepControl(halvings=0)
     ending = "it did not grow: this setting does not fail"
+    before = -weight
     try:
-        for row in couple(beam, grains, exchange, load, options, 0.2):
-            rows.append(row)
-            swing = abs(row[3] - rows[-2][3]) if len(rows) > 1 else 0.0
+        for row in run.steps(round(0.2 / options.interval) * options.interval):
+            swing, before = abs(row.force[0] - before), row.force[0]
             if swing > weight:
-                ending = f"stopped at t = {row[0]:.3f} s: the force on the floor jumps by {swing:.0f} N in one step"
+                ending = f"stopped at t = {row.time:.3f} s: the force on the floor jumps by {swing:.0f} N in one step"
                 break
-    except FMICallException as refusal:
-        ending = f"stopped after t = {rows[-1][0]:.3f} s: the unit refused the step (status {refusal.status})"
-    swings = np.abs(np.diff([row[3] for row in rows]))
+    except CouplingStopped as refusal:
+        ending = f"stopped after t = {run.time:.3f} s: {refusal}"
+    found = rows(run.record, load, options)
+    swings = np.abs(np.diff(found[:, 3]))
     print(f"\nexplicit exchange at {options.interval * 1e3:g} ms, for comparison")
     jumps = " ".join(f"{max(part):.3g}" for part in tenths(swings))
     print(f"  largest jump of the floor force in each tenth of that time [N]: {jumps}")
     print(f"  {ending}")
-    grains.restore()
-    return rows
-
-
-def progress(done, steps, evaluations, began):
-    """One line that says how far the run is; on a terminal it is written over and over."""
-    left = (time.monotonic() - began) * (steps / done - 1.0)
-    text = f"step {done} of {steps}, {evaluations / done:.2f} evaluations a step, {left:.0f} s left"
-    if sys.stderr.isatty():
-        print(f"\r{text}   ", end="\n" if done == steps else "", file=sys.stderr, flush=True)
-    elif done % 50 == 0:
-        print(text, file=sys.stderr, flush=True)
+    bed.restore(start)
+    return found.tolist()
 
 
 def main():
@@ -138,30 +141,27 @@ def main():
     packing = particles()
     weight = float(np.sum(4.0 / 3.0 * np.pi * packing[:, 3] ** 3 * packing[:, 4])) * GRAVITY
 
-    grains = Grains(packaged(options.program, options.output))
-    at_start = -grains.read("floor.force.z")[0]
+    bed = Unit(packaged(Program(options.program), options.output))
+    at_start = -bed["floor.force.z"]
     load = at_start + options.plate_mass * GRAVITY
     print(f"bed: {len(packing)} grains, weight {weight:.3f} N, {at_start:.3f} N on the floor at the start")
     print(f"beam: {1.0 / design.compliance:.4g} N/m at its middle, plate {options.plate_mass:g} kg")
-    stiffness = margins(design, grains, options.interval)
-    failed = [] if options.no_failure else failing(design, grains, load, options)
+    guess = margins(design, bed, options.interval)
+    failed = [] if options.no_failure else failing(design, bed, load, options, at_start)
 
     print(f"\nimplicit exchange at {options.interval * 1e3:g} ms: steps repeated until both sides agree", flush=True)
-    beam = Beam(design)
-    beam.prepare(options.interval)
-    exchange = Implicit(options.interval, stiffness, forces=[-at_start])
-    rows, evaluations, started = [], 0, time.monotonic()
-    for row in couple(beam, grains, exchange, load, options, options.end):
-        rows.append(row)
-        evaluations += row[-1]
-        progress(len(rows), round(options.end / options.interval), evaluations, started)
+    run = coupling(design, bed, Secant(stiffness=guess), load, options)
+    record = run.run(round(options.end / options.interval) * options.interval)
+    print(record.summary)
+    beam, found = run.partner, rows(record, load, options)
 
     with open(options.output / "couple.csv", "w", newline="") as text:
-        csv.writer(text).writerows([COLUMNS, *rows])
-    reference = report(design, beam, rows, weight)
-    draw(options.output / "loaded_beam.png", design, packing, beam, rows, failed, reference, weight)
+        csv.writer(text).writerows([COLUMNS, *found])
+    reference = report(design, beam, found, weight)
+    draw(options.output / "loaded_beam.png", design, packing, beam, found, failed, reference, weight)
     print(f"\n{options.output / 'couple.csv'} and {options.output / 'loaded_beam.png'} written")
-    print(f"{evaluations / len(rows):.2f} evaluations a step; {time.monotonic() - began:.0f} s in all")
+    print(f"{time.monotonic() - began:.0f} s in all")
+    bed.close()
 
 
 if __name__ == "__main__":

@@ -79,8 +79,7 @@ def side_view(axes, design, packing, beam):
 def deflected(design, beam, positions):
     """Deflection of the beam at positions from its middle [m]: linear between fine enough nodes."""
     nodes = np.linspace(-0.5, 0.5, design.elements + 1) * design.span
-    inner = beam.shape[beam.deflections]
-    return np.interp(positions, nodes, np.concatenate([[0.0], inner, [0.0]]))
+    return np.interp(positions, nodes, beam.field[beam.nodes])
 
 
 def sag_curve(axes, table, reference):

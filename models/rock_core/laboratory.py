@@ -10,7 +10,7 @@ from pathlib import Path
 
 import machine
 import numpy as np
-from fmpy.fmi1 import FMICallException
+from cograin import CouplingStopped, Program
 
 HERE = Path(__file__).resolve().parent
 
@@ -37,8 +37,7 @@ def arguments(text, name):
 def units(program, scene, output):
     """The specimen and the press as units."""
     output.mkdir(parents=True, exist_ok=True)
-    rock = output / f"{scene.parent.name}.fmu"
-    subprocess.run([program, "export", scene, "-o", rock], check=True)
+    rock = Program(program).export(scene, output / f"{scene.parent.name}.fmu")
     build = [sys.executable, "-m", "pythonfmu", "build", "-f", HERE / "press.py", "-d", output, "--handle-state"]
     subprocess.run(build, check=True)
     return rock, output / "Press.fmu"
@@ -56,8 +55,7 @@ def course(options, rock, press):
     while True:
         try:
             row = next(rows)
-        except (FMICallException, RuntimeError) as refusal:
-            # What the unit says of it stands above, from its logger.
+        except (CouplingStopped, RuntimeError) as refusal:
             after = f"after {taken[-1][0]:.6f} s" if taken else "at once"
             sys.exit(f"the coupled run stopped {after}: {refusal}")
         taken.append(row)

@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave
+from cograin import Coupling, GaussSeidel, Interface, Jacobi, Secant, Tolerance, Unit, UnitPartner
 
+PLATEN = "upper.displacement.z"
 READ = [
     "upper.force.z",
     "upper.mean_force.z",
@@ -22,110 +23,33 @@ READ = [
 ]
 PRESS = ["displacement", "crosshead", "drive_work", "specimen_work", "energy", "loss"]
 CONNECTIONS = [
-    (("press", "displacement"), ("rock", "upper.displacement.z")),
+    (("press", "displacement"), ("rock", PLATEN)),
     (("rock", "upper.mean_force.z"), ("press", "force")),
 ]
-COLUMNS = ["time", "upper.displacement.z", *READ, "bonds.broken", *(f"press.{name}" for name in PRESS)]
+COLUMNS = ["time", PLATEN, *READ, "bonds.broken", *(f"press.{name}" for name in PRESS)]
 
 
-class Unit:
-    """A unit in fmpy."""
-
-    def __init__(self, path, name, parameters=()):
-        description = fmpy.read_model_description(path)
-        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=fmpy.extract(path),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.slave.instantiate()
-        for key, value in dict(parameters).items():
-            self.set(key, value)
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        self.saved = None
-
-    def set(self, name, value):
-        """Sets a real variable."""
-        self.slave.setReal([self.references[name]], [value])
-
-    def reals(self, names):
-        """Values of real variables."""
-        return self.slave.getReal([self.references[name] for name in names])
-
-    def integer(self, name):
-        """Value of a whole variable."""
-        return self.slave.getInteger([self.references[name]])[0]
-
-    def step(self, name, value, time, interval):
-        """Sets an input and takes a communication step."""
-        self.set(name, value)
-        self.slave.doStep(currentCommunicationPoint=time, communicationStepSize=interval)
-
-    def save(self):
-        """Remembers the present state."""
-        if self.saved is not None:
-            self.slave.freeFMUstate(self.saved)
-        self.saved = self.slave.getFMUstate()
-
-    def restore(self):
-        """Goes back to it."""
-        self.slave.setFMUstate(self.saved)
+EXCHANGES = {
+    "sequential": lambda: GaussSeidel("mean"),
+    "parallel": lambda: Jacobi("mean"),
+    "implicit": lambda: Secant(tolerance=Tolerance(displacement=1e-12)),
+}
 
 
 def with_fmpy(rock, press, parameters, interval, exchange):
-    """A master of our own.
+    """Our own master.
 
     `sequential`: the press steps with the last mean force of the specimen, then the specimen goes where the press
     went. `parallel`: both step with what the other had at the beginning. `implicit`: a step is repeated from the
-    saved states until both sides agree on the mean force.
+    saved states until both sides agree to a picometre.
     """
-    rock, press = Unit(rock, "rock"), Unit(press, "press", parameters)
-    moves = {"sequential": sequential, "parallel": parallel, "implicit": implicit}[exchange]
-    force, count = 0.0, 0
-    while True:
-        force, moved = moves(rock, press, force, count * interval, interval)
-        count += 1
-        yield [count * interval, moved, *rock.reals(READ), rock.integer("bonds.broken"), *press.reals(PRESS)]
-
-
-def sequential(rock, press, force, time, interval):
-    """One after the other; gives the mean force and where the platen is in the specimen's unit."""
-    press.step("force", force, time, interval)
-    moved = press.reals(["displacement"])[0]
-    rock.step("upper.displacement.z", moved, time, interval)
-    return rock.reals(["upper.mean_force.z"])[0], moved
-
-
-def parallel(rock, press, force, time, interval):
-    """Both at once: the specimen's platen is one step behind."""
-    moved = press.reals(["displacement"])[0]
-    press.step("force", force, time, interval)
-    rock.step("upper.displacement.z", moved, time, interval)
-    return rock.reals(["upper.mean_force.z"])[0], moved
-
-
-def implicit(rock, press, force, time, interval, tolerance=1e-3, limit=20):
-    """Repeats the step until the force that the press got is the specimen's, to a tolerance [N].
-
-    The plain repetition converges as fast as the platen's inertia is large beside the specimen's stiffness.
-    """
-    for unit in (rock, press):
-        unit.save()
-    for _ in range(limit):
-        found, moved = sequential(rock, press, force, time, interval)
-        if abs(found - force) <= tolerance:
-            return found, moved
-        force = found
-        for unit in (rock, press):
-            unit.restore()
-    raise RuntimeError(
-        f"t = {time:.6f} s: {limit} evaluations left {abs(found - force):.1e} N between press and specimen; "
-        "a heavier platen or a shorter interval would help"
-    )
+    with Unit(rock, name="rock") as rock, Unit(press, name="press", parameters=parameters) as press:
+        platen = UnitPartner(press, force="force", displacement="displacement")
+        run = Coupling(Interface(rock, PLATEN), platen, EXCHANGES[exchange](), interval)
+        while True:
+            row = run.advance()
+            broken = rock["bonds.broken"]
+            yield [row.time, row.displacement[0], *rock.get(READ), broken, *press.get(PRESS)]
 
 
 def with_libcosimpy(rock, press, parameters, interval):

@@ -1,12 +1,11 @@
-"""Every model of the repository as a unit, and a small master to step it."""
+"""Every model of the repository as a unit, and a small way to step it."""
 
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-import fmpy
 import pytest
-from fmpy.fmi2 import FMU2Slave
+from cograin import Unit
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(scene.parent.name for scene in ROOT.glob("models/*/scene.toml"))
@@ -78,28 +77,24 @@ def course(model):
 
 
 class Slave:
-    """One instance of a unit in fmpy."""
+    """A unit whose driven axes all take the same displacement; `slave` is fmpy's own, for calls without help."""
 
     def __init__(self, path, name="unit"):
-        self.description = fmpy.read_model_description(path, validate=False)
-        self.variables = {variable.name: variable for variable in self.description.modelVariables}
-        self.inputs = [name for name, variable in self.variables.items() if variable.causality == "input"]
-        self.reals = [
-            name
-            for name, variable in self.variables.items()
-            if variable.causality == "output" and variable.type == "Real"
-        ]
-        self.slave = FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=fmpy.extract(path),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        self.time = 0.0
+        self.unit = Unit(path, name=name)
+        self.slave = self.unit.slave
+        self.variables = self.unit.variables
+        self.inputs = self.unit.names("input")
+        self.reals = [name for name in self.unit.names("output") if self.variables[name].type == "Real"]
+        self.close = self.unit.close
+
+    @property
+    def time(self):
+        """Where it stands [s]."""
+        return self.unit.time
+
+    @time.setter
+    def time(self, time):
+        self.unit.time = time
 
     def reference(self, name):
         """Value reference of a variable."""
@@ -107,24 +102,18 @@ class Slave:
 
     def set(self, name, value):
         """Sets a real input."""
-        self.slave.setReal([self.reference(name)], [value])
+        self.unit[name] = value
 
     def get(self, *names):
         """Values of real variables."""
-        return self.slave.getReal([self.reference(name) for name in names])
+        return self.unit.get(names).tolist()
 
     def step(self, displacement, interval):
         """Moves every driven axis there during one communication step; gives all real outputs."""
         for name in self.inputs:
             self.set(name, displacement)
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=interval)
-        self.time += interval
+        self.unit.step(interval, until=self.time + interval)
         return self.get(*self.reals)
-
-    def close(self):
-        """Ends the instance and unloads its library."""
-        self.slave.terminate()
-        self.slave.freeInstance()
 
 
 @pytest.fixture

@@ -1,0 +1,60 @@
+"""Couples units of grains with structures and with other units.
+
+A `Unit` is a ``.fmu``. An `Interface` is what of it is moved from outside, and what force answers. A `Partner` is the
+other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An `Exchange` says how
+both agree on a communication step: `GaussSeidel`, `Jacobi`, `Verlet`, or repeated: `FixedPoint`, `Aitken`, `Secant`,
+`QuasiNewton`, `Newton`. `couple` takes them through time and gives a `Record`.
+
+Forces are those *of the particles on the boundary*. SI units, radians.
+"""
+
+from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
+from cograin.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
+from cograin.implicit import Aitken, FixedPoint, Implicit, Newton, QuasiNewton, Secant
+from cograin.interface import Interface, stiffness
+from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
+from cograin.program import Program, ProgramError
+from cograin.record import Record, Row
+from cograin.step import Force, Outcome, Step
+from cograin.structure import Modal, Oscillator, Structure
+from cograin.tolerance import Tolerance
+from cograin.unit import State, StepDiscarded, Unit, UnitError
+
+__all__ = [
+    "Aitken",
+    "Coupling",
+    "CouplingStopped",
+    "Exchange",
+    "FixedPoint",
+    "Force",
+    "GaussSeidel",
+    "Implicit",
+    "Interface",
+    "Jacobi",
+    "KickedPartner",
+    "Modal",
+    "Newton",
+    "Oscillator",
+    "Outcome",
+    "Partner",
+    "Partners",
+    "Program",
+    "ProgramError",
+    "QuasiNewton",
+    "Record",
+    "Row",
+    "Secant",
+    "Side",
+    "State",
+    "Step",
+    "StepControl",
+    "StepDiscarded",
+    "Structure",
+    "Tolerance",
+    "Unit",
+    "UnitError",
+    "UnitPartner",
+    "Verlet",
+    "couple",
+    "stiffness",
+]

@@ -1,0 +1,259 @@
+"""The master: takes units and partner through time, shortens steps where it has to, and keeps the record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from cograin.exchange import Exchange, Side
+from cograin.partner import Partner
+from cograin.progress import Progress
+from cograin.record import Record, Row
+from cograin.step import Outcome, Step
+from cograin.unit import StepDiscarded
+from cograin.vector import Vector, vector
+
+#: What is recorded beside the columns of every record: names of a unit's variables, or names with what gives a value.
+Watch = Sequence[str] | Mapping[str, Callable[[], float]]
+
+
+@dataclass(frozen=True)
+class StepControl:
+    """When a communication step is repeated with half the length, and when the length grows again.
+
+    A step that a unit discards is always halved. ``energy`` is the largest interface energy residual that a step may
+    have \\[J\\]: the difference between the force and the one that the exchange began with, times the way. For an
+    explicit exchange that is the energy that the step makes or loses, for a repeated one what repeating took away.
+    ``unconverged`` says what becomes of a step whose sides do not agree. ``halvings`` is how often a length is halved.
+
+    Lengths are the given one over powers of two and stay on its grid: every multiple of the given length is met.
+    """
+
+    energy: float | None = None
+    unconverged: Literal["shorten", "accept", "stop"] = "shorten"
+    halvings: int = 6
+
+    def objection(self, outcome: Outcome, defect: float, level: int) -> str:
+        """Why a step is not accepted; empty where it is."""
+        if not outcome.converged and self.unconverged != "accept":
+            return outcome.reason
+        # The shortest step is taken as it is, and said.
+        if self.energy is not None and abs(defect) > self.energy and level < self.halvings:
+            return f"the interface energy residual is {defect:.1e} J, {self.energy:g} J are allowed"
+        return ""
+
+    def may_grow(self, defect: float) -> bool:
+        """Whether the next step may be twice as long: a residual goes with the square of the length, at least."""
+        return self.energy is None or abs(defect) < 0.125 * self.energy
+
+
+class CouplingStopped(Exception):
+    """The coupled run cannot go on. ``record`` holds the steps that were made."""
+
+    def __init__(self, message: str, record: Record) -> None:
+        super().__init__(message)
+        self.record = record
+
+
+class Coupling:
+    """Units and partner, coupled by an exchange with this communication step \\[s\\].
+
+    ``for row in coupling.steps(end)`` goes step by step, `run` to the end. ``record`` has every step.
+    """
+
+    def __init__(
+        self,
+        interface: Side,
+        partner: Partner,
+        exchange: Exchange,
+        step: float,
+        *,
+        control: StepControl | None = None,
+        watch: Watch = (),
+    ) -> None:
+        if not step > 0.0:
+            raise ValueError(f"step: {step}; above 0 is right")
+        self.interface = interface
+        self.partner = partner
+        self.exchange = exchange
+        self.step = step
+        self.control = control or StepControl()
+        self._watch = self._reading(watch)
+        names = interface.names
+        forces = [_force_name(name, exchange.force) for name in names]
+        self.record = Record(names, forces, list(self._watch))
+        self._start = interface.time
+        self._place = 0.0  # in steps since the start, exact
+        self._level = 0  # how often the step is halved now
+        self._force = interface.force(exchange.force)
+        self._before = self._force
+        self._lengths = (step, step)  # of the last two steps [s]
+        self._stood = vector(interface.displacement)  # where the books saw the interface last
+        self._worked = interface.work or 0.0
+        self._together()
+        can_save = exchange.repeats or self.control.energy is not None or not interface.keeps_itself
+        if can_save and not interface.can_restore:
+            raise ValueError(f"{type(exchange).__name__}: needs units that save and restore their states")
+        self._saves = can_save
+
+    @property
+    def time(self) -> float:
+        """Where the run stands \\[s\\]."""
+        return self._start + self.step * self._place
+
+    def run(self, end: float, *, progress: bool | None = None) -> Record:
+        """Goes on to a time; a line of progress is shown on a terminal, or as is said."""
+        shown = Progress(self.time, end, shown=progress)
+        for row in self.steps(end):
+            shown.step(row.time, row.evaluations)
+        return self.record
+
+    def steps(self, end: float) -> Iterator[Row]:
+        """The rows until a time, which is a multiple of the step, as they come."""
+        count = (end - self._start) / self.step
+        if abs(count - round(count)) > 1e-6:
+            raise ValueError(f"end: {end:g} s is {count:.6g} steps of {self.step:g} s; a whole number is right")
+        while self._place < round(count):
+            yield self.advance()
+
+    def advance(self) -> Row:
+        """Makes one step, as long as the control lets it be."""
+        refusals = evaluations = 0
+        while True:
+            step = self._next()
+            if self._saves:
+                self.interface.save()
+            outcome, defect, objection = self._attempt(step)
+            evaluations += outcome.evaluations if outcome else 0
+            if outcome is not None and not objection:
+                break
+            refusals += 1
+            if self._saves:
+                self.interface.restore()
+            self._shorten(step, outcome, objection)
+        refusals += outcome.refusals
+        row = self._commit(step, outcome, evaluations, refusals)
+        self._place += 0.5**self._level
+        aligned = (self._place * 2.0 ** (self._level - 1)).is_integer()
+        if self._level > 0 and aligned and self.control.may_grow(defect):
+            self._level -= 1
+        return row
+
+    def _next(self) -> Step:
+        """The step to try."""
+        part = 0.5**self._level
+        return Step(self.time, self._start + self.step * (self._place + part), self.step * part)
+
+    def _attempt(self, step: Step) -> tuple[Outcome | None, float, str]:
+        """What the units come to, its interface energy residual, and why it is not accepted."""
+        begin = self.interface.displacement
+        expected = self._expected(step.length)
+        try:
+            outcome = self.exchange.evaluate(self.interface, self.partner, step, self._force, expected)
+        except StepDiscarded as refusal:
+            return None, 0.0, str(refusal)
+        start = expected if self.exchange.repeats else outcome.partner_force
+        defect = float((outcome.force - start) @ (outcome.displacement - begin))
+        return outcome, defect, self.control.objection(outcome, defect, self._level)
+
+    def _expected(self, length: float) -> Vector:
+        """The force of the next step, if it goes on changing as it did."""
+        older, newer = self._lengths
+        share = (length + newer) / (newer + older) if self.exchange.force == "mean" else length / newer
+        return self._force + share * (self._force - self._before)
+
+    def _shorten(self, step: Step, outcome: Outcome | None, objection: str) -> None:
+        """Halves the step, or ends the run with the reason."""
+        stop = outcome is not None and not outcome.converged and self.control.unconverged == "stop"
+        if stop or self._level >= self.control.halvings:
+            shortest = f", the shortest allowed ({self.step:g} s halved {self.control.halvings} times)"
+            said = f"t = {step.begin:g} s, step of {step.length:g} s{'' if stop else shortest}: {objection}"
+            raise CouplingStopped(said, self.record)
+        self._level += 1
+
+    def _commit(self, step: Step, outcome: Outcome, evaluations: int, refusals: int) -> Row:
+        """The partner follows, and the row is written."""
+        before = self.partner.displacement
+        self.exchange.commit(self.partner, step, outcome)
+        on_partner = float(outcome.partner_force @ (self.partner.displacement - before))
+        on_units = self._work_on_units()
+        self._before, self._force = self._force, outcome.force
+        self._lengths = (self._lengths[1], step.length)
+        row = Row(
+            step.end,
+            step.length,
+            evaluations,
+            outcome.residual,
+            outcome.converged,
+            refusals,
+            on_units + on_partner,
+            abs(on_partner),
+            outcome.displacement,
+            outcome.force,
+            tuple(read() for read in self._watch.values()),
+            outcome.reason,
+        )
+        self.record.rows.append(row)
+        return row
+
+    def _work_on_units(self) -> float:
+        """Work on the particles in the step just made, by the units' account or by the mean force \\[J\\]."""
+        moved = self.interface.displacement - self._stood
+        self._stood = self.interface.displacement
+        total = self.interface.work
+        if total is None:
+            return -float(self.interface.force("mean") @ moved)
+        before, self._worked = self._worked, total
+        return total - before
+
+    def _together(self) -> None:
+        """Both sides have to stand at the same place."""
+        apart = np.abs(self.interface.displacement - self.partner.displacement)
+        if apart.shape != self._force.shape or len(self.interface.names) != len(self.partner.displacement):
+            there = len(self.partner.displacement)
+            raise ValueError(f"the interface has {len(self.interface.names)} directions, the partner {there}")
+        if apart.max() > 1e-9:
+            raise ValueError(
+                f"the interface stands at {self.interface.displacement}, the partner at {self.partner.displacement}; "
+                "give the unit its inputs at the start, or place the partner"
+            )
+
+    def _reading(self, watch: Watch) -> dict[str, Callable[[], float]]:
+        """What gives the value of each watched name."""
+        if isinstance(watch, Mapping):
+            return dict(watch)
+        units = {unit.name: unit for unit in getattr(self.interface, "units", [])}
+        found: dict[str, Callable[[], float]] = {}
+        for name in watch:
+            first, _, rest = name.partition(".")
+            several = len(units) > 1 and first in units
+            unit, variable = (units[first], rest) if several else (next(iter(units.values())), name)
+            unit.variable(variable)
+            found[name] = lambda unit=unit, variable=variable: unit.number(variable)  # type: ignore[misc]
+        return found
+
+
+def couple(
+    interface: Side,
+    partner: Partner,
+    exchange: Exchange,
+    *,
+    step: float,
+    end: float,
+    control: StepControl | None = None,
+    watch: Watch = (),
+    progress: bool | None = None,
+) -> Record:
+    """Couples units and partner from where they stand to a time \\[s\\]; gives the record."""
+    return Coupling(interface, partner, exchange, step, control=control, watch=watch).run(end, progress=progress)
+
+
+def _force_name(name: str, kind: str) -> str:
+    """Column of the force that answers a displacement."""
+    for given, answer in (("displacement", "force"), ("rotation", "moment")):
+        if f".{given}." in name:
+            return name.replace(f".{given}.", f".{'mean_' if kind == 'mean' else ''}{answer}.")
+    return f"{name}.{kind}_force"

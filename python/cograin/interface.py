@@ -1,0 +1,206 @@
+"""Where units of grains meet the other side: driven displacements in, forces out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cograin.step import Force, Step
+from cograin.unit import State, Unit
+from cograin.vector import Matrix, Vector, vector
+
+# What the particles give back for what they are given, by design.
+_ANSWERS = {
+    "displacement": ("force", "mean_force"),
+    "rotation": ("moment", "mean_moment"),
+}
+
+
+class _Part:
+    """The directions of one unit."""
+
+    def __init__(self, unit: Unit, displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...]):
+        self.unit = unit
+        self.displacements = displacements
+        self.forces: dict[Force, tuple[str, ...]] = {"end": ends, "mean": means}
+        for name in (*displacements, *ends, *means):
+            unit.variable(name)
+        boundaries = dict.fromkeys(name.split(".")[0] for name in displacements)
+        works = tuple(f"{boundary}.work" for boundary in boundaries)
+        self.works = works if all(name in unit.variables for name in works) else ()
+        self.state: State | None = None
+
+
+class Interface:
+    """Driven directions of the boundaries of one unit, and the forces that answer.
+
+    ``Interface(bed, "floor.displacement.z")`` couples one direction; give a list for several. The forces follow from
+    the names: ``floor.force.z`` at the end of a step, ``floor.mean_force.z`` as its mean; a unit of another tool that
+    calls them otherwise names them with ``forces`` and ``mean_forces``. Interfaces of several units are added:
+    ``Interface(left, "wall.displacement.x") + Interface(right, "wall.displacement.x")``.
+
+    ``substeps`` is how many communication steps of the units make one of the coupling; the boundary moves at constant
+    velocity through all of them.
+    """
+
+    def __init__(
+        self,
+        unit: Unit,
+        displacements: str | Sequence[str],
+        *,
+        forces: str | Sequence[str] | None = None,
+        mean_forces: str | Sequence[str] | None = None,
+        substeps: int = 1,
+    ) -> None:
+        inputs = _several(displacements)
+        ends = _several(forces) if forces is not None else tuple(_answer(name, 0) for name in inputs)
+        if mean_forces is not None:
+            means = _several(mean_forces)
+        else:
+            means = ends if forces is not None else tuple(_answer(name, 1) for name in inputs)
+        if not len(inputs) == len(ends) == len(means):
+            raise ValueError(f"{len(inputs)} displacements, {len(ends)} forces and {len(means)} mean forces: one each")
+        if substeps < 1:
+            raise ValueError(f"substeps: {substeps}; at least 1 is right")
+        self._parts = [_Part(unit, inputs, ends, means)]
+        self.substeps = substeps
+        self._refresh()
+
+    def __add__(self, other: Interface) -> Interface:
+        """The directions of both, in this order."""
+        if self.substeps != other.substeps:
+            raise ValueError(f"substeps: {self.substeps} and {other.substeps}; the same in all units is right")
+        both = Interface.__new__(Interface)
+        both._parts = [*self._parts, *other._parts]
+        both.substeps = self.substeps
+        both._refresh()
+        return both
+
+    def _refresh(self) -> None:
+        """Reads where the units stand."""
+        self.displacement = np.concatenate([part.unit.get(part.displacements) for part in self._parts])
+        self._saved = self.displacement
+
+    @property
+    def units(self) -> list[Unit]:
+        """Every unit, once."""
+        return list({id(part.unit): part.unit for part in self._parts}.values())
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the displacements; with the unit's name before them where there are several units."""
+        several = len(self.units) > 1
+        return [f"{part.unit.name}.{name}" if several else name for part in self._parts for name in part.displacements]
+
+    @property
+    def time(self) -> float:
+        """Where the units stand in time \\[s\\]."""
+        return self.units[0].time
+
+    @property
+    def keeps_itself(self) -> bool:
+        """Whether a step that a unit discards leaves all of them as they were, without help."""
+        return self.substeps == 1 and len(self.units) == 1
+
+    @property
+    def can_restore(self) -> bool:
+        """Whether every unit can go back to a saved state."""
+        return all(unit.can_restore for unit in self.units)
+
+    @property
+    def has_derivatives(self) -> bool:
+        """Whether every unit gives directional derivatives."""
+        return self.substeps == 1 and all(unit.has_derivatives for unit in self.units)
+
+    def force(self, kind: Force) -> Vector:
+        """Force of the particles on the interface: mean of the last step or at its end \\[N, N m\\]."""
+        return np.concatenate([part.unit.get(part.forces[kind]) for part in self._parts])
+
+    @property
+    def work(self) -> float | None:
+        """Work on the particles since the start, by the units' own account \\[J\\]; none without one."""
+        if not all(part.works for part in self._parts):
+            return None
+        # Two parts may name one boundary of one unit.
+        names = {(id(part.unit), name): part.unit for part in self._parts for name in part.works}
+        return sum(unit.number(name) for (_, name), unit in names.items())
+
+    def advance(self, displacement: Vector, step: Step, kind: Force) -> Vector:
+        """Moves the interface there during this step; gives the force of this kind \\[N, N m\\]."""
+        begin, impulse = self.displacement, np.zeros(len(displacement))
+        length = step.length / self.substeps
+        for count in range(1, self.substeps + 1):
+            last = count == self.substeps
+            place = displacement if last else begin + (displacement - begin) * (count / self.substeps)
+            self._move(place, length, step.end if last else step.begin + count * length)
+            if kind == "mean":
+                impulse += self.force("mean")
+        self.displacement = displacement
+        return impulse / self.substeps if kind == "mean" else self.force("end")
+
+    def _move(self, displacement: Vector, length: float, end: float) -> None:
+        """One step of every unit."""
+        first = 0
+        for part in self._parts:
+            part.unit.set(part.displacements, displacement[first : first + len(part.displacements)])
+            first += len(part.displacements)
+        for unit in self.units:
+            unit.step(length, until=end)
+
+    def save(self) -> None:
+        """Remembers the state of every unit; the one remembered before is forgotten."""
+        for part in {id(part.unit): part for part in self._parts}.values():
+            part.state = part.unit.save(part.state)
+        self._saved = self.displacement
+
+    def restore(self) -> None:
+        """Goes back to it."""
+        for part in {id(part.unit): part for part in self._parts}.values():
+            if part.state is not None:
+                part.unit.restore(part.state)
+        self.displacement = self._saved
+
+    def derivative(self, displacement: Vector, kind: Force) -> Matrix:
+        """Change of the force per change of displacement at the end of the next step, by the units \\[N/m\\]."""
+        blocks, first = np.zeros((len(displacement), len(displacement))), 0
+        for part in self._parts:
+            place = slice(first, first + len(part.displacements))
+            part.unit.set(part.displacements, displacement[place])
+            blocks[place, place] = part.unit.derivative(part.forces[kind], part.displacements)
+            first += len(part.displacements)
+        return blocks
+
+
+def _several(names: str | Sequence[str]) -> tuple[str, ...]:
+    """One name or many, as a tuple."""
+    return (names,) if isinstance(names, str) else tuple(names)
+
+
+def _answer(name: str, kind: int) -> str:
+    """Name of the force (0) or mean force (1) that answers a displacement."""
+    parts = name.split(".")
+    if len(parts) < 3 or parts[-2] not in _ANSWERS:
+        expected = "<boundary>.displacement.<axis> or <boundary>.rotation.<axis>"
+        raise ValueError(f"{name}: {expected} is right; name forces and mean_forces where a unit calls them otherwise")
+    return ".".join([*parts[:-2], _ANSWERS[parts[-2]][kind], parts[-1]])
+
+
+def stiffness(interface: Interface, length: float, displacement: float = 1e-6) -> Vector:
+    """Change of the mean force with which each direction resists a ramp of one step, from the present state \\[N/m\\].
+
+    Each direction is moved for itself by ``displacement`` \\[m, rad\\] and taken back.
+    """
+    begin = interface.units[0].time
+    step = Step(begin, begin + length, length)
+    interface.save()
+    place = vector(interface.displacement)
+    at_rest = interface.advance(place, step, "mean")
+    found = np.empty(len(place))
+    for direction in range(len(place)):
+        interface.restore()
+        moved = place.copy()
+        moved[direction] += displacement
+        found[direction] = (at_rest - interface.advance(moved, step, "mean"))[direction] / displacement
+    interface.restore()
+    return found

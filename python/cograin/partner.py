@@ -1,0 +1,144 @@
+"""The other side of an interface: what a partner has to offer, and partners that are not structures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, Protocol, runtime_checkable
+
+import numpy as np
+
+from cograin.step import Step
+from cograin.unit import State, Unit
+from cograin.vector import Matrix, Vector, vector
+
+
+class Partner(Protocol):
+    """What takes the force of the particles and says where the interface goes."""
+
+    @property
+    def displacement(self) -> Vector:
+        """Where the interface is now \\[m, rad\\]."""
+
+    def predict(self, force: Vector, step: Step) -> Vector:
+        """Where the interface would be at the end of this step under this force \\[N, N m\\]; changes nothing."""
+
+    def compliance(self, step: Step) -> Matrix:
+        """Change of that displacement per change of the force \\[m/N\\]."""
+
+    def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
+        """Takes the step under this force, and stands where the units stand: at this displacement."""
+
+
+@runtime_checkable
+class KickedPartner(Partner, Protocol):
+    """A partner that velocity Verlet can step: half a kick, drift, half a kick."""
+
+    def drift(self, force: Vector, step: Step) -> Vector:
+        """Where the interface is at the end after half a kick of the begin's force; changes nothing."""
+
+    def kick(self, begin: Vector, end: Vector, step: Step) -> None:
+        """Takes the step with the forces of its begin and end."""
+
+
+class UnitPartner:
+    """Another unit that takes forces and gives displacements, of any tool.
+
+    It has to restore states unless the exchange is explicit. Its compliance is needed by Newton's exchange and by a
+    tolerance of the force alone: ``compliance="differences"`` measures it from two predictions a direction, once for
+    each length of the step; the unit is then taken for linear.
+    """
+
+    def __init__(
+        self,
+        unit: Unit,
+        *,
+        force: str | Sequence[str],
+        displacement: str | Sequence[str],
+        compliance: Literal["differences"] | None = None,
+        perturbation: float = 1.0,
+    ) -> None:
+        self.unit = unit
+        self.forces = (force,) if isinstance(force, str) else tuple(force)
+        self.displacements = (displacement,) if isinstance(displacement, str) else tuple(displacement)
+        if len(self.forces) != len(self.displacements):
+            raise ValueError(f"{len(self.forces)} forces and {len(self.displacements)} displacements: one each")
+        self._by_differences = compliance == "differences"
+        self._perturbation = perturbation  # [N]
+        self._compliances: dict[float, Matrix] = {}
+        self._here = unit.get(self.displacements)
+        self._saved: State | None = None
+        self._tried: tuple[Step, Vector, Vector] | None = None
+
+    @property
+    def displacement(self) -> Vector:
+        """Where the interface is now \\[m, rad\\]."""
+        return self._here
+
+    def predict(self, force: Vector, step: Step) -> Vector:
+        """Takes the step on trial; the unit goes back before the next trial."""
+        if self._tried is not None:
+            tried, taken, found = self._tried
+            if tried == step and np.array_equal(taken, force):
+                return found
+            if self._saved is None:
+                raise ValueError(f"{self.unit.name}: cannot restore states, which a repeated step needs")
+            self.unit.restore(self._saved)
+        elif self.unit.can_restore:
+            self._saved = self.unit.save(self._saved)
+        self.unit.set(self.forces, force)
+        self.unit.step(step.length, until=step.end)
+        found = self.unit.get(self.displacements)
+        self._tried = (step, vector(force), found)
+        return found
+
+    def compliance(self, step: Step) -> Matrix:
+        """Change of the displacement per change of the force, by differences of the unit itself \\[m/N\\]."""
+        if not self._by_differences:
+            raise ValueError(f"{self.unit.name}: its compliance is not known; compliance='differences' measures it")
+        if step.length not in self._compliances:
+            size = len(self.forces)
+            none = self.predict(np.zeros(size), step)
+            columns = [self.predict(row, step) - none for row in self._perturbation * np.eye(size)]
+            self._compliances[step.length] = np.array(columns).T / self._perturbation
+        return self._compliances[step.length]
+
+    def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
+        """Keeps the trial with this force; the unit stands where it came to, at the displacement to the tolerance."""
+        self._here = self.predict(force, step)
+        self._tried = None
+
+
+class Partners:
+    """Several partners beside each other: the first takes the first directions of the interface, and so on."""
+
+    def __init__(self, *partners: Partner) -> None:
+        self.partners = partners
+        ends = np.cumsum([len(partner.displacement) for partner in partners])
+        self._places = [
+            slice(int(end) - len(one.displacement), int(end)) for one, end in zip(partners, ends, strict=True)
+        ]
+
+    def _each(self) -> Any:
+        return zip(self.partners, self._places, strict=True)
+
+    @property
+    def displacement(self) -> Vector:
+        """Where the interface is now \\[m, rad\\]."""
+        return np.concatenate([partner.displacement for partner in self.partners])
+
+    def predict(self, force: Vector, step: Step) -> Vector:
+        """What each would do."""
+        return np.concatenate([partner.predict(force[place], step) for partner, place in self._each()])
+
+    def compliance(self, step: Step) -> Matrix:
+        """Blocks of each \\[m/N\\]."""
+        size = self._places[-1].stop
+        found = np.zeros((size, size))
+        for partner, place in self._each():
+            found[place, place] = partner.compliance(step)
+        return found
+
+    def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
+        """Every one takes the step."""
+        for partner, place in self._each():
+            partner.advance(force[place], displacement[place], step)

@@ -1,0 +1,40 @@
+"""The cograin command: settles scenes and packages them as units."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+
+class ProgramError(Exception):
+    """The command ended with an error; the message is its own."""
+
+
+class Program:
+    """The command ``cograin``, or the one at this path."""
+
+    def __init__(self, path: str | Path = "cograin") -> None:
+        self.path = Path(path)
+
+    def __call__(self, *arguments: str | Path) -> str:
+        """Runs the command with these arguments; gives what it printed."""
+        # A path from here is no name to look for, however it is written.
+        command = str(self.path.resolve()) if os.sep in str(self.path) else str(self.path)
+        try:
+            done = subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, check=False)
+        except FileNotFoundError:
+            raise ProgramError(f"{self.path}: not found; build it with cargo build --release, or name it") from None
+        if done.returncode:
+            raise ProgramError(f"cograin {' '.join(map(str, arguments))}: {(done.stderr or done.stdout).strip()}")
+        return done.stdout
+
+    def settle(self, scene: str | Path, checkpoint: str | Path) -> str:
+        """Brings a scene to rest; gives what is said of it."""
+        return self("settle", scene, "-o", checkpoint)
+
+    def export(self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None) -> Path:
+        """Packages a scene as a unit, from a settled state where one is given; gives the unit's path."""
+        settled = () if start is None else ("--from", start)
+        self("export", scene, *settled, "-o", unit)
+        return Path(unit)

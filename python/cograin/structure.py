@@ -1,0 +1,312 @@
+"""Linear structures: mass–spring–dashpots, modal models, finite elements. Average acceleration or velocity Verlet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
+from scipy.sparse.linalg import splu
+
+from cograin.step import Step
+from cograin.vector import Matrix, Vector, is_sparse, vector
+
+#: Forces of the outside on the degrees of freedom at a time [s] [N].
+Load = Callable[[float], ArrayLike]
+
+
+class Structure:
+    """M ẍ + C ẋ + K x = forces of the particles + ``load``, in the degrees of freedom x.
+
+    ``mass``, ``stiffness`` and ``damping`` are numbers, diagonals, or matrices, dense or sparse, as scikit-fem
+    assembles them. ``at`` says which degrees of freedom the interface moves (all of them where it is not given), or
+    is a matrix with a column for each direction of the interface: the displacement there is atᵀ x, and a force f
+    there acts as at f. ``fixed`` are degrees of freedom that stay 0. ``load(time)`` are the other forces on all
+    degrees of freedom.
+
+    The time stepping is Newmark's average acceleration, which is the midpoint rule: the step obeys
+    M (v̄ − v₀) 2/H = f − C v̄ − K (x₀ + v̄ H/2) with the mean velocity v̄. Force and velocity count with their means,
+    the very pair that a unit exchanges, so that energy is kept but for the dashpots. A structure that has neither mass
+    nor damping is static: x = K⁻¹ f at the end of the step. ``substeps`` of equal length make a communication step,
+    all under its one force.
+
+    After a step the interface stands where the unit stands. What is left of the displacement, at most the tolerance of
+    the exchange, goes into the structure along its own response to the interface's force; momentum is not touched.
+    """
+
+    def __init__(
+        self,
+        mass: ArrayLike | Any,
+        stiffness: ArrayLike | Any,
+        damping: ArrayLike | Any = 0.0,
+        *,
+        at: ArrayLike | None = None,
+        fixed: ArrayLike | None = None,
+        load: Load | None = None,
+        substeps: int = 1,
+    ) -> None:
+        size = max(_size(mass), _size(stiffness), _size(damping))
+        self.degrees_of_freedom = size
+        keep = np.setdiff1d(np.arange(size), np.asarray([] if fixed is None else fixed, dtype=int))
+        self.free = keep  # places of the free degrees of freedom among all
+        sparse = any(is_sparse(matrix) for matrix in (mass, stiffness, damping))
+        self.mass, self.stiffness, self.damping = (
+            _matrix(each, size, keep, sparse) for each in (mass, stiffness, damping)
+        )
+        self.at = _directions(at, size)[keep]
+        self._sparse = sparse
+        self._load = load
+        if substeps < 1:
+            raise ValueError(f"substeps: {substeps}; at least 1 is right")
+        self.substeps = substeps
+        self.static = not _any(self.mass) and not _any(self.damping)
+        self.position = np.zeros(len(keep))  # of the free degrees of freedom [m]
+        self.velocity = np.zeros(len(keep))  # [m/s]
+        self.work = 0.0  # of the particles [J]
+        self.load_work = 0.0  # of the load [J]
+        self.loss = 0.0  # in the dashpots, and in the jumps of a static structure [J]
+        self.correction = 0.0  # left by displacements that did not agree to rounding [J]
+        self._solvers: dict[float, Any] = {}
+        self._responses: dict[float, tuple[Matrix, Matrix]] = {}
+        self._unforced: tuple[Step, Vector] | None = None
+        self._mass_solver: Any = None
+
+    # What it is and does
+
+    @property
+    def displacement(self) -> Vector:
+        """Where the interface is now \\[m, rad\\]."""
+        return vector(self.at.T @ self.position)
+
+    @property
+    def energy(self) -> float:
+        """Kinetic and elastic energy \\[J\\]."""
+        kinetic = self.velocity @ (self.mass @ self.velocity)
+        return 0.5 * float(kinetic + self.position @ (self.stiffness @ self.position))
+
+    @property
+    def field(self) -> Vector:
+        """Displacements of all degrees of freedom, fixed ones too \\[m, rad\\]."""
+        everywhere = np.zeros(self.degrees_of_freedom)
+        everywhere[self.free] = self.position
+        return everywhere
+
+    def place(self, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
+        """Puts the free degrees of freedom there \\[m\\], with these velocities \\[m/s\\]."""
+        if position is not None:
+            self.position = np.broadcast_to(vector(position), self.position.shape).copy()
+        if velocity is not None:
+            self.velocity = np.broadcast_to(vector(velocity), self.velocity.shape).copy()
+        self._unforced = None
+
+    # The partner of an exchange
+
+    def predict(self, force: Vector, step: Step) -> Vector:
+        """Where the interface would be at the end of this step under this force; changes nothing."""
+        return vector(self.at.T @ self._end_unforced(step) + self.compliance(step) @ force)
+
+    def compliance(self, step: Step) -> Matrix:
+        """Change of that displacement per change of the force \\[m/N\\]."""
+        return self._response(step.length)[1]
+
+    def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
+        """Takes the step under this force, and stands at this displacement of the interface."""
+        begin, loss = self.displacement, 0.0
+        position, velocity = self.position, self.velocity
+        applied = self.at @ force
+        for middle, length in self._parts(step):
+            load = self._loads(middle)
+            mean = self._mean_velocity(position, velocity, applied + load, length)
+            before, position = position, position + length * mean
+            velocity = np.zeros_like(mean) if self.static else 2.0 * mean - velocity
+            moved = position - before
+            if self.static:
+                loss += 0.5 * float(moved @ (self.stiffness @ moved))
+            else:
+                loss += length * float(mean @ (self.damping @ mean))
+            self.load_work += float(load @ moved)
+        self.position, self.velocity, self._unforced = position, velocity, None
+        self.loss += loss
+        self._stand(displacement, force, step)
+        self.work += float(force @ (displacement - begin))
+
+    def _stand(self, displacement: Vector, force: Vector, step: Step) -> None:
+        """Moves the interface to where the units are; the energy that this makes or takes is booked."""
+        off = displacement - self.displacement
+        if not off.any():
+            return
+        reached, compliance = self._response(step.length)
+        before = self.energy
+        self.position = self.position + reached @ np.linalg.solve(compliance, off)
+        self.correction += self.energy - before - float(force @ off)
+
+    # Velocity Verlet
+
+    def drift(self, force: Vector, step: Step) -> Vector:
+        """Where the interface is at the end after half a kick of the begin's force; changes nothing."""
+        return vector(self.at.T @ (self.position + step.length * self._half_kicked(force, step)))
+
+    def kick(self, begin: Vector, end: Vector, step: Step) -> None:
+        """Takes the step with the forces of its begin and end."""
+        half, before = self._half_kicked(begin, step), self.displacement
+        self.position = self.position + step.length * half
+        self._unforced = None
+        self.velocity = half + 0.5 * step.length * self._acceleration(self.position, half, end, step.end)
+        self.loss += step.length * float(half @ (self.damping @ half))
+        loads = 0.5 * (self._loads(step.begin) + self._loads(step.end))
+        self.load_work += step.length * float(loads @ half)
+        self.work += 0.5 * float((begin + end) @ (self.displacement - before))
+
+    def _half_kicked(self, force: Vector, step: Step) -> Vector:
+        kick = self._acceleration(self.position, self.velocity, force, step.begin)
+        return self.velocity + 0.5 * step.length * kick
+
+    def _acceleration(self, position: Vector, velocity: Vector, force: Vector, time: float) -> Vector:
+        if self._mass_solver is None:
+            self._mass_solver = self._factorised(self.mass, "velocity Verlet needs a mass at every degree of freedom")
+        forces = self.at @ force + self._loads(time) - self.damping @ velocity - self.stiffness @ position
+        return vector(self._mass_solver(forces))
+
+    # The midpoint rule
+
+    def _parts(self, step: Step) -> list[tuple[float, float]]:
+        """Middle and length of each substep \\[s\\]."""
+        length = step.length / self.substeps
+        return [(step.begin + (count + 0.5) * length, length) for count in range(self.substeps)]
+
+    def _loads(self, time: float) -> Vector:
+        """Forces of the outside on the free degrees of freedom \\[N\\]."""
+        if self._load is None:
+            return np.zeros(len(self.free))
+        return vector(np.broadcast_to(vector(self._load(time)), (self.degrees_of_freedom,))[self.free])
+
+    def _mean_velocity(self, position: Vector, velocity: Vector, forces: Vector, length: float) -> Vector:
+        """Mean velocity of a substep under these forces \\[m/s\\]."""
+        half = 0.5 * length
+        if length not in self._solvers:
+            matrix = self.stiffness if self.static else self.mass + half * self.damping + half * half * self.stiffness
+            self._solvers[length] = self._factorised(matrix, "the structure has nothing that holds it")
+        solve = self._solvers[length]
+        if self.static:
+            return vector((solve(forces) - position) / length)
+        return vector(solve(self.mass @ velocity + half * (forces - self.stiffness @ position)))
+
+    def _end_unforced(self, step: Step) -> Vector:
+        """Positions at the end of the step without a force of the particles \\[m\\]."""
+        if self._unforced is None or self._unforced[0] != step:
+            position, velocity = self.position, self.velocity
+            for middle, length in self._parts(step):
+                mean = self._mean_velocity(position, velocity, self._loads(middle), length)
+                position, velocity = position + length * mean, 2.0 * mean - velocity
+            self._unforced = (step, position)
+        return self._unforced[1]
+
+    def _response(self, length: float) -> tuple[Matrix, Matrix]:
+        """Positions at the end per unit force on the interface: all, and those of the interface \\[m/N\\]."""
+        if length not in self._responses:
+            columns = []
+            for direction in self.at.T:
+                position = velocity = np.zeros(len(self.free))
+                for _, part in self._parts(Step(0.0, length, length)):
+                    mean = self._mean_velocity(position, velocity, direction, part)
+                    position, velocity = position + part * mean, 2.0 * mean - velocity
+                columns.append(position)
+            reached = np.array(columns).T
+            self._responses[length] = (reached, self.at.T @ reached)
+        return self._responses[length]
+
+    def _factorised(self, matrix: Any, otherwise: str) -> Any:
+        """Solves with a matrix; `otherwise` is said where it is singular."""
+        if self._sparse:
+            try:
+                return splu(matrix.tocsc()).solve
+            except RuntimeError:
+                raise ValueError(f"{otherwise}: the matrix is singular") from None
+        if len(matrix) == 1:
+            if matrix[0, 0] == 0.0:
+                raise ValueError(f"{otherwise}: the matrix is singular")
+            return lambda forces: forces / matrix[0, 0]
+        try:
+            cholesky = cho_factor(matrix)
+            return lambda forces: cho_solve(cholesky, forces)
+        except np.linalg.LinAlgError:
+            pass
+        factors = lu_factor(matrix)
+        if not np.all(np.abs(np.diag(factors[0])) > 0.0):
+            raise ValueError(f"{otherwise}: the matrix is singular")
+        return lambda forces: lu_solve(factors, forces)
+
+
+class Oscillator(Structure):
+    """A mass on a spring and a dashpot; the mass may be 0. Load and displacement are in its one direction."""
+
+    def __init__(
+        self,
+        mass: float,
+        stiffness: float,
+        damping: float = 0.0,
+        *,
+        load: Load | None = None,
+        substeps: int = 1,
+    ) -> None:
+        super().__init__(mass, stiffness, damping, load=load, substeps=substeps)
+
+
+class Modal(Structure):
+    """A modal model: modes of these frequencies \\[Hz\\], each with its damping ratio, mass \\[kg\\] and shape.
+
+    ``shapes`` has a row for each mode and a column for each direction of the interface: how far a unit of the mode
+    moves it.
+    """
+
+    def __init__(
+        self,
+        frequencies: ArrayLike,
+        shapes: ArrayLike,
+        *,
+        masses: ArrayLike = 1.0,
+        damping_ratios: ArrayLike = 0.0,
+        substeps: int = 1,
+    ) -> None:
+        angular = 2.0 * np.pi * vector(frequencies)
+        mass = np.broadcast_to(vector(masses), angular.shape)
+        ratio = np.broadcast_to(vector(damping_ratios), angular.shape)
+        at = np.asarray(shapes, dtype=float).reshape(len(angular), -1)
+        super().__init__(mass, mass * angular**2, 2.0 * ratio * mass * angular, at=at, substeps=substeps)
+
+
+def _size(matrix: Any) -> int:
+    """Degrees of freedom that a matrix, a diagonal or a number speaks of."""
+    return int(matrix.shape[0]) if is_sparse(matrix) else (1 if np.ndim(matrix) == 0 else len(np.asarray(matrix)))
+
+
+def _matrix(matrix: Any, size: int, keep: Any, sparse: bool) -> Any:
+    """The matrix of the free degrees of freedom."""
+    import scipy.sparse
+
+    if not is_sparse(matrix):
+        dense = np.array(matrix, dtype=float)
+        matrix = dense if dense.ndim == 2 else np.diag(np.broadcast_to(dense, (size,)))
+    if matrix.shape != (size, size):
+        raise ValueError(f"a matrix of {matrix.shape[0]} × {matrix.shape[1]} beside {size} degrees of freedom")
+    if sparse:
+        return scipy.sparse.csc_matrix(matrix)[keep][:, keep].tocsc()
+    return matrix[np.ix_(keep, keep)]
+
+
+def _directions(at: ArrayLike | None, size: int) -> Matrix:
+    """A column for each direction of the interface."""
+    if at is None:
+        return np.eye(size)
+    found = np.asarray(at)
+    if found.ndim == 2:
+        return found.astype(float)
+    columns = np.atleast_1d(found).astype(int)
+    return np.eye(size)[:, columns]
+
+
+def _any(matrix: Any) -> bool:
+    """Whether a matrix has an entry other than 0."""
+    return bool(matrix.count_nonzero() if is_sparse(matrix) else np.any(matrix))

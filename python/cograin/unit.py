@@ -1,0 +1,302 @@
+"""One unit: an FMU for co-simulation, by names instead of references, with states that can be taken back."""
+
+from __future__ import annotations
+
+import ctypes
+import logging
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import fmpy
+import fmpy.fmi2
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from cograin.vector import Matrix, Vector
+
+_log = logging.getLogger("cograin")
+_DISCARD = 2  # status of a step that was not made
+
+Value = float | int | bool | str
+
+
+class UnitError(Exception):
+    """A call that the unit refused. The message names the unit and gives its own reason."""
+
+
+class StepDiscarded(UnitError):
+    """A communication step that the unit could not make; its state is that of the last good one."""
+
+    def __init__(self, message: str, reason: str, last_successful_time: float) -> None:
+        super().__init__(message)
+        #: What the unit says of it.
+        self.reason = reason
+        #: Time of the state that the unit is in \\[s\\].
+        self.last_successful_time = last_successful_time
+
+
+class State:
+    """A saved state of a unit. It belongs to the instance that gave it out and dies with it."""
+
+    __slots__ = ("handle", "time")
+
+    def __init__(self, handle: ctypes.c_void_p, time: float) -> None:
+        self.handle = handle
+        self.time = time
+
+
+class Unit:
+    """An instance of an FMU 2.0 for co-simulation, initialised and ready to step.
+
+    A variable is read and set by its name: ``unit["floor.work"]``, ``unit["floor.displacement.z"] = -1e-3``; many at
+    once with `get` and `set`. A unit is a context manager: leaving it ends the instance and unloads its library.
+
+    ``parameters`` are set before the initialisation, ``inputs`` within it (a driven boundary is then put there without
+    motion). ``start`` is the time at which it begins \\[s\\].
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        *,
+        name: str | None = None,
+        parameters: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        start: float = 0.0,
+    ) -> None:
+        self.path = Path(path)
+        self.name = name or self.path.stem
+        self.description = fmpy.read_model_description(str(path), validate=False)
+        if self.description.coSimulation is None:
+            raise UnitError(f"{self.path}: offers no co-simulation; a unit for co-simulation is needed")
+        self.variables: dict[str, Any] = {variable.name: variable for variable in self.description.modelVariables}
+        self._groups: dict[tuple[str, ...], tuple[Any, Any, int]] = {}
+        self._messages: list[str] = []
+        self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
+        fmpy.extract(str(path), unzipdir=self._folder.name)
+        self.slave = fmpy.fmi2.FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=self._folder.name,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName=self.name,
+        )
+        self._callbacks = self._listening()
+        self.slave.instantiate(callbacks=self._callbacks)
+        self._open = True
+        self._initialise(parameters or {}, inputs or {}, start)
+
+    def _listening(self) -> Any:
+        """Callbacks that keep what the unit says until somebody asks."""
+
+        def listen(_environment: Any, _name: bytes, status: int, category: bytes, message: bytes) -> None:
+            text = (message or b"").decode(errors="replace")
+            if status >= _DISCARD:
+                self._messages.append(text)
+            else:
+                _log.info("%s: %s", self.name, text)
+
+        callbacks = fmpy.fmi2.fmi2CallbackFunctions()
+        callbacks.logger = fmpy.fmi2.fmi2CallbackLoggerTYPE(listen)
+        callbacks.allocateMemory = fmpy.fmi2.defaultCallbacks.allocateMemory
+        callbacks.freeMemory = fmpy.fmi2.defaultCallbacks.freeMemory
+        return callbacks
+
+    def _initialise(self, parameters: Mapping[str, Value], inputs: Mapping[str, Value], start: float) -> None:
+        """From the new or reset instance to one that can step."""
+        for key, value in parameters.items():
+            self[key] = value
+        self._call(self.slave.setupExperiment, startTime=start)
+        self._call(self.slave.enterInitializationMode)
+        for key, value in inputs.items():
+            self[key] = value
+        self._call(self.slave.exitInitializationMode)
+        self.time = start
+        self._origin, self._length, self._count = start, 0.0, 0
+
+    def _call(self, function: Any, *arguments: Any, **named: Any) -> Any:
+        """Calls the unit; its refusal becomes an exception with its own words."""
+        self._messages.clear()
+        try:
+            return function(*arguments, **named)
+        except FMICallException as refusal:
+            reason = "; ".join(self._messages) or "it gives no reason"
+            raise UnitError(f"{self.name}: {refusal.function}: {reason}") from None
+
+    # What it is made of
+
+    def names(self, causality: str) -> list[str]:
+        """Names of all variables of one causality: ``input``, ``output``, ``parameter``, in the order of the unit."""
+        return [name for name, variable in self.variables.items() if variable.causality == causality]
+
+    @property
+    def can_restore(self) -> bool:
+        """Whether its states can be saved and restored."""
+        return bool(self.description.coSimulation.canGetAndSetFMUstate)
+
+    @property
+    def has_derivatives(self) -> bool:
+        """Whether it gives directional derivatives."""
+        return bool(self.description.coSimulation.providesDirectionalDerivative)
+
+    def variable(self, name: str) -> Any:
+        """The description of a variable; an unknown name is answered with the nearest one."""
+        try:
+            return self.variables[name]
+        except KeyError:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, self.variables, n=1)
+            hint = f"; the nearest is {near[0]}" if near else ""
+            raise UnitError(f"{self.name}: no variable {name}{hint}") from None
+
+    # Values
+
+    def _group(self, names: tuple[str, ...]) -> tuple[Any, Any, int]:
+        """References and room for the values of real variables, made once."""
+        found = self._groups.get(names)
+        if found is None:
+            for name in names:
+                if self.variable(name).type != "Real":
+                    raise UnitError(f"{self.name}: {name} is of type {self.variable(name).type}; a Real is needed")
+            references = (ctypes.c_uint32 * len(names))(*(self.variables[name].valueReference for name in names))
+            found = self._groups[names] = (references, (ctypes.c_double * len(names))(), len(names))
+        return found
+
+    def get(self, names: Sequence[str]) -> Vector:
+        """Values of real variables, in SI units."""
+        references, room, count = self._group(tuple(names))
+        self._call(self.slave.fmi2GetReal, self.slave.component, references, count, room)
+        return np.array(room)
+
+    def set(self, names: Sequence[str], values: Iterable[float]) -> None:
+        """Sets real variables: all of them or none."""
+        references, room, count = self._group(tuple(names))
+        room[:] = [float(value) for value in values]
+        self._call(self.slave.fmi2SetReal, self.slave.component, references, count, room)
+
+    def __getitem__(self, name: str) -> Value:
+        variable = self.variable(name)
+        if variable.type == "Real":
+            return float(self.get((name,))[0])
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
+        value = self._call(getattr(self.slave, f"get{kind}"), [variable.valueReference])[0]
+        if isinstance(value, bytes):
+            return value.decode()
+        return bool(value) if kind == "Boolean" else int(value)
+
+    def __setitem__(self, name: str, value: Value) -> None:
+        variable = self.variable(name)
+        if variable.type == "Real":
+            self.set((name,), (float(value),))
+            return
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
+        self._call(getattr(self.slave, f"set{kind}"), [variable.valueReference], [value])
+
+    def number(self, name: str) -> float:
+        """Value of a real, whole or logical variable as a real number."""
+        return float(self[name])
+
+    # Time
+
+    def step(self, length: float, *, until: float | None = None) -> None:
+        """Makes a communication step of this length \\[s\\].
+
+        Steps of one length end at exact multiples of it, not at a sum. ``until`` names the end where the caller
+        counts himself. Raises `StepDiscarded` where the unit cannot make the step.
+        """
+        self._messages.clear()
+        try:
+            self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
+        except FMICallException as refusal:
+            raise self._refused(refusal.status, length) from None
+        if until is not None:
+            self._origin, self._length, self._count = until, 0.0, 0
+            self.time = until
+            return
+        if length != self._length:
+            self._origin, self._length, self._count = self.time, length, 0
+        self._count += 1
+        self.time = self._origin + self._count * length
+
+    def _refused(self, status: int, length: float) -> UnitError:
+        """What is raised for a step that was not made."""
+        reason = "; ".join(self._messages) or "it gives no reason"
+        text = f"{self.name}: the step from {self.time:g} s of {length:g} s was not made: {reason}"
+        if status != _DISCARD:
+            return UnitError(text)
+        last = float(self.slave.getRealStatus(fmpy.fmi2.fmi2LastSuccessfulTime))
+        return StepDiscarded(f"{text} (last successful time {last:g} s)", reason, last)
+
+    def reset(
+        self,
+        *,
+        parameters: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        start: float = 0.0,
+    ) -> None:
+        """Begins anew; all saved states of it are gone."""
+        self._call(self.slave.reset)
+        self._initialise(parameters or {}, inputs or {}, start)
+
+    # States
+
+    def save(self, into: State | None = None) -> State:
+        """Saves everything that changes; into a state that was saved before, where one is given."""
+        state = into or State(ctypes.c_void_p(), self.time)
+        self._call(self.slave.fmi2GetFMUstate, self.slave.component, ctypes.byref(state.handle))
+        state.time = self.time
+        return state
+
+    def restore(self, state: State) -> None:
+        """Goes back to a saved state. It continues bit for bit, and the state can be restored again."""
+        self._call(self.slave.fmi2SetFMUstate, self.slave.component, state.handle)
+        self.time = state.time
+        self._origin, self._length, self._count = state.time, 0.0, 0
+
+    def free(self, state: State) -> None:
+        """Gives the room of a state back."""
+        self._call(self.slave.fmi2FreeFMUstate, self.slave.component, ctypes.byref(state.handle))
+
+    def serialise(self, state: State) -> bytes:
+        """A state as bytes, for another process."""
+        return bytes(self._call(self.slave.serializeFMUstate, state.handle))
+
+    def deserialise(self, data: bytes, time: float) -> State:
+        """The state that these bytes hold, of this time \\[s\\]."""
+        return State(self._call(self.slave.deSerializeFMUstate, data), time)
+
+    def derivative(self, outputs: Sequence[str], inputs: Sequence[str]) -> Matrix:
+        """Change of outputs (rows) at the end of the next step per unit change of inputs (columns)."""
+        if not self.has_derivatives:
+            raise UnitError(f"{self.name}: gives no directional derivatives")
+        unknown = [self.variable(name).valueReference for name in outputs]
+        columns = [
+            self._call(self.slave.getDirectionalDerivative, unknown, [self.variable(name).valueReference], [1.0])
+            for name in inputs
+        ]
+        return np.array(columns, dtype=float).T.reshape(len(outputs), len(inputs))
+
+    # Its end
+
+    def close(self) -> None:
+        """Ends the instance and unloads its library; more than once does no harm."""
+        if not self._open:
+            return
+        self._open = False
+        try:
+            self.slave.terminate()
+        except FMICallException:
+            _log.info("%s: could not be terminated", self.name)
+        self.slave.freeInstance()
+        self._folder.cleanup()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

@@ -1,0 +1,107 @@
+"""A unit by names: values, states, exact times, refusals in words."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from cograin import StepDiscarded, Unit, UnitError
+
+
+def swing(unit, first, last):
+    """Rows of a short course."""
+    rows = []
+    for count in range(first, last):
+        unit["piston.displacement.z"] = 1e-4 * np.sin(0.3 * count)
+        unit.step(1e-3)
+        rows.append(unit.get(["piston.mean_force.z", "piston.work"]).tolist())
+    return rows
+
+
+def test_steps_of_one_length_end_at_exact_multiples_of_it(drop):
+    for count in range(1, 31):
+        drop.step(1e-3)
+        assert drop.time == count * 1e-3
+
+
+def test_an_unknown_variable_is_answered_with_the_nearest(drop):
+    with pytest.raises(UnitError, match=r"no variable floor.disp.z; the nearest is floor.displacement.z"):
+        drop["floor.disp.z"]
+
+
+def test_whole_variables_come_as_whole_numbers_and_arrays_as_arrays(drop):
+    assert drop["contacts.count"] == 0
+    assert isinstance(drop["contacts.count"], int)
+    values = drop.get(["floor.force.z", "ball.displacement.z"])
+    assert values.tolist() == [0.0, 0.0]
+    with pytest.raises(UnitError, match="a Real is needed"):
+        drop.get(["contacts.count"])
+
+
+def test_a_refused_value_changes_nothing_and_says_why(drop):
+    with pytest.raises(UnitError, match=r"fmi2SetReal: NaN for"):
+        drop["floor.displacement.z"] = float("nan")
+    assert drop["floor.displacement.z"] == 0.0
+    drop.step(1e-3)
+
+
+def test_a_restored_state_repeats_itself_with_its_time(piston):
+    with Unit(piston) as unit:
+        swing(unit, 0, 10)
+        state = unit.save()
+        first = swing(unit, 10, 20)
+        unit.restore(state)
+        assert unit.time == 10 * 1e-3
+        assert swing(unit, 10, 20) == first
+        unit.restore(unit.save(into=state))
+        unit.free(state)
+
+
+def test_a_serialised_state_goes_on_in_another_process(piston, tmp_path):
+    with Unit(piston) as unit:
+        swing(unit, 0, 10)
+        state = unit.save()
+        (tmp_path / "state").write_bytes(unit.serialise(state))
+        here = swing(unit, 10, 20)
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[3]); from test_unit import swing; from cograin import Unit\n"
+        "unit = Unit(sys.argv[1]); unit.restore(unit.deserialise(open(sys.argv[2], 'rb').read(), 0.01))\n"
+        "print(swing(unit, 10, 20)); unit.close()"
+    )
+    command = [sys.executable, "-c", code, piston, tmp_path / "state", str(__file__).rsplit("/", 1)[0]]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip() == repr(here)
+
+
+def test_a_discarded_step_says_its_reason_and_the_last_good_time(drop):
+    drop.step(1e-3)
+    drop["floor.displacement.z"] = 0.3
+    with pytest.raises(StepDiscarded, match="went through boundary floor") as told:
+        drop.step(1e-3)
+    assert told.value.last_successful_time == 1e-3
+    assert "floor" in told.value.reason
+    drop["floor.displacement.z"] = 0.0
+    drop.step(1e-3)
+    assert drop.time == 2e-3
+
+
+def test_a_start_input_puts_the_boundary_there_without_motion(opened):
+    from conftest import DROP
+
+    unit = opened(DROP, inputs={"floor.displacement.z": 5e-3}, start=2.0)
+    assert (unit["floor.displacement.z"], unit.time) == (5e-3, 2.0)
+    unit.step(1e-3)
+    assert unit["floor.work"] == 0.0
+
+
+def test_a_reset_unit_begins_anew(drop):
+    first = [drop.step(1e-3), drop["ball.velocity.z"]]
+    drop.reset()
+    assert drop.time == 0.0
+    assert [drop.step(1e-3), drop["ball.velocity.z"]] == first
+
+
+def test_a_closed_unit_may_be_closed_again(piston):
+    with Unit(piston) as unit:
+        unit.step(1e-3)
+    unit.close()
