@@ -1,0 +1,51 @@
+"""Every recipe of docs/recipes.md runs as it is written there."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "recipes.md").read_text(encoding="utf-8")
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SECTIONS = dict(part.split("\n", 1) for part in PAGE.split("\n## ")[1:])
+
+# Recipes whose commands run, with a number or a word that must be in what they print; the stress belongs to the oedometer.
+RECIPES = {
+    ("Oedometer", "Mean stress of a bed (Love and Weber)"): r"stress \[kPa\], compression positive: \[",
+    ("Triaxial test",): r"mobilised friction 0\.[3-7]",
+    ("Silo",): r"t = 0\.60 s .* on the floor +0\.[12]",
+    ("Drum",): r"power of its motor \d\.\d+e-03 W",
+    ("A deformable interface",): r"t = 0\.60 s  grains on the membrane  -0\.3",
+}
+
+
+def test_every_recipe_with_commands_is_run():
+    told = {name for names in RECIPES for name in names}
+    written = {name for name, text in SECTIONS.items() if "```python" in text or "```toml" in text}
+    assert told == written
+
+
+@pytest.mark.parametrize("names", RECIPES, ids=lambda names: names[0])
+def test_recipe(names, request, tmp_path):
+    program = ROOT / request.config.getoption("--program")
+    said = ""
+    for name in names:
+        blocks = BLOCK.findall(SECTIONS[name])
+        for kind, text in blocks:
+            if kind != "sh":
+                file = re.match(r"# ([\w.]+)", text).group(1)
+                body = text.split("\n", 1)[1] if kind == "csv" else text
+                (tmp_path / file).write_text(body, encoding="utf-8")
+        for command in "".join(text for kind, text in blocks if kind == "sh").splitlines():
+            words = shlex.split(command)
+            words[0] = {"cograin": str(program), "python": sys.executable}[words[0]]
+            environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+            done = subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+            assert done.returncode == 0, f"{command}\n{done.stdout}{done.stderr}"
+            said += done.stdout
+    assert re.search(RECIPES[names], said), said
