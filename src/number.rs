@@ -136,6 +136,16 @@ impl<N: Number> Vector<N> {
     pub fn length(self) -> N {
         self.dot(self).sqrt()
     }
+    /// The first three of four numbers.
+    #[inline(always)]
+    pub fn of_row([x, y, z, _]: [N; 4]) -> Self {
+        Self::new(x, y, z)
+    }
+    /// The components and a fourth number.
+    #[inline(always)]
+    pub fn row_with(self, rest: N) -> [N; 4] {
+        [self.x, self.y, self.z, rest]
+    }
     /// `yes` where the mask holds, otherwise `no`.
     #[inline(always)]
     pub fn select(mask: N::Mask, yes: Self, no: Self) -> Self {

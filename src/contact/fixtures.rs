@@ -1,6 +1,12 @@
 //! A contact and a pair of materials to try laws on.
 
-use super::{Contact, FrictionNeeds, Material, MaterialPair, PairProperties, Response};
+use super::cohesion::{self, CohesionChoice};
+use super::normal::{NormalChoice, hooke, hooke_stiffness};
+use super::rolling::RollingChoice;
+use super::tangential::TangentialChoice;
+use super::{
+    Contact, FrictionNeeds, LawChoice, Material, MaterialPair, NoKeys, NormalForce, PairProperties, Response, Switches,
+};
 use crate::number::Vector;
 use crate::quantity::{NonNegative, Positive, Restitution};
 
@@ -31,13 +37,67 @@ pub(super) fn response() -> Response {
     Response { normal_stiffness: 1024.0, normal_damping: 3.0, tangential_stiffness: 8.0, tangential_damping: 2.0 }
 }
 
+/// The same with no force yet.
+pub(super) fn normal_force() -> NormalForce {
+    NormalForce { response: response(), force: 0.0, seen: 0.0 }
+}
+
+/// Every combination of sub-models.
+pub(crate) fn every_law() -> Vec<LawChoice> {
+    let speed = hooke::Keys { characteristic_velocity: Positive::new(2.0).unwrap() };
+    let reduce = cohesion::sjkr::Keys { tangential_reduce: true };
+    let mut all = Vec::new();
+    for normal in [
+        NormalChoice::Hertz(NoKeys {}),
+        NormalChoice::HertzStiffness(NoKeys {}),
+        NormalChoice::Hooke(speed),
+        NormalChoice::HookeStiffness(hooke_stiffness::Keys::default()),
+        NormalChoice::HookeViscous(speed),
+    ] {
+        for tangential in [
+            TangentialChoice::None(NoKeys {}),
+            TangentialChoice::History(NoKeys {}),
+            TangentialChoice::NoHistory(NoKeys {}),
+        ] {
+            for rolling in [RollingChoice::None(NoKeys {}), RollingChoice::Cdt(NoKeys {})] {
+                for cohesion in [
+                    CohesionChoice::None(NoKeys {}),
+                    CohesionChoice::Sjkr(reduce),
+                    CohesionChoice::Sjkr2(cohesion::sjkr::Keys::default()),
+                ] {
+                    all.push(LawChoice { normal, tangential, rolling, cohesion, switches: Switches::of(false, true) });
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Contacts at the corners of what can be: no motion, no spin, no overlap, receding.
+pub(crate) fn corners() -> Vec<Contact> {
+    let still = Contact {
+        normal_velocity: 0.0,
+        slip: Vector::zero(),
+        relative_spin: Vector::zero(),
+        pair_constant: 5.0,
+        ..contact()
+    };
+    vec![
+        Contact { pair_constant: 5.0, ..contact() },
+        Contact { normal_velocity: 0.25, pair_constant: 5.0, ..contact() },
+        still,
+        Contact { overlap: 0.0, section_area: 0.0, ..still },
+        Contact { pair_constant: 0.0, ..still },
+    ]
+}
+
 /// A material with E = 2 Pa and ν = 0: two of them have E* = 1 Pa and G* = ¼ Pa.
 pub(super) fn material() -> Material {
     Material { name: "soft".into(), density: 1.0, youngs_modulus: Some(2.0), poissons_ratio: Some(0.0) }
 }
 
 /// All properties of two materials, each another number.
-pub(super) fn properties() -> PairProperties {
+pub(crate) fn properties() -> PairProperties {
     PairProperties {
         restitution: Restitution::new(0.5),
         friction: NonNegative::new(0.25),
@@ -56,7 +116,7 @@ pub(super) fn properties() -> PairProperties {
 }
 
 /// Calls `with` for two pieces of one material that have these properties in common.
-pub(super) fn with_pair<T>(properties: &PairProperties, with: impl FnOnce(&MaterialPair) -> T) -> T {
+pub(crate) fn with_pair<T>(properties: &PairProperties, with: impl FnOnce(&MaterialPair) -> T) -> T {
     let material = material();
     with(&MaterialPair { a: &material, b: &material, properties })
 }

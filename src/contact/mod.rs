@@ -1,8 +1,9 @@
 //! What touching bodies do to each other: pure functions of one contact and its own history.
 //!
 //! A contact law is composed of four sub-models: normal, tangential, rolling, cohesion. Each is one file
-//! and one row in the list beside it. Laws are written over [`Number`], so the same source runs one
-//! contact at a time or several in a vector register.
+//! and one row in the list beside it. They are written over [`Number`], so the same source runs one
+//! contact at a time or several in a vector register. No sub-model knows which others it is combined with: they
+//! hand each other a [`NormalForce`], and what each of them remembers of a contact is a row of its own ([`HistoryRow`]).
 //!
 //! Signs: the normal points from body j to body i; a positive normal force pushes i along it. The
 //! relative velocity is that of i seen from j; the normal velocity is negative while they approach.
@@ -10,21 +11,21 @@
 mod choice;
 mod coefficients;
 pub mod cohesion;
-mod composed;
 #[cfg(test)]
-mod fixtures;
+pub(crate) mod fixtures;
+mod law;
 mod material;
 pub mod normal;
 pub mod rolling;
 pub mod tangential;
 
-pub use choice::{LawChoice, TakeLaw};
+pub use choice::{LawChoice, Objection};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
-pub use composed::{Composed, Law, Objection, Switches};
+pub use law::{CoefficientPlaces, HistoryPlaces, Law, Offset};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
 
-use crate::number::{Number, Vector};
+use crate::number::{Number, Row, Vector};
 use serde::Deserialize;
 
 /// Geometry and relative motion of one contact.
@@ -53,17 +54,6 @@ pub struct Contact<N = f64> {
     pub pair_constant: N,
 }
 
-/// How much of a contact is left where a bond hides it, or has hidden it.
-#[derive(Clone, Copy, Debug)]
-pub struct Beyond {
-    /// Overlap beyond the offset: what the elastic force is taken from \[m\].
-    pub pressing: f64,
-    /// Whether the normal force acts. Friction sees it in either case.
-    pub acts: bool,
-    /// The contact of these bodies at an overlap of the offset alone.
-    pub offset: Contact,
-}
-
 /// What [`NormalForm::roots`] finds.
 pub type Roots<N> = [N; 2];
 
@@ -78,6 +68,71 @@ pub struct Response<N = f64> {
     pub tangential_stiffness: N,
     /// γ_t \[kg/s\].
     pub tangential_damping: N,
+}
+
+/// What the normal model, and cohesion after it, hand to the others.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalForce<N = f64> {
+    /// Stiffnesses and damping coefficients at the contact.
+    pub response: Response<N>,
+    /// Force along the normal on i \[N\].
+    pub force: N,
+    /// What of it friction and rolling see \[N\].
+    pub seen: N,
+}
+
+/// Friction of one contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction<N: Number = f64> {
+    /// Force on i in the tangent plane \[N\].
+    pub force: Vector<N>,
+    /// What is to be remembered.
+    pub history: [N; 4],
+    /// Where it is at its limit.
+    pub sliding: N::Mask,
+}
+
+/// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model.
+pub const MOST_HISTORY: usize = 3;
+
+/// What a sub-model remembers of a contact from one evaluation to the next: a row of four numbers, zero at first touch
+/// and gone with the contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HistoryRow {
+    /// What it is.
+    pub name: &'static str,
+    /// Which of the four numbers change sign when the two bodies change places.
+    pub odd: [bool; 4],
+}
+
+impl HistoryRow {
+    /// The row as the other body sees it.
+    #[inline(always)]
+    pub fn reversed(&self, row: Row) -> Row {
+        [0, 1, 2, 3].map(|place| if self.odd[place] { -row[place] } else { row[place] })
+    }
+}
+
+coefficients! {
+    /// Switches that every normal model takes, as numbers so that the loop has no branch.
+    pub struct Switches {
+        /// Lower bound of the normal force \[N\]: −∞, or 0 with `limit_force`.
+        least_force,
+        /// Factor on γ_t: 1, or 0 without `tangential_damping`.
+        tangential_damping_factor,
+    }
+}
+
+impl Switches {
+    /// With or without an attractive end of contact, with or without tangential damping.
+    pub fn of(limit_force: bool, tangential_damping: bool) -> Self {
+        Self::new(if limit_force { 0.0 } else { f64::NEG_INFINITY }, if tangential_damping { 1.0 } else { 0.0 })
+    }
+
+    /// Whether γ_t acts.
+    pub fn damps_slip(&self) -> bool {
+        self.tangential_damping_factor != 0.0
+    }
 }
 
 /// A sub-model without keys of its own: `[contact.<law>.<kind>.<model>]` stays empty.
@@ -104,8 +159,10 @@ pub trait Normal: Copy + Send + Sync + 'static {
     fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self::Form, Missing>;
 }
 
-/// Stiffness and damping of a contact; the force k_n δ − γ_n v_n follows from them.
+/// Stiffness and damping of a contact, and the force that follows from them.
 pub trait NormalForm: Coefficients {
+    /// What it remembers, if anything.
+    const HISTORY: Option<HistoryRow> = None;
     /// Whether [`NormalForm::pair_constant`] says anything.
     const HAS_PAIR_CONSTANT: bool = false;
     /// What depends on effective radius \[m\] and mass \[kg\] alone and is too dear for the loop
@@ -128,6 +185,24 @@ pub trait NormalForm: Coefficients {
     fn response<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> Response<N> {
         Self::response_at(law, contact, Self::roots(contact.overlap, contact.radius, contact.mass))
     }
+    /// Force along the normal and what is to be remembered: spring and dashpot, k_n δ − γ_n v_n, unless the model says
+    /// otherwise. `step` is the time since the history was last advanced \[s\] (0 in the evaluation before the first
+    /// step).
+    #[inline(always)]
+    fn force<N: Number>(
+        law: Self::Lanes<N>,
+        switches: Switches<N>,
+        contact: &Contact<N>,
+        roots: Roots<N>,
+        history: [N; 4],
+        _step: N,
+    ) -> (NormalForce<N>, [N; 4]) {
+        let mut response = Self::response_at(law, contact, roots);
+        response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
+        let elastic = response.normal_stiffness * contact.overlap;
+        let force = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);
+        (NormalForce { response, force, seen: force }, history)
+    }
     /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact \[J\].
     fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].
@@ -140,22 +215,23 @@ pub trait Tangential: Coefficients {
     type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
     /// Whether there is a force at all; without one nothing tangential is evaluated.
     const ACTIVE: bool;
-    /// Whether a tangential spring is carried from step to step.
+    /// What it remembers, if anything.
+    const HISTORY: Option<HistoryRow> = None;
+    /// Whether a spring of stiffness k_t is stretched by slip; its first three remembered numbers are its vector.
     const HAS_SPRING: bool;
     /// Whether slip is damped by γ_t.
     const HAS_DASHPOT: bool;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
-    /// Force on i \[N\], the new spring \[m\], and where friction is at its limit. `pressure` is the normal force that friction sees \[N\],
-    /// `step` the time since the spring was last seen \[s\] (0 in the evaluation before the first step).
+    /// Force on i, its limit, and what is to be remembered. `step` is the time since the history was last advanced
+    /// \[s\] (0 in the evaluation before the first step).
     fn force<N: Number>(
         law: Self::Lanes<N>,
         contact: &Contact<N>,
-        response: &Response<N>,
-        pressure: N,
-        spring: Vector<N>,
+        normal: &NormalForce<N>,
+        history: [N; 4],
         step: N,
-    ) -> (Vector<N>, Vector<N>, N::Mask);
+    ) -> Friction<N>;
 }
 
 /// Resistance against rolling.
@@ -166,8 +242,16 @@ pub trait Rolling: Coefficients {
     const ACTIVE: bool;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
-    /// Torque taken from i and given to j \[N m\].
-    fn torque<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>, response: &Response<N>) -> Vector<N>;
+    /// What it remembers, if anything.
+    const HISTORY: Option<HistoryRow> = None;
+    /// Torque taken from i and given to j \[N m\], and what is to be remembered. `step` as for friction.
+    fn torque<N: Number>(
+        law: Self::Lanes<N>,
+        contact: &Contact<N>,
+        normal: &NormalForce<N>,
+        history: [N; 4],
+        step: N,
+    ) -> (Vector<N>, [N; 4]);
 }
 
 /// A cohesion model: from what the scene says of two materials to what the loop computes.
@@ -190,19 +274,23 @@ pub trait CohesionForm: Coefficients {
     fn force<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> N;
     /// The part of that force which the friction limit sees \[N\].
     fn seen_by_friction<N: Number>(law: Self::Lanes<N>, force: N) -> N;
+    /// Adds an attraction to the force of the normal model.
+    #[inline(always)]
+    fn add<N: Number>(law: Self::Lanes<N>, pull: N, normal: &mut NormalForce<N>) {
+        normal.force = normal.force + pull;
+        normal.seen = normal.seen + Self::seen_by_friction(law, pull);
+    }
 }
 
 /// What one contact does to its two bodies.
-#[derive(Clone, Copy)]
-pub struct Reaction<N: Number = f64> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaction {
     /// Force on i; j gets the opposite \[N\].
-    pub force: Vector<N>,
+    pub force: Vector,
     /// n × F_t, which turns both bodies against their arms \[N\].
-    pub couple: Vector<N>,
+    pub couple: Vector,
     /// Rolling torque taken from i and given to j \[N m\].
-    pub rolling: Vector<N>,
-    /// The tangential spring to remember \[m\].
-    pub spring: Vector<N>,
-    /// Where friction is at its limit.
-    pub sliding: N::Mask,
+    pub rolling: Vector,
+    /// Whether friction is at its limit.
+    pub sliding: bool,
 }

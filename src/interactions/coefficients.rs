@@ -1,15 +1,16 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
-use crate::contact::{Contact, Law, MaterialPair, Response};
+use crate::contact::{Contact, Law, LawChoice, MaterialPair, Response};
 use crate::lanes::Lane;
 use crate::number::Vector;
+use crate::scene::Scene;
 
 /// Most coefficients that a composed law may have.
 pub(crate) const MOST_COEFFICIENTS: usize = 24;
 
 /// Coefficients of a law for each two materials of the scene.
 #[derive(Clone, Debug)]
-pub(crate) struct Table {
+pub(crate) struct CoefficientTable {
     /// A row of coefficients for each two materials.
     rows: Vec<f64>,
     /// How many coefficients a row has.
@@ -22,23 +23,30 @@ pub(crate) struct Table {
     governed: Vec<bool>,
 }
 
-impl Table {
-    /// Takes the coefficients of `law` for all pairs of materials it governs; others get zeros.
-    pub(crate) fn of<L: Law>(law: &L, scene: &crate::scene::Scene, between: &[bool]) -> Self {
-        let materials = scene.materials.len();
-        let mut rows = Vec::with_capacity(materials * materials * L::COUNT);
+impl CoefficientTable {
+    /// Takes the coefficients of a law for all pairs of materials it governs; others get zeros.
+    pub(crate) fn of(choice: &LawChoice, scene: &Scene, between: &[bool]) -> Self {
+        let (count, materials) = (Law::of(choice).places().count, scene.materials.len());
+        let mut rows = Vec::with_capacity(materials * materials * count);
         for a in 0..materials {
             for b in 0..materials {
                 let entry = a * materials + b;
                 let pair =
                     MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties: &scene.pairs[entry] };
-                let row = if between[entry] { law.row(&pair).ok() } else { None };
-                rows.extend(row.unwrap_or_else(|| vec![0.0; L::COUNT]));
+                let row = if between[entry] { choice.coefficients(&pair).ok() } else { None };
+                rows.extend(row.unwrap_or_else(|| vec![0.0; count]));
             }
         }
         let mut present = scene.particles.iter().map(|particle| particle.material.0);
         let single = present.next().filter(|&first| present.all(|other| other == first));
-        Self { rows, count: L::COUNT, materials, single, governed: between.to_vec() }
+        Self { rows, count, materials, single, governed: between.to_vec() }
+    }
+
+    /// A table of these rows for so many materials, for tests.
+    #[cfg(test)]
+    pub(crate) fn of_rows(rows: Vec<f64>, materials: usize) -> Self {
+        let count = rows.len() / (materials * materials);
+        Self { rows, count, materials, single: None, governed: vec![true; materials * materials] }
     }
 
     /// The one row that all particles have with each other, if it is one.
@@ -53,31 +61,28 @@ impl Table {
         Some(self.row(self.single?, material))
     }
 
-    /// The row of two materials.
+    /// The number of the row of two materials.
     #[inline(always)]
     pub(crate) fn entry(&self, a: u32, b: u32) -> u32 {
         a * self.materials as u32 + b
     }
 
-    /// The coefficients of each lane, of the rows with these numbers.
+    /// The coefficient of each lane that stands at this place in the rows with these numbers.
     ///
     /// # Safety
-    /// `entry` points to [`Lane::WIDTH`] results of [`Table::entry`].
+    /// `place` is below the number of coefficients; `entry` points to [`Lane::WIDTH`] results of
+    /// [`CoefficientTable::entry`].
     #[inline(always)]
-    pub(crate) unsafe fn gather<L: Law, N: Lane>(&self, entry: *const u32, row: &mut [N; MOST_COEFFICIENTS]) {
-        let mut k = 0;
-        while k < L::COUNT {
-            // SAFETY: the table has a row of `L::COUNT` numbers for each two materials.
-            row[k] = unsafe { N::gather(self.rows.as_ptr().add(k), entry, L::COUNT) };
-            k += 1;
-        }
+    pub(crate) unsafe fn gather<N: Lane>(&self, place: usize, entry: *const u32) -> N {
+        // SAFETY: the table has a row for each two materials.
+        unsafe { N::gather(self.rows.as_ptr().add(place), entry, self.count) }
     }
 
     /// The stiffest response of an impact between any two of the materials.
-    pub(crate) fn stiffest<L: Law>(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
+    pub(crate) fn stiffest(&self, law: &Law, radius: f64, mass: f64, speed: f64) -> Option<Response> {
         let rows = self.rows.chunks_exact(self.count.max(1));
         let responses = rows.zip(&self.governed).filter(|(_, governed)| **governed);
-        let responses = responses.map(|(row, _)| impact::<L>(row, radius, mass, speed));
+        let responses = responses.map(|(row, _)| impact(law, row, radius, mass, speed));
         responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
     }
 
@@ -89,7 +94,7 @@ impl Table {
 }
 
 /// Stiffness at the deepest point of a head-on impact: where the spring has taken up the kinetic energy.
-fn impact<L: Law>(row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
+fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
     /// Iterations of overlap = speed √(mass/stiffness); each at least halves the error of Hertz's law.
     const ITERATIONS: usize = 30;
     let mut contact = Contact {
@@ -102,13 +107,13 @@ fn impact<L: Law>(row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
         normal_velocity: 0.0,
         slip: Vector::zero(),
         relative_spin: Vector::zero(),
-        pair_constant: L::pair_constant(row, radius, mass),
+        pair_constant: law.pair_constant(row, radius, mass),
     };
     for _ in 0..ITERATIONS {
-        let stiffness = L::stiffness(row, &contact).normal_stiffness;
+        let stiffness = law.stiffness(row, &contact).normal_stiffness;
         if stiffness > 0.0 {
             contact.overlap = (speed * (mass / stiffness).sqrt()).max(1e-12 * radius);
         }
     }
-    L::stiffness(row, &contact)
+    law.stiffness(row, &contact)
 }

@@ -3,12 +3,12 @@
 //! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
-use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
-use super::coefficients::Table;
+use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Needs, Touching};
+use super::coefficients::CoefficientTable;
 use super::pass::{Link, Pass};
 use super::records::{self, ContactRecord};
-use super::sphere_geometry::Gap;
-use crate::contact::{Contact, Law, Response};
+use super::sphere_geometry::SpherePair;
+use crate::contact::{Contact, Response};
 use crate::lanes::{self, Lane, Shared};
 use crate::number::Vector;
 use crate::run_error::RunError;
@@ -16,20 +16,19 @@ use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State};
 use crate::threads::Context;
-use std::marker::PhantomData;
 use std::ops::Range;
 
 /// The pass of one contact law.
-pub(crate) struct ContactPass<L> {
+pub(crate) struct ContactPass {
     /// Which list of the state is its own.
     pub index: usize,
     /// Its coefficients.
-    pub table: Table,
+    pub table: CoefficientTable,
     /// The law.
-    pub law: PhantomData<fn() -> L>,
+    pub law: BatchLaw,
 }
 
-impl<L: Law> Pass for ContactPass<L> {
+impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
@@ -44,11 +43,8 @@ impl<L: Law> Pass for ContactPass<L> {
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
             },
-            entries: Entries {
-                flags: Shared::new(&mut list.flags),
-                spring: Shared::new(&mut list.spring),
-                pair_constant: &list.pair_constant,
-            },
+            entries: Entries::of(&mut list.flags, &mut list.history, &list.pair_constant),
+            law: &self.law,
             table: &self.table,
             uniform: self.table.uniform(),
             step: context.step,
@@ -59,14 +55,14 @@ impl<L: Law> Pass for ContactPass<L> {
             // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
             let next = slab + if slab % 2 == 0 { 2 } else { 4 };
             let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
-            batches.run::<L>(ends[slab] as usize, ends[slab + 1] as usize, ahead);
+            batches.run(ends[slab] as usize, ends[slab + 1] as usize, ahead);
         });
         self.apply_hidden(state, context.step);
         Ok(())
     }
 
     fn has_torque(&self) -> bool {
-        L::HAS_TORQUE
+        self.law.needs.torque
     }
 
     fn source(&self) -> Source {
@@ -76,16 +72,14 @@ impl<L: Law> Pass for ContactPass<L> {
     fn prepare(&self, state: &mut State) {
         self.prepare_hidden(state);
         let list = &mut state.contacts[self.index];
-        if !L::HAS_SPRING {
-            list.spring.clear();
-        }
+        let law = &self.law.law;
         list.pair_constant.clear();
-        if L::HAS_PAIR_CONSTANT {
+        if law.has_pair_constant() {
             let particles = &state.particles;
             list.pair_constant.extend(list.first.iter().zip(&list.second).map(|(&i, &j)| {
                 let (radius, mass) = effective(particles, i, j);
                 let row = self.table.row(particles.material[i as usize], particles.material[j as usize]);
-                L::pair_constant(row, radius, mass)
+                law.pair_constant(row, radius, mass)
             }));
         }
     }
@@ -97,7 +91,7 @@ impl<L: Law> Pass for ContactPass<L> {
             let (i, j) = (list.first[pair], list.second[pair]);
             if let Some((contact, arms)) = pair_contact(&state.particles, list, pair) {
                 let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
-                let response = L::stiffness(row, &contact);
+                let response = self.law.law.stiffness(row, &contact);
                 let [first_arm, second_arm] = arms;
                 tell(Link {
                     first: i,
@@ -114,7 +108,7 @@ impl<L: Law> Pass for ContactPass<L> {
     }
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
-        self.table.stiffest::<L>(radius, mass, speed)
+        self.table.stiffest(&self.law.law, radius, mass, speed)
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
@@ -126,10 +120,11 @@ impl<L: Law> Pass for ContactPass<L> {
             let positions = &state.particles.position;
             let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
             let positions = [positions[i as usize], positions[j as usize]];
-            let Meeting { contact, first_arm, .. } = Gap::of(positions).meet([v, u], [w, z], constant);
+            let geometry = SpherePair::of(positions).meet([v, u], [w, z], constant);
+            let ContactGeometry { contact, first_arm, .. } = geometry;
             let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
-            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
-            let (reaction, sliding) = records::react::<L>(row, &contact, spring, list.flags[pair]);
+            let (reaction, sliding) =
+                records::react(&self.law.law, row, &contact, &list.history, pair, list.flags[pair]);
             let point = Vector::from(positions[0]) - contact.normal * first_arm;
             let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
             tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
@@ -143,8 +138,7 @@ impl<L: Law> Pass for ContactPass<L> {
         let energy = |pair: usize| {
             let (contact, _) = pair_contact(&state.particles, list, pair)?;
             let row = self.table.row(material(list.first[pair]), material(list.second[pair]));
-            let spring = list.spring.get(pair).copied().unwrap_or([0.0; 4]);
-            Some(L::elastic_energy(row, &contact, 0.0, spring.into()))
+            Some(self.law.law.elastic_energy(row, &contact, 0.0, &records::history(&list.history, pair)))
         };
         let touching = (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0);
         touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
@@ -170,8 +164,8 @@ pub(crate) fn pair_contact(particles: &Particles, list: &ContactList, pair: usiz
     let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
     let rows = |rows: &[Row]| [rows[i], rows[j]];
     let Particles { position, velocity, angular_velocity, .. } = particles;
-    let Meeting { contact, first_arm, second_arm } =
-        Gap::of(rows(position)).meet(rows(velocity), rows(angular_velocity), constant);
+    let ContactGeometry { contact, first_arm, second_arm } =
+        SpherePair::of(rows(position)).meet(rows(velocity), rows(angular_velocity), constant);
     Some((contact, [first_arm, second_arm]))
 }
 
@@ -212,13 +206,13 @@ impl Bodies for Pairs<'_> {
     unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> (u32, [N; FOUND]) {
         let positions = self.position.as_ptr();
         // SAFETY: a list holds slots of particles, below their number.
-        let gap = unsafe { Gap::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
-        (N::bits(gap.closed()), gap.to_found())
+        let pair = unsafe { SpherePair::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
+        (N::bits(pair.overlap()), pair.to_found())
     }
 
     #[inline(always)]
     fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
-        Gap::from_found(*found).roots()
+        SpherePair::from_found(*found).roots()
     }
 
     #[inline(always)]
@@ -228,17 +222,17 @@ impl Bodies for Pairs<'_> {
         second: *const u32,
         found: [N; FOUND],
         roots: [N; 2],
-    ) -> Meeting<N> {
+    ) -> ContactGeometry<N> {
         let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
         // SAFETY: a list holds slots of particles, below their number.
         let (velocities, spins) = unsafe {
             let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
-        Gap::from_found(found).meet_at(roots, velocities, spins, N::zero())
+        SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
     }
 
-    fn row(&self, table: &Table, first: u32, second: u32) -> u32 {
+    fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32 {
         table.entry(self.material[first as usize], self.material[second as usize])
     }
 

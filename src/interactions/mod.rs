@@ -12,6 +12,7 @@ pub(crate) mod suppression;
 pub(crate) mod wall_bonds;
 pub(crate) mod walls;
 
-pub(crate) use coefficients::{MOST_COEFFICIENTS, Table};
+pub(crate) use batch::BatchLaw;
+pub(crate) use coefficients::CoefficientTable;
 pub(crate) use pass::{Link, Pass};
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

@@ -1,7 +1,7 @@
 //! What is told of the contacts and bonds at work.
 
 use crate::bond::Carried;
-use crate::contact::{Contact, Law, Reaction};
+use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};
 use crate::number::Vector;
 use crate::state::contacts::SLIDING;
 use crate::state::{Row, State};
@@ -100,14 +100,31 @@ pub(crate) fn half_step_back(state: &State, slot: usize, step: f64) -> (Row, Row
     (velocity, spin)
 }
 
-/// What a contact does, with the spring that the last evaluation left. A spring that slid then has no dashpot beside it.
-pub(crate) fn react<L: Law>(row: &[f64], contact: &Contact, spring: Row, flags: u8) -> (Reaction, bool) {
+/// What a law remembers of an entry of a list; rows that it does not have are zero.
+pub(crate) fn history(lists: &[Vec<Row>], entry: usize) -> [Row; MOST_HISTORY] {
+    let mut rows = [[0.0; 4]; MOST_HISTORY];
+    for (row, list) in rows.iter_mut().zip(lists) {
+        *row = list.get(entry).copied().unwrap_or_default();
+    }
+    rows
+}
+
+/// What a contact does, with what the last evaluation left to remember. A spring that slid then has no dashpot beside
+/// it.
+pub(crate) fn react(
+    law: &Law,
+    row: &[f64],
+    contact: &Contact,
+    lists: &[Vec<Row>],
+    entry: usize,
+    flags: u8,
+) -> (Reaction, bool) {
     let sliding = flags & SLIDING != 0;
     let mut contact = *contact;
-    if sliding && L::HAS_SPRING {
+    if sliding && law.spring().is_some() {
         contact.slip = Vector::zero();
     }
-    (L::react(row, &contact, spring.into(), 0.0), sliding)
+    (law.react(row, &contact, &mut history(lists, entry), 0.0), sliding)
 }
 
 /// The spring of a contact.

@@ -1,13 +1,13 @@
 //! Two spheres and how they lie to each other: the geometry of their contact.
 
-use super::batch::{FOUND, Meeting};
+use super::batch::{ContactGeometry, FOUND};
 use crate::contact::Contact;
 use crate::lanes::{Lane, vector};
 use crate::number::{Number, Vector};
 
 /// How two spheres i and j lie to each other.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gap<N = f64> {
+pub(crate) struct SpherePair<N = f64> {
     /// From the centre of j to that of i \[m\].
     apart: Vector<N>,
     /// Radius of i \[m\].
@@ -16,7 +16,7 @@ pub(crate) struct Gap<N = f64> {
     radius_j: N,
 }
 
-impl<N: Number> Gap<N> {
+impl<N: Number> SpherePair<N> {
     /// Between these positions and radii.
     #[inline(always)]
     pub(crate) fn of([i, j]: [[N; 4]; 2]) -> Self {
@@ -25,7 +25,7 @@ impl<N: Number> Gap<N> {
 
     /// Where the spheres overlap.
     #[inline(always)]
-    pub(crate) fn closed(&self) -> N::Mask {
+    pub(crate) fn overlap(&self) -> N::Mask {
         let reach = self.radius_i + self.radius_j;
         (reach * reach).greater(self.apart.dot(self.apart))
     }
@@ -39,7 +39,7 @@ impl<N: Number> Gap<N> {
 
     /// Geometry and relative motion of the overlapping spheres: velocities and masses, angular velocities.
     #[inline(always)]
-    pub(crate) fn meet(&self, velocities: [[N; 4]; 2], spins: [[N; 4]; 2], pair_constant: N) -> Meeting<N> {
+    pub(crate) fn meet(&self, velocities: [[N; 4]; 2], spins: [[N; 4]; 2], pair_constant: N) -> ContactGeometry<N> {
         self.meet_at(self.roots(), velocities, spins, pair_constant)
     }
 
@@ -51,7 +51,7 @@ impl<N: Number> Gap<N> {
         [velocity_i, velocity_j]: [[N; 4]; 2],
         [spin_i, spin_j]: [[N; 4]; 2],
         pair_constant: N,
-    ) -> Meeting<N> {
+    ) -> ContactGeometry<N> {
         let Self { apart, radius_i, radius_j } = *self;
         let (half, one) = (N::splat(0.5), N::splat(1.0));
         let normal = apart * per_distance;
@@ -86,11 +86,11 @@ impl<N: Number> Gap<N> {
             relative_spin: vector(spin_i) - vector(spin_j),
             pair_constant,
         };
-        Meeting { contact, first_arm: arm_i, second_arm: arm_j }
+        ContactGeometry { contact, first_arm: arm_i, second_arm: arm_j }
     }
 }
 
-impl<N: Lane> Gap<N> {
+impl<N: Lane> SpherePair<N> {
     /// As numbers.
     #[inline(always)]
     pub(crate) fn to_found(self) -> [N; FOUND] {

@@ -5,10 +5,10 @@ use super::batch;
 use super::contacts::{ContactPass, effective};
 use super::pass::Link;
 use super::records::ContactRecord;
-use super::sphere_geometry::Gap;
+use super::sphere_geometry::SpherePair;
 use super::walls::{Plane, WallPass};
 use crate::bond::creation;
-use crate::contact::{Beyond, Contact, Law, Reaction, Response};
+use crate::contact::{Contact, Law, MOST_HISTORY, Offset, Reaction, Response};
 use crate::number::Vector;
 use crate::state::contacts::{SLIDING, TOUCHING};
 use crate::state::hidden::{FRESH, HiddenContact, LASTING};
@@ -29,7 +29,7 @@ struct Meeting {
 /// Ends a contact whose bodies do not touch.
 fn part(entry: &mut HiddenContact, step: f64) {
     entry.flags &= !(TOUCHING | SLIDING);
-    entry.spring = [0.0; 4];
+    entry.history = [[0.0; 4]; MOST_HISTORY];
     entry.force = [0.0; 4];
     if step > 0.0 {
         entry.flags &= !FRESH;
@@ -40,33 +40,31 @@ fn part(entry: &mut HiddenContact, step: f64) {
 }
 
 /// What a contact does; its entry remembers it. Nothing where the bond silences it.
-fn react<L: Law>(entry: &mut HiddenContact, meeting: &Meeting, row: &[f64], step: f64) -> Option<Reaction> {
+fn react(law: &Law, entry: &mut HiddenContact, meeting: &Meeting, row: &[f64], step: f64) -> Option<Reaction> {
     let (silent, contact) = (entry.is_silent(), &meeting.contact);
     let found = creation::hidden(contact.overlap, entry.offset, entry.is_hidden());
-    let beyond = Beyond { pressing: found.pressing, acts: found.acts, offset: meeting.offset };
-    let reaction = (!silent).then(|| L::react_beyond(row, contact, &beyond, entry.spring.into(), step));
+    let offset = Offset { pressing: found.pressing, acts: found.acts, contact: meeting.offset };
+    let mut history = if silent { [[0.0; 4]; MOST_HISTORY] } else { entry.history };
+    let reaction = (!silent).then(|| law.react_beyond(row, contact, &offset, &mut history, step));
     if step > 0.0 {
         entry.offset = found.offset;
         entry.flags &= !FRESH;
     }
     entry.flags = (entry.flags | TOUCHING) & !SLIDING;
-    let [force, spring] = reaction.map_or([Vector::zero(); 2], |reaction| [reaction.force, reaction.spring]);
     if reaction.is_some_and(|reaction| reaction.sliding) {
         entry.flags |= SLIDING;
     }
-    for axis in 0..3 {
-        entry.force[axis] = force.to_array()[axis];
-        entry.spring[axis] = spring.to_array()[axis];
-    }
+    entry.history = history;
+    entry.force = reaction.map_or(Vector::zero(), |reaction| reaction.force).row_with(0.0);
     reaction
 }
 
 /// The stiffness of a contact as it acts at present.
-fn stiffness<L: Law>(entry: &HiddenContact, contact: &Contact, row: &[f64]) -> Option<Response> {
+fn stiffness(law: &Law, entry: &HiddenContact, contact: &Contact, row: &[f64]) -> Option<Response> {
     if entry.bonds == 0 {
-        return Some(L::stiffness(row, contact));
+        return Some(law.stiffness(row, contact));
     }
-    let friction = L::stiffness(row, contact);
+    let friction = law.stiffness(row, contact);
     (!entry.is_silent()).then_some(Response { normal_stiffness: 0.0, normal_damping: 0.0, ..friction })
 }
 
@@ -76,18 +74,17 @@ fn remembered(entry: &HiddenContact) -> Reaction {
         force: entry.force.into(),
         couple: Vector::zero(),
         rolling: Vector::zero(),
-        spring: entry.spring.into(),
         sliding: entry.flags & SLIDING != 0,
     }
 }
 
 /// Elastic energy of a contact \[J\]: none of the normal force while a bond hides it.
-fn elastic_energy<L: Law>(entry: &HiddenContact, contact: &Contact, row: &[f64]) -> f64 {
+fn elastic_energy(law: &Law, entry: &HiddenContact, contact: &Contact, row: &[f64]) -> f64 {
     if entry.is_silent() {
         return 0.0;
     }
     let offset = if entry.bonds > 0 { contact.overlap } else { entry.offset.min(contact.overlap) };
-    L::elastic_energy(row, contact, offset, entry.spring.into())
+    law.elastic_energy(row, contact, offset, &entry.history)
 }
 
 /// Adds a multiple of a vector to a row.
@@ -106,8 +103,8 @@ fn pair(particles: &Particles, entry: &HiddenContact) -> Option<Meeting> {
         return None;
     }
     let (v, w) = (&particles.velocity, &particles.angular_velocity);
-    let at = |y| Gap::of([x, y]).meet([v[i], v[j]], [w[i], w[j]], entry.pair_constant);
-    let batch::Meeting { contact, first_arm, second_arm } = at(y);
+    let at = |y| SpherePair::of([x, y]).meet([v[i], v[j]], [w[i], w[j]], entry.pair_constant);
+    let batch::ContactGeometry { contact, first_arm, second_arm } = at(y);
     let [a, b, c] = (Vector::from(x) - contact.normal * (reach - entry.offset.min(contact.overlap))).to_array();
     Some(Meeting { contact, offset: at([a, b, c, y[3]]).contact, first_arm, second_arm })
 }
@@ -117,7 +114,7 @@ fn slots(particles: &Particles, entry: &HiddenContact) -> [usize; 2] {
     [entry.first, entry.second.unwrap_or(entry.first)].map(|index| particles.slot[index as usize] as usize)
 }
 
-impl<L: Law> ContactPass<L> {
+impl ContactPass {
     /// The coefficients of the two particles of an entry.
     fn row_of(&self, particles: &Particles, entry: &HiddenContact) -> &[f64] {
         let [i, j] = slots(particles, entry);
@@ -132,11 +129,13 @@ impl<L: Law> ContactPass<L> {
                 part(entry, step);
                 continue;
             };
-            let Some(reaction) = react::<L>(entry, &meeting, self.row_of(particles, entry), step) else { continue };
+            let Some(reaction) = react(&self.law.law, entry, &meeting, self.row_of(particles, entry), step) else {
+                continue;
+            };
             let [i, j] = slots(particles, entry);
             add(&mut particles.force[i], reaction.force, 1.0);
             add(&mut particles.force[j], reaction.force, -1.0);
-            if L::HAS_TORQUE {
+            if self.law.needs.torque {
                 add(&mut particles.torque[i], reaction.couple, -meeting.first_arm);
                 add(&mut particles.torque[j], reaction.couple, -meeting.second_arm);
                 add(&mut particles.torque[i], reaction.rolling, -1.0);
@@ -151,7 +150,7 @@ impl<L: Law> ContactPass<L> {
         for entry in state.hidden.pairs.get_mut(self.index).into_iter().flatten() {
             let [i, j] = slots(particles, entry).map(|slot| slot as u32);
             let (radius, mass) = effective(particles, i, j);
-            entry.pair_constant = L::pair_constant(self.row_of(particles, entry), radius, mass);
+            entry.pair_constant = self.law.law.pair_constant(self.row_of(particles, entry), radius, mass);
         }
     }
 
@@ -160,7 +159,9 @@ impl<L: Law> ContactPass<L> {
         let particles = &state.particles;
         for entry in state.hidden.pairs.get(self.index).into_iter().flatten() {
             let Some(Meeting { contact, first_arm, second_arm, .. }) = pair(particles, entry) else { continue };
-            let Some(response) = stiffness::<L>(entry, &contact, self.row_of(particles, entry)) else { continue };
+            let Some(response) = stiffness(&self.law.law, entry, &contact, self.row_of(particles, entry)) else {
+                continue;
+            };
             let [i, j] = slots(particles, entry).map(|slot| slot as u32);
             let (normal, torsion, bending) = (contact.normal, 0.0, 0.0);
             tell(Link { first: i, second: Some(j), response, first_arm, second_arm, normal, torsion, bending });
@@ -184,7 +185,7 @@ impl<L: Law> ContactPass<L> {
         let entries = state.hidden.pairs.get(self.index).into_iter().flatten();
         let energy = |entry| {
             let meeting = pair(particles, entry)?;
-            Some(elastic_energy::<L>(entry, &meeting.contact, self.row_of(particles, entry)))
+            Some(elastic_energy(&self.law.law, entry, &meeting.contact, self.row_of(particles, entry)))
         };
         entries.filter_map(energy).sum()
     }
@@ -199,13 +200,13 @@ fn at_plane(plane: &Plane, particles: &Particles, entry: &HiddenContact) -> Opti
     }
     let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
     let at = |position| plane.meet(position, velocity, spin, entry.pair_constant);
-    let batch::Meeting { contact, first_arm, .. } = at(position);
+    let batch::ContactGeometry { contact, first_arm, .. } = at(position);
     let raised = contact.overlap - entry.offset.min(contact.overlap);
     let [a, b, c] = (Vector::from(position) + plane.normal * raised).to_array();
     Some(Meeting { contact, offset: at([a, b, c, position[3]]).contact, first_arm, second_arm: 0.0 })
 }
 
-impl<L: Law> WallPass<L> {
+impl WallPass {
     /// The coefficients of the particle of an entry at this plane.
     fn row_of(&self, particles: &Particles, entry: &HiddenContact) -> &[f64] {
         let [slot, _] = slots(particles, entry);
@@ -229,11 +230,13 @@ impl<L: Law> WallPass<L> {
                 part(entry, step);
                 continue;
             };
-            let Some(reaction) = react::<L>(entry, &meeting, self.row_of(particles, entry), step) else { continue };
+            let Some(reaction) = react(&self.law.law, entry, &meeting, self.row_of(particles, entry), step) else {
+                continue;
+            };
             let point = Vector::from(particles.position[slot]) - plane.normal * meeting.first_arm;
             let moment = reaction.rolling - (point - reference).cross(reaction.force);
             add(&mut particles.force[slot], reaction.force, 1.0);
-            if L::HAS_TORQUE {
+            if self.law.needs.torque {
                 add(&mut particles.torque[slot], reaction.couple, -meeting.first_arm);
                 add(&mut particles.torque[slot], reaction.rolling, -1.0);
             }
@@ -251,7 +254,7 @@ impl<L: Law> WallPass<L> {
         for entry in state.hidden.planes.get_mut(self.index).into_iter().flatten() {
             let [slot, _] = slots(particles, entry);
             let (radius, mass) = (particles.position[slot][3], particles.velocity[slot][3]);
-            entry.pair_constant = L::pair_constant(self.row_of(particles, entry), radius, mass);
+            entry.pair_constant = self.law.law.pair_constant(self.row_of(particles, entry), radius, mass);
         }
     }
 
@@ -262,7 +265,9 @@ impl<L: Law> WallPass<L> {
             let Some(Meeting { contact, first_arm, .. }) = at_plane(&self.plane(state), particles, entry) else {
                 continue;
             };
-            let Some(response) = stiffness::<L>(entry, &contact, self.row_of(particles, entry)) else { continue };
+            let Some(response) = stiffness(&self.law.law, entry, &contact, self.row_of(particles, entry)) else {
+                continue;
+            };
             let first = slots(particles, entry)[0] as u32;
             let (normal, second_arm, torsion, bending) = (contact.normal, 0.0, 0.0, 0.0);
             tell(Link { first, second: None, response, first_arm, second_arm, normal, torsion, bending });
@@ -289,7 +294,7 @@ impl<L: Law> WallPass<L> {
         let entries = state.hidden.planes.get(self.index).into_iter().flatten();
         let energy = |entry| {
             let meeting = at_plane(&plane, particles, entry)?;
-            Some(elastic_energy::<L>(entry, &meeting.contact, self.row_of(particles, entry)))
+            Some(elastic_energy(&self.law.law, entry, &meeting.contact, self.row_of(particles, entry)))
         };
         entries.filter_map(energy).sum()
     }

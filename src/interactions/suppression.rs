@@ -4,6 +4,7 @@
 use super::records::PlacedSpring;
 use crate::bond::creation::{ContactPolicy, Moment};
 use crate::bond::keys::FormulationChoice;
+use crate::contact::{HistoryRow, Law};
 use crate::number::Vector;
 use crate::scene::{Bond, Scene, Shape};
 use crate::state::contacts::{SLIDING, TOUCHING};
@@ -20,6 +21,8 @@ pub(crate) struct Hiding {
     law_of: Vec<Option<u32>>,
     /// Number of materials.
     materials: usize,
+    /// What each contact law remembers of a contact.
+    histories: Vec<Vec<HistoryRow>>,
     /// Of each boundary that is a plane: material, point at time 0, normal.
     surfaces: Vec<Option<(u32, Vector, Vector)>>,
 }
@@ -86,6 +89,7 @@ impl Hiding {
             planes: scene.bonds.iter().map(|bond| bond.plane.map(|plane| plane.0)).collect(),
             law_of: law_of.collect(),
             materials,
+            histories: scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect(),
             surfaces: surfaces.collect(),
         }
     }
@@ -205,18 +209,18 @@ impl Hiding {
     /// remembered of a contact goes with it.
     pub(crate) fn sort_out(&self, state: &mut State) {
         let State { hidden, contacts, walls, particles, .. } = state;
-        for (entries, list) in hidden.pairs.iter_mut().zip(contacts) {
+        for ((entries, list), rows) in hidden.pairs.iter_mut().zip(contacts).zip(&self.histories) {
             let mut dead = vec![false; list.first.len()];
             entries.retain_mut(|entry| {
                 let slot = |index: u32| particles.slot[index as usize];
                 let (one, other) = (slot(entry.first), slot(entry.second.unwrap_or(entry.first)));
                 let key = (one.min(other), one.max(other));
-                let sign = if one < other { 1.0 } else { -1.0 };
+                let exchange = Exchange { rows, reversed: one > other };
                 let before = list.first.partition_point(|&first| first < key.0);
                 let here = list.first[before..].partition_point(|&first| first == key.0);
                 let found = list.second[before..before + here].binary_search(&key.1);
                 let listed = found.ok().map(|found| before + found);
-                let kept = exchange(entry, listed, &mut list.flags, &mut list.spring, sign);
+                let kept = exchange.exchange(entry, listed, &mut list.flags, &mut list.history);
                 if let (Some(pair), true) = (listed, kept) {
                     dead[pair] = true;
                 }
@@ -228,9 +232,10 @@ impl Hiding {
         }
         for (entries, list) in hidden.planes.iter_mut().zip(walls) {
             let mut dead = vec![false; list.particle.len()];
+            let exchange = Exchange { rows: &self.histories[list.law as usize], reversed: false };
             entries.retain_mut(|entry| {
                 let listed = list.particle.binary_search(&particles.slot[entry.first as usize]).ok();
-                let kept = exchange(entry, listed, &mut list.flags, &mut list.spring, 1.0);
+                let kept = exchange.exchange(entry, listed, &mut list.flags, &mut list.history);
                 if let (Some(place), true) = (listed, kept) {
                     dead[place] = true;
                 }
@@ -244,15 +249,17 @@ impl Hiding {
 }
 
 /// Gives the hidden contact of two bodies that touch its spring. Returns whether they have one.
-pub(crate) fn put_spring(state: &mut State, placed: &PlacedSpring) -> bool {
+pub(crate) fn put_spring(scene: &Scene, state: &mut State, placed: &PlacedSpring) -> bool {
     let [a, b] = placed.bodies;
     let sign = if a < b { 1.0 } else { -1.0 };
     let (first, second) = (a.min(b), Some(a.max(b)));
-    for list in &mut state.hidden.pairs {
+    for (law, list) in state.hidden.pairs.iter_mut().enumerate() {
         if let Ok(place) = Hidden::find(list, first, second) {
             let entry = &mut list[place];
             let [x, y, z] = placed.spring.map(|part| sign * part);
-            entry.spring = [x, y, z, 0.0];
+            if let Some(spring) = Law::of(&scene.contacts[law].choice()).spring() {
+                entry.history[spring] = [x, y, z, 0.0];
+            }
             entry.flags |= TOUCHING;
             return true;
         }
@@ -260,20 +267,42 @@ pub(crate) fn put_spring(state: &mut State, placed: &PlacedSpring) -> bool {
     false
 }
 
-/// Moves what is remembered of a contact between an entry and its place in a list; returns whether the entry stays.
-fn exchange(entry: &mut HiddenContact, listed: Option<usize>, flags: &mut [u8], spring: &mut [Row], sign: f64) -> bool {
-    let turned = |spring: Row| spring.map(|part| sign * part);
-    let Some(place) = listed else { return !entry.is_over() };
-    if entry.is_over() {
-        flags[place] = entry.flags & (TOUCHING | SLIDING);
-        if let Some(spring) = spring.get_mut(place) {
-            *spring = turned(entry.spring);
+/// How what is remembered of a contact goes between an entry and its place in a list.
+struct Exchange<'a> {
+    /// What its law remembers.
+    rows: &'a [HistoryRow],
+    /// Whether the list has the bodies in the other order.
+    reversed: bool,
+}
+
+impl Exchange<'_> {
+    /// A row as the other side sees it.
+    fn seen(&self, place: usize, row: Row) -> Row {
+        if self.reversed { self.rows[place].reversed(row) } else { row }
+    }
+
+    /// Moves what is remembered to where the contact stands; returns whether the entry stays.
+    fn exchange(
+        &self,
+        entry: &mut HiddenContact,
+        listed: Option<usize>,
+        flags: &mut [u8],
+        history: &mut [Vec<Row>],
+    ) -> bool {
+        let Some(place) = listed else { return !entry.is_over() };
+        if entry.is_over() {
+            flags[place] = entry.flags & (TOUCHING | SLIDING);
+            for (row, list) in history.iter_mut().enumerate() {
+                list[place] = self.seen(row, entry.history[row]);
+            }
+            return false;
         }
-        return false;
+        if flags[place] & TOUCHING != 0 && entry.flags & TOUCHING == 0 {
+            entry.flags |= flags[place] & (TOUCHING | SLIDING);
+            for (row, list) in history.iter().enumerate() {
+                entry.history[row] = self.seen(row, list[place]);
+            }
+        }
+        true
     }
-    if flags[place] & TOUCHING != 0 && entry.flags & TOUCHING == 0 {
-        entry.flags |= flags[place] & (TOUCHING | SLIDING);
-        entry.spring = spring.get(place).copied().map_or([0.0; 4], turned);
-    }
-    true
 }

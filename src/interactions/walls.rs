@@ -3,11 +3,11 @@
 //! Planes are worked on together, pieces of the particles side by side: a particle gets the loads of all planes from one
 //! thread, in the order of the planes. Loads on a plane are summed piece by piece, in order.
 
-use super::batch::{self, Batches, Bodies, Entries, FOUND, Meeting, Needs, Touching};
-use super::coefficients::Table;
+use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Needs, Touching};
+use super::coefficients::CoefficientTable;
 use super::pass::{Link, Pass};
 use super::records::{self, ContactRecord};
-use crate::contact::{Contact, Law, Response};
+use crate::contact::{Contact, Response};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector};
 use crate::run_error::RunError;
@@ -16,11 +16,10 @@ use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Particles, Row, State, WallContacts};
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
-use std::marker::PhantomData;
 use std::ops::Range;
 
 /// The pass of one plane and one contact law.
-pub(crate) struct WallPass<L> {
+pub(crate) struct WallPass {
     /// Which list of the state is its own.
     pub index: usize,
     /// Name of the plane.
@@ -32,9 +31,9 @@ pub(crate) struct WallPass<L> {
     /// Point about which the moment is taken, at time 0 \[m\].
     pub reference: Vector,
     /// Coefficients of the law.
-    pub table: Table,
+    pub table: CoefficientTable,
     /// The law.
-    pub law: PhantomData<fn() -> L>,
+    pub law: BatchLaw,
 }
 
 /// Where a plane stands and how it moves.
@@ -57,13 +56,25 @@ impl<N: Number> Plane<N> {
 
     /// Geometry and relative motion of a sphere at the plane.
     #[inline(always)]
-    pub(crate) fn meet(&self, position: [N; 4], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> Meeting<N> {
+    pub(crate) fn meet(
+        &self,
+        position: [N; 4],
+        velocity: [N; 4],
+        spin: [N; 4],
+        pair_constant: N,
+    ) -> ContactGeometry<N> {
         self.meet_at([self.distance(position), position[3]], velocity, spin, pair_constant)
     }
 
     /// The same at this distance, with this radius.
     #[inline(always)]
-    fn meet_at(&self, [distance, radius]: [N; 2], velocity: [N; 4], spin: [N; 4], pair_constant: N) -> Meeting<N> {
+    fn meet_at(
+        &self,
+        [distance, radius]: [N; 2],
+        velocity: [N; 4],
+        spin: [N; 4],
+        pair_constant: N,
+    ) -> ContactGeometry<N> {
         let overlap = radius - distance;
         let arm = radius - N::splat(0.5) * overlap;
         let relative = vector(velocity) - self.velocity;
@@ -81,7 +92,7 @@ impl<N: Number> Plane<N> {
             relative_spin: vector(spin),
             pair_constant,
         };
-        Meeting { contact, first_arm: arm, second_arm: N::zero() }
+        ContactGeometry { contact, first_arm: arm, second_arm: N::zero() }
     }
 }
 
@@ -94,7 +105,7 @@ impl Plane {
     }
 }
 
-impl<L: Law> WallPass<L> {
+impl WallPass {
     /// The plane where it stands in this state.
     pub(crate) fn plane(&self, state: &State) -> Plane {
         self.plane_at(&state.boundaries[state.walls[self.index].boundary as usize])
@@ -120,8 +131,8 @@ impl<L: Law> WallPass<L> {
         }
         let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
         let Particles { position, velocity, angular_velocity, .. } = particles;
-        let meeting = plane.meet(position[slot], velocity[slot], angular_velocity[slot], constant);
-        Some((meeting.contact, meeting.first_arm))
+        let geometry = plane.meet(position[slot], velocity[slot], angular_velocity[slot], constant);
+        Some((geometry.contact, geometry.first_arm))
     }
 }
 
@@ -193,7 +204,7 @@ pub(crate) fn apply(passes: &[Box<dyn Pass>], state: &mut State, context: &Conte
     result
 }
 
-impl<L: Law> PlanePass for WallPass<L> {
+impl PlanePass for WallPass {
     fn work<'a>(
         &'a self,
         list: &'a mut WallContacts,
@@ -216,11 +227,8 @@ impl<L: Law> PlanePass for WallPass<L> {
                 force,
                 torque,
             },
-            entries: Entries {
-                flags: Shared::new(&mut list.flags),
-                spring: Shared::new(&mut list.spring),
-                pair_constant: &list.pair_constant,
-            },
+            entries: Entries::of(&mut list.flags, &mut list.history, &list.pair_constant),
+            law: &self.law,
             table: &self.table,
             uniform: self.table.uniform_with(self.material),
             step: context.step,
@@ -229,7 +237,7 @@ impl<L: Law> PlanePass for WallPass<L> {
         Box::new(move |slots| {
             let [from, to] =
                 [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
-            batches.run::<L>(from, to, 0..0)
+            batches.run(from, to, 0..0)
         })
     }
 
@@ -255,7 +263,7 @@ impl<L: Law> PlanePass for WallPass<L> {
     }
 }
 
-impl<L: Law> Pass for WallPass<L> {
+impl Pass for WallPass {
     /// All planes are done together, by [`apply`].
     fn apply(&self, _state: &mut State, _context: &Context) -> Result<(), RunError> {
         Ok(())
@@ -266,7 +274,7 @@ impl<L: Law> Pass for WallPass<L> {
     }
 
     fn has_torque(&self) -> bool {
-        L::HAS_TORQUE
+        self.law.needs.torque
     }
 
     fn source(&self) -> Source {
@@ -276,16 +284,14 @@ impl<L: Law> Pass for WallPass<L> {
     fn prepare(&self, state: &mut State) {
         self.prepare_hidden(state);
         let list = &mut state.walls[self.index];
-        if !L::HAS_SPRING {
-            list.spring.clear();
-        }
+        let law = &self.law.law;
         list.pair_constant.clear();
-        if L::HAS_PAIR_CONSTANT {
+        if law.has_pair_constant() {
             let particles = &state.particles;
             list.pair_constant.extend(list.particle.iter().map(|&slot| {
                 let slot = slot as usize;
                 let row = self.table.row(particles.material[slot], self.material);
-                L::pair_constant(row, particles.position[slot][3], particles.velocity[slot][3])
+                law.pair_constant(row, particles.position[slot][3], particles.velocity[slot][3])
             }));
         }
     }
@@ -296,7 +302,7 @@ impl<L: Law> Pass for WallPass<L> {
         for entry in 0..list.particle.len() {
             if let Some((contact, arm)) = self.contact(state, entry) {
                 let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
-                let response = L::stiffness(row, &contact);
+                let response = self.law.law.stiffness(row, &contact);
                 let (first, normal) = (list.particle[entry], contact.normal);
                 tell(Link {
                     first,
@@ -314,7 +320,7 @@ impl<L: Law> Pass for WallPass<L> {
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
         // Against a plane the effective radius and mass are the particle's own, twice those of an equal pair.
-        self.table.stiffest::<L>(2.0 * radius, 2.0 * mass, speed)
+        self.table.stiffest(&self.law.law, 2.0 * radius, 2.0 * mass, speed)
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
@@ -325,10 +331,11 @@ impl<L: Law> Pass for WallPass<L> {
             let (velocity, spin) = records::half_step_back(state, slot, step);
             let position = state.particles.position[slot];
             let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-            let Meeting { contact, first_arm: arm, .. } = plane.meet(position, velocity, spin, constant);
+            let geometry = plane.meet(position, velocity, spin, constant);
+            let ContactGeometry { contact, first_arm: arm, .. } = geometry;
             let row = self.table.row(state.particles.material[slot], self.material);
-            let spring = list.spring.get(entry).copied().unwrap_or([0.0; 4]);
-            let (reaction, sliding) = records::react::<L>(row, &contact, spring, list.flags[entry]);
+            let (reaction, sliding) =
+                records::react(&self.law.law, row, &contact, &list.history, entry, list.flags[entry]);
             let point = Vector::from(position) - contact.normal * arm;
             let ids = (state.particles.id[slot], None);
             tell(ContactRecord::new(ids, Some(list.boundary), point, &contact, &reaction, sliding));
@@ -341,8 +348,7 @@ impl<L: Law> Pass for WallPass<L> {
         let energy = |entry: usize| {
             let (contact, _) = self.contact(state, entry)?;
             let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
-            let spring = list.spring.get(entry).copied().unwrap_or([0.0; 4]);
-            Some(L::elastic_energy(row, &contact, 0.0, spring.into()))
+            Some(self.law.law.elastic_energy(row, &contact, 0.0, &records::history(&list.history, entry)))
         };
         let touching = (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0);
         touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
@@ -423,7 +429,7 @@ impl Bodies for AtPlane<'_> {
         _second: *const u32,
         [distance, radius, ..]: [N; FOUND],
         _roots: [N; 2],
-    ) -> Meeting<N> {
+    ) -> ContactGeometry<N> {
         // SAFETY: a list holds slots of particles, below their number.
         let (velocity, spin) = unsafe {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), first) } else { [N::zero(); 4] };
@@ -432,7 +438,7 @@ impl Bodies for AtPlane<'_> {
         self.plane.lanes::<N>().meet_at([distance, radius], velocity, spin, N::zero())
     }
 
-    fn row(&self, table: &Table, first: u32, _second: u32) -> u32 {
+    fn row(&self, table: &CoefficientTable, first: u32, _second: u32) -> u32 {
         table.entry(self.material[first as usize], self.wall_material)
     }
 

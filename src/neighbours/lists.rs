@@ -1,10 +1,11 @@
-//! From found pairs to the lists of the contact laws, with the springs of the pairs that touch.
+//! From found pairs to the lists of the contact laws, with what the laws remember of the pairs that touch.
 
 use super::order::Order;
 use super::pairs::{Found, Laws};
+use crate::contact::HistoryRow;
 use crate::lanes::{self, Shared};
-use crate::state::ContactList;
 use crate::state::contacts::TOUCHING;
+use crate::state::{ContactList, Row};
 use crate::threads::Context;
 
 /// Pairs of the old list in one piece of work.
@@ -20,13 +21,13 @@ pub(crate) struct Making {
 }
 
 impl Making {
-    /// Replaces the list of a law by what was found. Springs and flags go with the pair of particles.
+    /// Replaces the list of a law by what was found. Flags and history go with the pair of particles.
     pub(crate) fn replace(
         &mut self,
         list: &mut ContactList,
         found: &[Found],
         (law, laws): (u32, &Laws),
-        spring: bool,
+        history: &[HistoryRow],
         (order, context): (&Order, &Context),
     ) {
         let new = &mut self.spare;
@@ -42,11 +43,14 @@ impl Making {
         new.first.resize(count, 0);
         new.second.resize(count, 0);
         new.flags.resize(count, 0);
-        new.spring.resize(if spring { count } else { 0 }, [0.0; 4]);
+        new.history.resize(history.len(), Vec::new());
+        for rows in &mut new.history {
+            rows.resize(count, [0.0; 4]);
+        }
         new.pair_constant.clear();
         self.starts.resize(order.slots.len() + 1, 0);
         self.fill(found, (law, laws), order, context);
-        self.carry(list, order, context);
+        self.carry(list, history, order, context);
         std::mem::swap(list, &mut self.spare);
     }
 
@@ -54,7 +58,7 @@ impl Making {
     fn fill(&mut self, found: &[Found], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
         let new = &mut self.spare;
         let (first, second) = (Shared::new(&mut new.first), Shared::new(&mut new.second));
-        let (flags, spring) = (Shared::new(&mut new.flags), Shared::new(&mut new.spring));
+        let (flags, history) = (Shared::new(&mut new.flags), shared(&mut new.history));
         let starts = Shared::new(&mut self.starts);
         let (slabs, particles) = (&new.slabs, &order.slabs);
         context.each(found.len(), |slab| {
@@ -81,8 +85,8 @@ impl Making {
                     begin_rows(first, low, from, starts);
                 }
                 flags.part(from, to).fill(0);
-                if spring.length() > 0 {
-                    spring.part(from, to).fill([0.0; 4]);
+                for rows in &history {
+                    rows.part(from, to).fill([0.0; 4]);
                 }
             }
         });
@@ -91,11 +95,10 @@ impl Making {
         }
     }
 
-    /// Brings flags and springs of touching pairs from the old list, pieces side by side.
-    fn carry(&mut self, old: &ContactList, order: &Order, context: &Context) {
-        let (flags, spring) = (Shared::new(&mut self.spare.flags), Shared::new(&mut self.spare.spring));
+    /// Brings flags and history of touching pairs from the old list, pieces side by side.
+    fn carry(&mut self, old: &ContactList, kept: &[HistoryRow], order: &Order, context: &Context) {
+        let (flags, history) = (Shared::new(&mut self.spare.flags), shared(&mut self.spare.history));
         let (second, starts, new_slot) = (&self.spare.second[..], &self.starts[..], &order.new_slot[..]);
-        let springs = if spring.length() > 0 { old.spring.len() } else { 0 };
         context.each(old.first.len().div_ceil(PIECE), |piece| {
             let mut touching = [0_u32; PIECE];
             let count = find_touching(&old.flags, piece, &mut touching);
@@ -108,16 +111,19 @@ impl Making {
                     // SAFETY: no other old pair is of these two particles.
                     unsafe {
                         *flags.at(place) = old.flags[pair];
-                        if pair < springs {
-                            let sign = if a < b { 1.0 } else { -1.0 };
-                            let [x, y, z, rest] = old.spring[pair];
-                            *spring.at(place) = [sign * x, sign * y, sign * z, sign * rest];
+                        for ((rows, old), kept) in history.iter().zip(&old.history).zip(kept) {
+                            *rows.at(place) = if a < b { old[pair] } else { kept.reversed(old[pair]) };
                         }
                     }
                 }
             }
         });
     }
+}
+
+/// The lists of what is remembered, for several threads.
+fn shared(history: &mut [Vec<Row>]) -> Vec<Shared<Row>> {
+    history.iter_mut().map(|rows| Shared::new(rows)).collect()
 }
 
 /// Writes the touching pairs of a piece, without a branch that cannot be foreseen. Returns how many.

@@ -1,8 +1,8 @@
 //! Which particles are near each other, and the order they are kept in.
 //!
 //! Particles are sorted into slabs across the longest extent of the packing, each at least as thick as the largest
-//! reach of a pair, and inside a slab by size and cell. Pairs therefore reach no further than the next slab. Springs
-//! follow the pair of particles, never a place in a list. Pieces of work are those of geometry or of fixed length:
+//! reach of a pair, and inside a slab by size and cell. Pairs therefore reach no further than the next slab. What a law
+//! remembers follows the pair of particles, never a place in a list. Pieces of work are those of geometry or of fixed length:
 //! lists and their order do not depend on the number of threads.
 
 pub(crate) mod bonds;
@@ -15,7 +15,7 @@ mod planes;
 mod sizes;
 mod skin;
 
-use crate::contact::{Law, TakeLaw};
+use crate::contact::{HistoryRow, Law};
 use crate::scene::{Scene, Shape};
 use crate::state::{Particles, State};
 use crate::threads::{CHUNK, Context};
@@ -32,8 +32,8 @@ pub(crate) use skin::FIRST as FIRST_SKIN;
 pub(crate) struct Search {
     /// Which pairs have a law.
     laws: Laws,
-    /// Whether each law keeps a spring.
-    springs: Vec<bool>,
+    /// What each law remembers of a contact.
+    histories: Vec<Vec<HistoryRow>>,
     /// Planes of the scene.
     planes: Vec<Plane>,
     /// Levels of radii.
@@ -60,16 +60,6 @@ pub(crate) struct Search {
     mark: Vec<u32>,
 }
 
-/// Asks a law whether it keeps a spring.
-struct HasSpring;
-
-impl TakeLaw for HasSpring {
-    type Output = bool;
-    fn take<L: Law>(self, _law: L) -> bool {
-        L::HAS_SPRING
-    }
-}
-
 impl Search {
     /// Reads what concerns the search from the scene.
     pub(crate) fn of(scene: &Scene) -> Self {
@@ -85,7 +75,7 @@ impl Search {
             Shape::Particles { .. } => None,
         });
         Self {
-            springs: scene.contacts.iter().map(|law| law.choice().visit(HasSpring)).collect(),
+            histories: scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect(),
             planes: planes.collect(),
             sizes: Sizes::of(radii()),
             smallest: radii().fold(f64::INFINITY, f64::min),
@@ -176,7 +166,7 @@ impl Search {
         pairs::find(&look, &mut self.found, context);
         for (law, list) in state.contacts.iter_mut().enumerate() {
             let of = (law as u32, &self.laws);
-            self.making.replace(list, &self.found, of, self.springs[law], (&self.order, context));
+            self.making.replace(list, &self.found, of, &self.histories[law], (&self.order, context));
         }
     }
 
@@ -189,7 +179,8 @@ impl Search {
         let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin);
         let near = planes::Side { columns, point, normal: plane.normal, skin };
         let particles = (&state.particles, &self.laws);
-        planes::replace(list, plane, near, particles, &mut self.mark, (&self.order, context));
+        let history = self.histories[list.law as usize].len();
+        planes::replace(list, plane, (near, history), particles, &mut self.mark, (&self.order, context));
     }
 }
 

@@ -34,11 +34,11 @@ pub(crate) struct Side<'a> {
     pub skin: f64,
 }
 
-/// Makes the list of a plane and a law anew: `mark` has room for a number of each particle.
+/// Makes the list of a plane and a law that remembers so many rows anew: `mark` has room for a number of each particle.
 pub(crate) fn replace(
     list: &mut WallContacts,
     plane: &Plane,
-    side: Side,
+    (side, history): (Side, usize),
     (particles, laws): (&Particles, &Laws),
     mark: &mut Vec<u32>,
     (order, context): (&Order, &Context),
@@ -60,11 +60,11 @@ pub(crate) fn replace(
     list.law = old.law;
     list.particle = pieces.concat();
     list.flags = vec![0; list.particle.len()];
-    list.spring = vec![[0.0; 4]; list.particle.len()];
+    list.history = vec![vec![[0.0; 4]; list.particle.len()]; history];
     carry(&old, list, mark, order);
 }
 
-/// Brings flags and springs from the old list.
+/// Brings flags and history from the old list.
 fn carry(old: &WallContacts, new: &mut WallContacts, mark: &mut Vec<u32>, order: &Order) {
     mark.resize(order.slots.len(), 0);
     for (place, &slot) in new.particle.iter().enumerate() {
@@ -76,8 +76,8 @@ fn carry(old: &WallContacts, new: &mut WallContacts, mark: &mut Vec<u32>, order:
         let place = mark[slot as usize] as usize;
         if new.particle.get(place) == Some(&slot) {
             new.flags[place] = old.flags[entry];
-            if let Some(spring) = old.spring.get(entry) {
-                new.spring[place] = *spring;
+            for (new, old) in new.history.iter_mut().zip(&old.history) {
+                new[place] = old[entry];
             }
         }
     }

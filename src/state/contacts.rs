@@ -55,9 +55,9 @@ pub struct ContactList {
     /// Bits of each pair: [`TOUCHING`] and [`SLIDING`].
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// Tangential spring, as `first` sees `second` \[m\]; empty where the law has none.
-    #[serde(with = "plain")]
-    pub spring: Vec<Row>,
+    /// What the law remembers of each pair, as `first` sees `second`: a list for each of its rows, in their order.
+    #[serde(with = "plain::lists")]
+    pub history: Vec<Vec<Row>>,
     /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
     #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
@@ -82,9 +82,9 @@ pub struct WallContacts {
     /// Bits of each: [`TOUCHING`] and [`SLIDING`].
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// Tangential spring \[m\]; empty where the law has none.
-    #[serde(with = "plain")]
-    pub spring: Vec<Row>,
+    /// What the law remembers of each: a list for each of its rows, in their order.
+    #[serde(with = "plain::lists")]
+    pub history: Vec<Vec<Row>>,
     /// What the normal model keeps of each; empty where it keeps nothing.
     #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
@@ -102,7 +102,9 @@ impl ContactList {
         keep(&mut self.first, dead);
         keep(&mut self.second, dead);
         keep(&mut self.flags, dead);
-        keep(&mut self.spring, dead);
+        for rows in &mut self.history {
+            keep(rows, dead);
+        }
         keep(&mut self.pair_constant, dead);
     }
 }
@@ -112,7 +114,9 @@ impl WallContacts {
     pub fn remove(&mut self, dead: &[bool]) {
         keep(&mut self.particle, dead);
         keep(&mut self.flags, dead);
-        keep(&mut self.spring, dead);
+        for rows in &mut self.history {
+            keep(rows, dead);
+        }
         keep(&mut self.pair_constant, dead);
     }
 }

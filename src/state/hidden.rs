@@ -2,6 +2,7 @@
 
 use super::Row;
 use super::contacts::TOUCHING;
+use crate::contact::MOST_HISTORY;
 use serde::{Deserialize, Serialize};
 
 /// The bond was made in the present time step: the contact still acts as it did before.
@@ -27,8 +28,8 @@ pub struct HiddenContact {
     pub flags: u8,
     /// Overlap from which the normal force is taken once the bond is gone \[m\].
     pub offset: f64,
-    /// Tangential spring, as `first` sees the other body \[m\].
-    pub spring: Row,
+    /// What the law remembers of the contact, as `first` sees the other body.
+    pub history: [Row; MOST_HISTORY],
     /// What the normal model keeps of each pair.
     pub pair_constant: f64,
     /// Force on `first` in the last evaluation \[N\].

@@ -115,3 +115,48 @@ impl<T: Plain> Visitor<'_> for Bytes<T> {
         Ok(bytes.chunks_exact(T::SIZE).map(T::take).collect())
     }
 }
+
+/// Lists of lists, each as bytes. For `#[serde(with = "plain::lists")]`.
+pub(super) mod lists {
+    use super::Plain;
+    use serde::ser::SerializeSeq;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// One of the lists, to be written.
+    struct Written<'a, T>(&'a [T]);
+
+    impl<T: Plain> Serialize for Written<'_, T> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            super::serialize(self.0, serializer)
+        }
+    }
+
+    /// One of the lists, read.
+    struct Read<T>(Vec<T>);
+
+    impl<'a, T: Plain> Deserialize<'a> for Read<T> {
+        fn deserialize<D: Deserializer<'a>>(deserializer: D) -> Result<Self, D::Error> {
+            super::deserialize(deserializer).map(Self)
+        }
+    }
+
+    /// Writes the lists.
+    pub(in crate::state) fn serialize<T: Plain, S: Serializer>(
+        lists: &[Vec<T>],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let mut sequence = serializer.serialize_seq(Some(lists.len()))?;
+        for list in lists {
+            sequence.serialize_element(&Written(list))?;
+        }
+        sequence.end()
+    }
+
+    /// Reads them back.
+    pub(in crate::state) fn deserialize<'a, T: Plain, D: Deserializer<'a>>(
+        deserializer: D,
+    ) -> Result<Vec<Vec<T>>, D::Error> {
+        let lists = Vec::<Read<T>>::deserialize(deserializer)?;
+        Ok(lists.into_iter().map(|Read(list)| list).collect())
+    }
+}

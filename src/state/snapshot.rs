@@ -8,7 +8,7 @@ use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 const MAGIC: &[u8; 8] = b"cograin\0";
 
 /// Version of the layout; a change of any field of the state raises it.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Length of what stands before the payload: magic, version, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8;
@@ -174,10 +174,10 @@ impl State {
     fn size(&self) -> usize {
         let row = size_of::<super::Row>();
         let particles = self.particles.len() * (8 * row + 24);
-        let lists = self.contacts.iter().map(|list| list.first.len());
-        let planes = self.walls.iter().map(|list| list.particle.len());
+        let lists = self.contacts.iter().map(|list| list.first.len() * (list.history.len() * row + 17));
+        let planes = self.walls.iter().map(|list| list.particle.len() * (list.history.len() * row + 17));
         let bonds = self.bonds.iter().map(|list| list.first.len() * (list.rows.len() * row + 8));
-        let contacts = lists.chain(planes).sum::<usize>() * (row + 17);
+        let contacts = lists.chain(planes).sum::<usize>();
         4096 + 1024 * self.boundaries.len() + particles + contacts + bonds.sum::<usize>()
     }
 }

@@ -1,13 +1,12 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
 use crate::bond::{BondLaw, keys};
-use crate::contact::{Law, TakeLaw};
 use crate::interactions::Pass;
 use crate::interactions::bonds::BondPass;
 use crate::interactions::contacts::ContactPass;
 use crate::interactions::wall_bonds::WallBondPass;
 use crate::interactions::walls::{Plane, WallPass};
-use crate::interactions::{MOST_COEFFICIENTS, Table};
+use crate::interactions::{BatchLaw, CoefficientTable};
 use crate::motion::RigidBody;
 use crate::motion::rigid_body::sphere_inertia;
 use crate::neighbours;
@@ -16,7 +15,6 @@ use crate::scene::{AxisMotion, Boundary, Scene, Shape};
 use crate::state::{
     BondList, BoundaryState, Clock, ContactList, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
 };
-use std::marker::PhantomData;
 
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
@@ -119,34 +117,16 @@ fn wall_lists(scene: &Scene) -> Vec<WallContacts> {
 /// The passes of a scene: contacts between particles law by law, then planes.
 pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
     let mut passes = Vec::new();
-    for (index, law) in scene.contacts.iter().enumerate() {
-        passes.push(law.choice().visit(BetweenParticles { scene, index }));
+    for index in 0..scene.contacts.len() {
+        passes.push(Box::new(between_particles(scene, index)) as Box<dyn Pass>);
     }
     for (index, bond) in scene.bonds.iter().enumerate() {
         passes.extend(bond.keys.visit(Bonded { scene, index }));
     }
-    for (list, (boundary, law)) in meetings(scene).into_iter().enumerate() {
-        let maker = AtPlane { scene, list, boundary: boundary as usize, law: law as usize };
-        passes.push(scene.contacts[law as usize].choice().visit(maker));
+    for (list, meeting) in meetings(scene).into_iter().enumerate() {
+        passes.push(Box::new(at_plane(scene, list, meeting)));
     }
     passes
-}
-
-/// Makes the pass of a law between particles.
-struct BetweenParticles<'a> {
-    /// Where materials stand.
-    scene: &'a Scene,
-    /// Which law of the scene it is.
-    index: usize,
-}
-
-impl TakeLaw for BetweenParticles<'_> {
-    type Output = Box<dyn Pass>;
-    fn take<L: Law>(self, law: L) -> Box<dyn Pass> {
-        const { assert!(L::COUNT <= MOST_COEFFICIENTS) };
-        let table = Table::of(&law, self.scene, &self.scene.contacts[self.index].between);
-        Box::new(ContactPass::<L> { index: self.index, table, law: PhantomData })
-    }
 }
 
 /// Makes the pass of a bond law.
@@ -167,33 +147,26 @@ impl keys::TakeLaw for Bonded<'_> {
     }
 }
 
-/// Makes the pass of a law at a plane.
-struct AtPlane<'a> {
-    /// Where materials and boundaries stand.
-    scene: &'a Scene,
-    /// Which list of the state is its own.
-    list: usize,
-    /// The plane.
-    boundary: usize,
-    /// Which law of the scene it is.
-    law: usize,
+/// The pass of a law between particles.
+fn between_particles(scene: &Scene, index: usize) -> ContactPass {
+    let law = &scene.contacts[index];
+    let table = CoefficientTable::of(&law.choice(), scene, &law.between);
+    ContactPass { index, table, law: BatchLaw::of(&law.choice()) }
 }
 
-impl TakeLaw for AtPlane<'_> {
-    type Output = Box<dyn Pass>;
-    fn take<L: Law>(self, law: L) -> Box<dyn Pass> {
-        let boundary = &self.scene.boundaries[self.boundary];
-        let Shape::Plane { material, point, normal } = &boundary.shape else {
-            unreachable!("only planes meet particles in lists of their own")
-        };
-        Box::new(WallPass::<L> {
-            index: self.list,
-            name: boundary.name.clone(),
-            plane: Plane { point: (*point).into(), normal: (*normal).into(), velocity: Vector::zero() },
-            material: material.0,
-            reference: boundary.reference.into(),
-            table: Table::of(&law, self.scene, &self.scene.contacts[self.law].between),
-            law: PhantomData,
-        })
+/// The pass of a law at a plane; `list` is its place among those of the state.
+fn at_plane(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> WallPass {
+    let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
+    let Shape::Plane { material, point, normal } = &boundary.shape else {
+        unreachable!("only planes meet particles in lists of their own")
+    };
+    WallPass {
+        index: list,
+        name: boundary.name.clone(),
+        plane: Plane { point: (*point).into(), normal: (*normal).into(), velocity: Vector::zero() },
+        material: material.0,
+        reference: boundary.reference.into(),
+        table: CoefficientTable::of(&law.choice(), scene, &law.between),
+        law: BatchLaw::of(&law.choice()),
     }
 }

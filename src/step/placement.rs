@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
+use crate::contact::Law;
 use crate::interactions::{PlacedSpring, suppression};
 use crate::motion::course;
 use crate::number::Vector;
@@ -77,7 +78,7 @@ impl Simulation {
         hiding.placed(scene, state, &placement.springs);
         simulation.rebuild(&simulation.standing());
         for spring in &placement.springs {
-            put_spring(&mut simulation.state, spring);
+            put_spring(&simulation.scene, &mut simulation.state, spring);
         }
         simulation.state.clock.stable = simulation.limit().safe;
         Ok(simulation)
@@ -118,7 +119,7 @@ fn put_bond(state: &mut State, bond: &PlacedBond, lossy: bool) {
 }
 
 /// Gives a listed pair its spring, if it touches.
-fn put_spring(state: &mut State, placed: &PlacedSpring) {
+fn put_spring(scene: &Scene, state: &mut State, placed: &PlacedSpring) {
     let particles = &state.particles;
     let [a, b] = placed.bodies.map(|body| particles.slot[body as usize]);
     let [one, other] = [a, b].map(|slot| particles.position[slot as usize]);
@@ -126,10 +127,11 @@ fn put_spring(state: &mut State, placed: &PlacedSpring) {
     if distance >= one[3] + other[3] {
         return;
     }
-    if suppression::put_spring(state, placed) {
+    if suppression::put_spring(scene, state, placed) {
         return;
     }
-    for list in &mut state.contacts {
+    for (law, list) in state.contacts.iter_mut().enumerate() {
+        let spring = Law::of(&scene.contacts[law].choice()).spring();
         for pair in 0..list.first.len() {
             let sign = match [list.first[pair], list.second[pair]] {
                 found if found == [a, b] => 1.0,
@@ -137,7 +139,7 @@ fn put_spring(state: &mut State, placed: &PlacedSpring) {
                 _ => continue,
             };
             list.flags[pair] |= TOUCHING;
-            if let Some(spring) = list.spring.get_mut(pair) {
+            if let Some(spring) = spring.and_then(|spring| list.history.get_mut(spring)?.get_mut(pair)) {
                 put(spring, placed.spring.map(|part| sign * part));
             }
         }

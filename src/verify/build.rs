@@ -23,8 +23,8 @@ pub(super) fn scene(case: &Case, formulation: FormulationChoice) -> Result<Scene
     let pairs = law::pairs(case)?;
     for (at, properties) in pairs.iter().enumerate() {
         let (a, b) = (&materials[at / materials.len()], &materials[at % materials.len()]);
-        if let Some(missing) = law.missing(&MaterialPair { a, b, properties }) {
-            return Err(law::absent(missing.key));
+        if let Err(missing) = law.coefficients(&MaterialPair { a, b, properties }) {
+            return Err(law::absent(missing[0].key));
         }
     }
     let contact = ContactLaw {

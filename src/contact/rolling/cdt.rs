@@ -1,6 +1,6 @@
 //! Rolling resistance of constant size.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Rolling, coefficients};
+use crate::contact::{Contact, MaterialPair, Missing, NoKeys, NormalForce, Rolling, coefficients};
 use crate::number::{Number, Vector};
 
 coefficients! {
@@ -38,18 +38,24 @@ impl Rolling for Cdt {
     }
 
     #[inline(always)]
-    fn torque<N: Number>(law: Cdt<N>, contact: &Contact<N>, response: &Response<N>) -> Vector<N> {
+    fn torque<N: Number>(
+        law: Cdt<N>,
+        contact: &Contact<N>,
+        normal: &NormalForce<N>,
+        history: [N; 4],
+        _step: N,
+    ) -> (Vector<N>, [N; 4]) {
         let spin = contact.relative_spin.length();
-        let size = law.rolling_friction * (response.normal_stiffness * contact.overlap) * contact.radius;
+        let size = law.rolling_friction * (normal.response.normal_stiffness * contact.overlap) * contact.radius;
         let whole = contact.relative_spin * N::select(spin.greater(N::zero()), size / spin, N::zero());
-        whole - contact.normal * whole.dot(contact.normal)
+        (whole - contact.normal * whole.dot(contact.normal), history)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::fixtures::{assert_close, contact, response};
+    use crate::contact::fixtures::{assert_close, contact, normal_force};
 
     /// µ_r = ⅛, k_n δ = 1024/16384 N, R* = ¼ m.
     const SIZE: f64 = 0.125 * (1024.0 / 16384.0) * 0.25;
@@ -57,7 +63,7 @@ mod tests {
     /// The torque against this spin; the normal is z.
     fn torque(x: f64, y: f64, z: f64) -> Vector {
         let contact = Contact { relative_spin: Vector::new(x, y, z), ..contact() };
-        Cdt::torque(Cdt::new(0.125), &contact, &response())
+        Cdt::torque(Cdt::new(0.125), &contact, &normal_force(), [0.0; 4], 1.0).0
     }
 
     #[test]
@@ -82,8 +88,9 @@ mod tests {
 
     #[test]
     fn sees_neither_damping_nor_cohesion() {
-        let damped = Response { normal_damping: 1e9, ..response() };
+        let mut damped = NormalForce { force: 1e9, seen: 1e9, ..normal_force() };
+        damped.response.normal_damping = 1e9;
         let contact = Contact { section_area: 1e9, ..contact() };
-        assert_eq!(Cdt::torque(Cdt::new(0.125), &contact, &damped).y, SIZE);
+        assert_eq!(Cdt::torque(Cdt::new(0.125), &contact, &damped, [0.0; 4], 1.0).0.y, SIZE);
     }
 }

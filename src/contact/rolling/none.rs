@@ -1,6 +1,6 @@
 //! No resistance against rolling.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Rolling, coefficients};
+use crate::contact::{Contact, MaterialPair, Missing, NoKeys, NormalForce, Rolling, coefficients};
 use crate::number::{Number, Vector};
 
 coefficients! {
@@ -17,7 +17,13 @@ impl Rolling for None {
     }
 
     #[inline(always)]
-    fn torque<N: Number>(_law: None<N>, _contact: &Contact<N>, _response: &Response<N>) -> Vector<N> {
-        Vector::zero()
+    fn torque<N: Number>(
+        _law: None<N>,
+        _contact: &Contact<N>,
+        _normal: &NormalForce<N>,
+        history: [N; 4],
+        _step: N,
+    ) -> (Vector<N>, [N; 4]) {
+        (Vector::zero(), history)
     }
 }

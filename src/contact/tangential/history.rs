@@ -1,6 +1,8 @@
 //! Friction with a tangential spring that remembers.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Tangential, coefficients};
+use crate::contact::{
+    Contact, Friction, HistoryRow, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients,
+};
 use crate::number::{Number, Vector};
 
 coefficients! {
@@ -34,6 +36,7 @@ coefficients! {
 impl Tangential for History {
     type Keys = NoKeys;
     const ACTIVE: bool = true;
+    const HISTORY: Option<HistoryRow> = Some(HistoryRow { name: "tangential spring", odd: [true, true, true, false] });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
 
@@ -45,14 +48,14 @@ impl Tangential for History {
     fn force<N: Number>(
         law: History<N>,
         contact: &Contact<N>,
-        response: &Response<N>,
-        pressure: N,
-        spring: Vector<N>,
+        normal: &NormalForce<N>,
+        history: [N; 4],
         step: N,
-    ) -> (Vector<N>, Vector<N>, N::Mask) {
-        let grown = spring + contact.slip * step;
+    ) -> Friction<N> {
+        let response = &normal.response;
+        let grown = Vector::of_row(history) + contact.slip * step;
         let spring = grown - contact.normal * grown.dot(contact.normal);
-        let limit = law.friction * pressure;
+        let limit = law.friction * normal.seen.abs();
         let stiffness = response.tangential_stiffness;
         let square = stiffness * stiffness * spring.dot(spring);
         let sliding = square.greater(limit * limit);
@@ -64,18 +67,22 @@ impl Tangential for History {
         let damping = N::select(sliding, N::zero(), response.tangential_damping);
         let spring = spring * kept;
         let force = -(spring * response.tangential_stiffness) - contact.slip * damping;
-        (force, spring, sliding)
+        Friction { force, history: spring.row_with(N::zero()), sliding }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::fixtures::{contact, response};
+    use crate::contact::Response;
+    use crate::contact::fixtures::{contact, normal_force, response};
 
     /// Force and spring after `step`; µ = ¼, k_t = 8 N/m, γ_t = 2 kg/s, slip (3, 4, 0) m/s, normal z.
     fn force(pressure: f64, spring: Vector, step: f64) -> (Vector, Vector, bool) {
-        History::force(History::new(0.25), &contact(), &response(), pressure, spring, step)
+        // A pull presses as much as a push.
+        let normal = NormalForce { seen: -pressure, ..normal_force() };
+        let found = History::force(History::new(0.25), &contact(), &normal, spring.row_with(0.0), step);
+        (found.force, Vector::of_row(found.history), found.sliding)
     }
 
     #[test]
@@ -128,8 +135,9 @@ mod tests {
         let still = Contact { slip: Vector::zero(), ..contact() };
         let nothing = Response { tangential_stiffness: 0.0, tangential_damping: 0.0, ..response() };
         for response in [response(), nothing] {
-            let (force, spring, _) = History::force(History::new(0.0), &still, &response, 0.0, Vector::zero(), 1.0);
-            assert_eq!([force.length(), spring.length()], [0.0, 0.0]);
+            let normal = NormalForce { response, force: 0.0, seen: 0.0 };
+            let found = History::force(History::new(0.0), &still, &normal, [0.0; 4], 1.0);
+            assert_eq!([found.force.length(), Vector::of_row(found.history).length()], [0.0, 0.0]);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Friction without memory.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Tangential, coefficients};
-use crate::number::{Number, Vector};
+use crate::contact::{Contact, Friction, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients};
+use crate::number::Number;
 
 coefficients! {
     /// A tangential dashpot up to Coulomb's limit.
@@ -40,28 +40,30 @@ impl Tangential for NoHistory {
     fn force<N: Number>(
         law: NoHistory<N>,
         contact: &Contact<N>,
-        response: &Response<N>,
-        pressure: N,
-        spring: Vector<N>,
+        normal: &NormalForce<N>,
+        history: [N; 4],
         _step: N,
-    ) -> (Vector<N>, Vector<N>, N::Mask) {
+    ) -> Friction<N> {
+        let response = &normal.response;
         let speed = contact.slip.length();
-        let limit = law.friction * pressure;
+        let limit = law.friction * normal.seen.abs();
         let sliding = (response.tangential_damping * speed).greater(limit);
         let damping = N::select(sliding, limit / speed, response.tangential_damping);
-        (-(contact.slip * damping), spring, sliding)
+        Friction { force: -(contact.slip * damping), history, sliding }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::fixtures::{contact, response};
+    use crate::contact::fixtures::{contact, normal_force};
+    use crate::number::Vector;
 
     /// µ = ¼; slip is (3, 4, 0) m/s, γ_t = 2 kg/s.
     fn force(slip: Vector, pressure: f64) -> Vector {
         let contact = Contact { slip, ..contact() };
-        NoHistory::force(NoHistory::new(0.25), &contact, &response(), pressure, Vector::zero(), 1.0).0
+        let normal = NormalForce { seen: pressure, ..normal_force() };
+        NoHistory::force(NoHistory::new(0.25), &contact, &normal, [0.0; 4], 1.0).force
     }
 
     #[test]
@@ -80,12 +82,5 @@ mod tests {
         assert_eq!(force(Vector::zero(), 10.0).length(), 0.0);
         assert_eq!(force(Vector::zero(), 0.0).length(), 0.0);
         assert_eq!(force(contact().slip, 0.0).length(), 0.0);
-    }
-
-    #[test]
-    fn leaves_the_spring_alone() {
-        let spring = Vector::new(1.0, 2.0, 3.0);
-        let after = NoHistory::force(NoHistory::new(0.25), &contact(), &response(), 1.0, spring, 1.0).1;
-        assert_eq!(after, spring);
     }
 }

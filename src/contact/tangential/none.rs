@@ -1,6 +1,6 @@
 //! No friction.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, Response, Tangential, coefficients};
+use crate::contact::{Contact, Friction, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients};
 use crate::number::{Number, Vector};
 
 coefficients! {
@@ -22,11 +22,10 @@ impl Tangential for None {
     fn force<N: Number>(
         _law: None<N>,
         _contact: &Contact<N>,
-        _response: &Response<N>,
-        _pressure: N,
-        spring: Vector<N>,
+        _normal: &NormalForce<N>,
+        history: [N; 4],
         _step: N,
-    ) -> (Vector<N>, Vector<N>, N::Mask) {
-        (Vector::zero(), spring, N::zero().greater(N::zero()))
+    ) -> Friction<N> {
+        Friction { force: Vector::zero(), history, sliding: N::zero().greater(N::zero()) }
     }
 }

@@ -1,7 +1,7 @@
 //! The batch that goes through the phases.
 
-use super::{Bodies, FOUND, Meeting, Needs, Touching};
-use crate::contact::{Contact, Law, Roots};
+use super::{Bodies, ContactGeometry, FOUND, Needs, Touching};
+use crate::contact::{Contact, NormalForce, NormalForm, Response, Roots};
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;
@@ -13,14 +13,52 @@ pub(crate) const BATCH: usize = 64;
 /// Room for a batch: what one register adds beyond it, and what one writes behind that.
 const ROOM: usize = BATCH + 16;
 
-/// Columns in which a meeting is written.
-const COLUMNS: usize = 17;
+/// Columns: what is known of a contact, then what its normal model makes of it.
+mod column {
+    /// Overlap.
+    pub(super) const OVERLAP: usize = 0;
+    /// Effective radius.
+    pub(super) const RADIUS: usize = 1;
+    /// Effective mass.
+    pub(super) const MASS: usize = 2;
+    /// Unit normal.
+    pub(super) const NORMAL: [usize; 3] = [3, 4, 5];
+    /// Velocity along it.
+    pub(super) const NORMAL_VELOCITY: usize = 6;
+    /// Slip.
+    pub(super) const SLIP: [usize; 3] = [7, 8, 9];
+    /// Arm at the first body.
+    pub(super) const FIRST_ARM: usize = 10;
+    /// Arm at the second body.
+    pub(super) const SECOND_ARM: usize = 11;
+    /// Relative spin.
+    pub(super) const SPIN: [usize; 3] = [12, 13, 14];
+    /// Area of the section.
+    pub(super) const SECTION_AREA: usize = 15;
+    /// Radius of the linearised section.
+    pub(super) const SECTION_RADIUS: usize = 16;
+    /// k_n.
+    pub(super) const NORMAL_STIFFNESS: usize = 17;
+    /// γ_n.
+    pub(super) const NORMAL_DAMPING: usize = 18;
+    /// k_t.
+    pub(super) const TANGENTIAL_STIFFNESS: usize = 19;
+    /// γ_t.
+    pub(super) const TANGENTIAL_DAMPING: usize = 20;
+    /// Force along the normal.
+    pub(super) const FORCE: usize = 21;
+    /// What of it friction sees.
+    pub(super) const SEEN: usize = 22;
+    /// How many there are.
+    pub(super) const COUNT: usize = 23;
+}
+use column as at;
 
 /// A batch.
 #[repr(align(64))]
 pub(crate) struct Buffer {
-    /// Meetings, column by column.
-    pub(crate) columns: [[f64; ROOM]; COLUMNS],
+    /// Contacts, column by column.
+    columns: [[f64; ROOM]; at::COUNT],
     /// What was found of the places of the bodies.
     pub(crate) found: [[f64; ROOM]; FOUND],
     /// What takes long, found from that.
@@ -67,11 +105,11 @@ impl Buffer {
     }
 
     /// An empty one.
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let rows = [[0.0; 4]; ROOM];
         let slots = [0; ROOM];
         Self {
-            columns: [[0.0; ROOM]; COLUMNS],
+            columns: [[0.0; ROOM]; at::COUNT],
             found: [[0.0; ROOM]; FOUND],
             roots: [[0.0; ROOM]; 2],
             force: rows,
@@ -117,7 +155,7 @@ impl Buffer {
     /// Reads a register's worth of what was found.
     ///
     /// # Safety
-    /// As for [`Buffer::put`].
+    /// As for [`Buffer::store`].
     #[inline(always)]
     pub(crate) unsafe fn found<N: Lane, B: Bodies>(&self, place: usize) -> [N; FOUND] {
         let mut found = [N::zero(); FOUND];
@@ -130,72 +168,169 @@ impl Buffer {
         found
     }
 
-    /// Writes a register's worth of meetings.
+    /// Writes numbers into a column.
     ///
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most [`ROOM`].
     #[inline(always)]
-    pub(crate) unsafe fn put<N: Lane, const TORQUE: bool>(&mut self, place: usize, meeting: &Meeting<N>, needs: Needs) {
-        let Meeting { contact, first_arm, second_arm } = meeting;
-        let base = self.columns.as_mut_ptr().cast::<f64>();
-        macro_rules! put {
-            ($($column:literal: $value:expr,)+) => {
-                // SAFETY: the caller's promise; the column is one of them.
-                $(unsafe { $value.store(base.add($column * ROOM + place)) };)+
-            };
-        }
-        let (n, s, w) = (contact.normal, contact.slip, contact.relative_spin);
-        put! { 0: contact.overlap, 1: contact.radius, 2: contact.mass, 3: n.x, 4: n.y, 5: n.z, 6: contact.normal_velocity, 10: first_arm, }
-        if TORQUE {
-            put! { 7: s.x, 8: s.y, 9: s.z, 11: second_arm, }
-            if needs.spin {
-                put! { 12: w.x, 13: w.y, 14: w.z, }
-            }
-        }
-        if needs.section {
-            put! { 15: contact.section_area, 16: contact.section_radius, }
-        }
+    unsafe fn store<N: Lane>(&mut self, column: usize, place: usize, numbers: N) {
+        // SAFETY: the caller's promise.
+        unsafe { numbers.store(self.columns[column].as_mut_ptr().add(place)) };
     }
 
-    /// Reads a register's worth of contacts.
+    /// Writes vectors into three columns.
     ///
     /// # Safety
-    /// As for [`Buffer::put`].
+    /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(crate) unsafe fn take<N: Lane>(&self, place: usize, pair_constant: N) -> Contact<N> {
-        let base = self.columns.as_ptr().cast::<f64>();
-        macro_rules! take {
-            ($column:literal) => {
-                // SAFETY: the caller's promise; the column is one of them.
-                unsafe { N::load(base.add($column * ROOM + place)) }
-            };
-        }
-        Contact {
-            overlap: take!(0),
-            radius: take!(1),
-            mass: take!(2),
-            normal: Vector::new(take!(3), take!(4), take!(5)),
-            normal_velocity: take!(6),
-            slip: Vector::new(take!(7), take!(8), take!(9)),
-            relative_spin: Vector::new(take!(12), take!(13), take!(14)),
-            section_area: take!(15),
-            section_radius: take!(16),
-            pair_constant,
-        }
-    }
-
-    /// Finds the roots that a law wants of a register's worth of meetings.
-    ///
-    /// # Safety
-    /// As for [`Buffer::put`].
-    #[inline(always)]
-    pub(crate) unsafe fn find_roots<N: Lane, L: Law>(&mut self, place: usize) {
+    unsafe fn store_vector<N: Lane>(&mut self, [x, y, z]: [usize; 3], place: usize, vector: Vector<N>) {
         // SAFETY: the caller's promise.
         unsafe {
-            let [overlap, radius, mass, ..] = &self.columns;
-            let [overlap, radius, mass] = [overlap.as_ptr(), radius.as_ptr(), mass.as_ptr()];
-            let [one, other] =
-                L::roots(N::load(overlap.add(place)), N::load(radius.add(place)), N::load(mass.add(place)));
+            self.store(x, place, vector.x);
+            self.store(y, place, vector.y);
+            self.store(z, place, vector.z);
+        }
+    }
+
+    /// Reads numbers from a column.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    unsafe fn load<N: Lane>(&self, column: usize, place: usize) -> N {
+        // SAFETY: the caller's promise.
+        unsafe { N::load(self.columns[column].as_ptr().add(place)) }
+    }
+
+    /// Reads vectors from three columns.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    unsafe fn load_vector<N: Lane>(&self, [x, y, z]: [usize; 3], place: usize) -> Vector<N> {
+        // SAFETY: the caller's promise.
+        unsafe { Vector::new(self.load(x, place), self.load(y, place), self.load(z, place)) }
+    }
+
+    /// Writes a register's worth of contacts.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put<N: Lane, const TORQUE: bool>(
+        &mut self,
+        place: usize,
+        geometry: &ContactGeometry<N>,
+        needs: Needs,
+    ) {
+        let ContactGeometry { contact, first_arm, second_arm } = geometry;
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::OVERLAP, place, contact.overlap);
+            self.store(at::RADIUS, place, contact.radius);
+            self.store(at::MASS, place, contact.mass);
+            self.store_vector(at::NORMAL, place, contact.normal);
+            self.store(at::NORMAL_VELOCITY, place, contact.normal_velocity);
+            self.store(at::FIRST_ARM, place, *first_arm);
+            if TORQUE {
+                self.store_vector(at::SLIP, place, contact.slip);
+                self.store(at::SECOND_ARM, place, *second_arm);
+                if needs.spin {
+                    self.store_vector(at::SPIN, place, contact.relative_spin);
+                }
+            }
+            if needs.section {
+                self.store(at::SECTION_AREA, place, contact.section_area);
+                self.store(at::SECTION_RADIUS, place, contact.section_radius);
+            }
+        }
+    }
+
+    /// Reads a register's worth of contacts. What is not looked at is not read.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn contact<N: Lane>(&self, place: usize, pair_constant: N) -> Contact<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            Contact {
+                overlap: self.load(at::OVERLAP, place),
+                radius: self.load(at::RADIUS, place),
+                mass: self.load(at::MASS, place),
+                normal: self.load_vector(at::NORMAL, place),
+                normal_velocity: self.load(at::NORMAL_VELOCITY, place),
+                slip: self.load_vector(at::SLIP, place),
+                relative_spin: self.load_vector(at::SPIN, place),
+                section_area: self.load(at::SECTION_AREA, place),
+                section_radius: self.load(at::SECTION_RADIUS, place),
+                pair_constant,
+            }
+        }
+    }
+
+    /// Writes what a normal model made of a register's worth of contacts.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put_normal<N: Lane>(&mut self, place: usize, normal: &NormalForce<N>) {
+        let Response { normal_stiffness, normal_damping, tangential_stiffness, tangential_damping } = normal.response;
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::NORMAL_STIFFNESS, place, normal_stiffness);
+            self.store(at::NORMAL_DAMPING, place, normal_damping);
+            self.store(at::TANGENTIAL_STIFFNESS, place, tangential_stiffness);
+            self.store(at::TANGENTIAL_DAMPING, place, tangential_damping);
+            self.put_force(place, normal);
+        }
+    }
+
+    /// Writes the force of a register's worth of contacts alone.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put_force<N: Lane>(&mut self, place: usize, normal: &NormalForce<N>) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::FORCE, place, normal.force);
+            self.store(at::SEEN, place, normal.seen);
+        }
+    }
+
+    /// Reads what a normal model made of a register's worth of contacts. What is not looked at is not read.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn normal<N: Lane>(&self, place: usize) -> NormalForce<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            NormalForce {
+                response: Response {
+                    normal_stiffness: self.load(at::NORMAL_STIFFNESS, place),
+                    normal_damping: self.load(at::NORMAL_DAMPING, place),
+                    tangential_stiffness: self.load(at::TANGENTIAL_STIFFNESS, place),
+                    tangential_damping: self.load(at::TANGENTIAL_DAMPING, place),
+                },
+                force: self.load(at::FORCE, place),
+                seen: self.load(at::SEEN, place),
+            }
+        }
+    }
+
+    /// Finds the roots that a normal model wants of a register's worth of contacts.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn find_roots<N: Lane, A: NormalForm>(&mut self, place: usize) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let [overlap, radius, mass] =
+                [at::OVERLAP, at::RADIUS, at::MASS].map(|column| self.load::<N>(column, place));
+            let [one, other] = A::roots(overlap, radius, mass);
             one.store(self.roots[0].as_mut_ptr().add(place));
             other.store(self.roots[1].as_mut_ptr().add(place));
         }
@@ -204,7 +339,7 @@ impl Buffer {
     /// The roots that were found.
     ///
     /// # Safety
-    /// As for [`Buffer::put`].
+    /// As for [`Buffer::store`].
     #[inline(always)]
     pub(crate) unsafe fn roots<N: Lane>(&self, place: usize) -> Roots<N> {
         // SAFETY: the caller's promise.
@@ -220,8 +355,8 @@ impl Buffer {
             force: &self.force[..self.ready],
             couple: &self.couple[..self.ready],
             rolling: &self.rolling[..self.ready],
-            first_arm: &self.columns[10][..self.ready],
-            second_arm: &self.columns[11][..self.ready],
+            first_arm: &self.columns[at::FIRST_ARM][..self.ready],
+            second_arm: &self.columns[at::SECOND_ARM][..self.ready],
         }
     }
 }

@@ -5,22 +5,30 @@
 //! 1. *touch*: which entries touch, several at a time; they are compacted without a branch, and where their bodies
 //!    are to each other with them;
 //! 2. *meet*: geometry and relative motion, written as columns;
-//! 3. *react*: the law on the columns; forces and torques as rows;
+//! 3. *react*: the sub-models of the law, one after another on the columns; forces and torques as rows;
 //! 4. *spread*: the rows are added to the bodies, one by one, in the order of the list.
 //!
-//! Phases 1, 2 and 4 know the bodies and no law, phase 3 knows the law and no bodies: each is compiled once for each
-//! of what it knows. Short phases also let the processor work on several registers' worth of contacts at once. Roots
-//! and quotients, for which what follows would wait, are found one register ahead.
+//! Phases 1, 2 and 4 know the bodies and no law, phase 3 knows the law and no bodies ([`law`]): each is compiled once for
+//! each of what it knows. Short phases also let the processor work on several registers' worth of contacts at once.
+//! Roots and quotients, for which what follows would wait, are found one register ahead.
+//!
+//! Who brings new bodies together writes [`Bodies`] for them, fills [`Batches`] and calls [`Batches::run`] on pieces of
+//! the list that share no body that is written to.
 
 mod buffer;
+mod law;
 mod phases;
+#[cfg(test)]
+mod tests;
 
-use super::coefficients::Table;
-use crate::contact::{Contact, Law};
+use super::coefficients::CoefficientTable;
+use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use buffer::Buffer;
-use phases::{Meet, React, Spread, Touch};
+pub(crate) use law::BatchLaw;
+use law::Stage;
+use phases::{Meet, Spread, Touch};
 use std::ops::Range;
 
 /// What a law looks at beyond the normal motion; the rest is not found.
@@ -36,14 +44,14 @@ pub(crate) struct Needs {
 
 impl Needs {
     /// Those of a law.
-    pub(crate) fn of<L: Law>() -> Self {
-        Self { torque: L::HAS_TORQUE, spin: L::HAS_ROLLING, section: L::HAS_SECTION }
+    pub(crate) fn of(law: &Law) -> Self {
+        Self { torque: law.has_torque(), spin: law.has_rolling(), section: law.has_section() }
     }
 }
 
 /// A contact and the arms of its bodies.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Meeting<N = f64> {
+pub(crate) struct ContactGeometry<N = f64> {
     /// The contact.
     pub contact: Contact<N>,
     /// Arm at the first body \[m\].
@@ -88,10 +96,10 @@ pub(crate) trait Bodies: Copy {
         second: *const u32,
         found: [N; FOUND],
         roots: [N; 2],
-    ) -> Meeting<N>;
+    ) -> ContactGeometry<N>;
 
     /// The row of the law's table for two bodies.
-    fn row(&self, table: &Table, first: u32, second: u32) -> u32;
+    fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32;
 
     /// Tells the processor that these particles (slots) will be needed soon, with what the law looks at.
     fn prefetch(&self, _slots: Range<usize>, _needs: Needs) {}
@@ -134,10 +142,30 @@ impl Touching<'_> {
 pub(crate) struct Entries<'a> {
     /// Its bits.
     pub flags: Shared<u8>,
-    /// Its spring; empty where the law has none.
-    pub spring: Shared<Row>,
+    /// What the law remembers of it: a row of each entry in each of the first lists.
+    history: [Shared<Row>; MOST_HISTORY],
+    /// How many rows the law remembers.
+    remembered: usize,
     /// Its pair constant; empty where the law has none.
     pub pair_constant: &'a [f64],
+}
+
+impl<'a> Entries<'a> {
+    /// What a list keeps.
+    pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &'a [f64]) -> Self {
+        let mut rows = [Shared::new(&mut []); MOST_HISTORY];
+        let remembered = history.len();
+        for (rows, list) in rows.iter_mut().zip(history) {
+            *rows = Shared::new(list);
+        }
+        Self { flags: Shared::new(flags), history: rows, remembered, pair_constant }
+    }
+
+    /// What the law remembers: lists with a row of each entry.
+    #[inline(always)]
+    fn history(&self) -> &[Shared<Row>] {
+        &self.history[..self.remembered]
+    }
 }
 
 /// A list to be worked on, in pieces.
@@ -147,11 +175,13 @@ pub(crate) struct Batches<'a, B> {
     pub bodies: B,
     /// What the list keeps.
     pub entries: Entries<'a>,
+    /// The law.
+    pub law: &'a BatchLaw,
     /// Coefficients of the law.
-    pub table: &'a Table,
+    pub table: &'a CoefficientTable,
     /// The coefficients of all entries, if they are the same.
     pub uniform: Option<&'a [f64]>,
-    /// Time since springs were last advanced \[s\].
+    /// Time since the history was last advanced \[s\].
     pub step: f64,
     /// Lane width.
     pub width: Width,
@@ -160,13 +190,14 @@ pub(crate) struct Batches<'a, B> {
 impl<B: Bodies> Batches<'_, B> {
     /// The law on a piece of the list. Pieces worked on at the same time share no body that is written to. `ahead` are
     /// particles (slots) that a later piece will need: they come into the cache bit by bit.
-    pub(crate) fn run<L: Law>(&self, from: usize, to: usize, ahead: Range<usize>) -> B::Sum {
-        Buffer::with(|buffer| self.run_in::<L>(buffer, from..to, ahead))
+    pub(crate) fn run(&self, from: usize, to: usize, ahead: Range<usize>) -> B::Sum {
+        Buffer::with(|buffer| self.run_in(buffer, from..to, ahead))
     }
 
     /// The same, in this room.
-    fn run_in<L: Law>(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
-        let (width, needs) = (self.width, Needs::of::<L>());
+    fn run_in(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
+        let Self { width, law, .. } = *self;
+        let needs = law.needs;
         let Range { start: from, end: to } = entries;
         let mut sum = B::Sum::default();
         let (mut next, mut fetched) = (from, ahead.start);
@@ -177,12 +208,18 @@ impl<B: Bodies> Batches<'_, B> {
             lanes::run(width, Touch { work: self, to, next: &mut next, buffer, sum: &mut sum });
             buffer.complete::<B>(next == to);
             self.meet(needs, buffer);
-            let Self { entries, table, uniform, step, .. } = *self;
-            lanes::run(width, React::<L> { entries, table, uniform, step, buffer, law: Default::default() });
+            law.react(width, &mut self.stage(buffer));
             lanes::run(width, Spread { bodies: self.bodies, needs, buffer, sum: &mut sum });
             buffer.proceed::<B>();
         }
         sum
+    }
+
+    /// What the sub-models work on.
+    fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
+        let Self { entries, table, uniform, step, law: BatchLaw { law, .. }, .. } = self;
+        let (places, history) = (law.places(), law.history_places());
+        Stage { entries, table, uniform: *uniform, places, history, step: *step, buffer }
     }
 
     /// Phase 2, and the rows of the table where they differ.

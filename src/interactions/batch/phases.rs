@@ -2,11 +2,8 @@
 
 use super::buffer::{BATCH, Buffer};
 use super::{Batches, Bodies, Entries, Needs};
-use crate::contact::Law;
-use crate::interactions::coefficients::{MOST_COEFFICIENTS, Table};
-use crate::lanes::{Kernel, Lane, columns, prefetch, vector};
-use crate::number::Vector;
-use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::lanes::{Kernel, Lane, prefetch};
+use crate::state::contacts::TOUCHING;
 
 /// Phase 1: fills the batch with touching entries and ends the contacts that came apart.
 pub(crate) struct Touch<'a, 'b, B: Bodies> {
@@ -52,11 +49,13 @@ impl<B: Bodies> Kernel for Touch<'_, '_, B> {
                 } else {
                     end(entries, entry, here, bits);
                 }
-                let springs = entries.spring.pointer().wrapping_add(entry);
-                let mut lane = 0;
-                while lane < N::WIDTH {
-                    prefetch(springs.wrapping_add(lane));
-                    lane += 2;
+                for history in entries.history() {
+                    let rows = history.pointer().wrapping_add(entry);
+                    let mut lane = 0;
+                    while lane < N::WIDTH {
+                        prefetch(rows.wrapping_add(lane));
+                        lane += 2;
+                    }
                 }
                 N::compact(first, bits, buffer.first.as_mut_ptr().add(count));
                 N::compact(second, bits, buffer.second.as_mut_ptr().add(count));
@@ -95,10 +94,12 @@ unsafe fn end(entries: &Entries, entry: usize, count: usize, bits: u32) {
         std::ptr::copy_nonoverlapping(now.to_le_bytes().as_ptr(), flags, count);
     }
     let mut ended = u64::from_le_bytes(before) & (u64::from(TOUCHING) * ONES) & !now;
-    while ended != 0 && entries.spring.length() > 0 {
+    while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
-        // SAFETY: the caller's promise; there is a spring for each entry.
-        unsafe { *entries.spring.at(entry + lane) = [0.0; 4] };
+        for history in entries.history() {
+            // SAFETY: the caller's promise; there is a row for each entry.
+            unsafe { *history.at(entry + lane) = [0.0; 4] };
+        }
         ended &= ended - 1;
     }
 }
@@ -126,84 +127,9 @@ impl<B: Bodies, const TORQUE: bool> Kernel for Meet<'_, B, TORQUE> {
                 let (first, second) = (buffer.first.as_ptr().add(done), buffer.second.as_ptr().add(done));
                 let found = buffer.found::<N, B>(done);
                 let next = B::roots(&buffer.found::<N, B>(done + N::WIDTH));
-                let meeting = bodies.meet::<N, TORQUE>(first, second, found, roots);
-                buffer.put::<N, TORQUE>(done, &meeting, needs);
+                let geometry = bodies.meet::<N, TORQUE>(first, second, found, roots);
+                buffer.put::<N, TORQUE>(done, &geometry, needs);
                 roots = next;
-            }
-            done += N::WIDTH;
-        }
-    }
-}
-
-/// Phase 3: the law.
-pub(crate) struct React<'a, 'b, L> {
-    /// What the list keeps.
-    pub(crate) entries: Entries<'a>,
-    /// Coefficients of the law.
-    pub(crate) table: &'a Table,
-    /// The coefficients of all entries, if they are the same.
-    pub(crate) uniform: Option<&'a [f64]>,
-    /// Time since springs were last advanced \[s\].
-    pub(crate) step: f64,
-    /// The batch.
-    pub(crate) buffer: &'b mut Buffer,
-    /// The law.
-    pub(crate) law: std::marker::PhantomData<fn() -> L>,
-}
-
-impl<L: Law> Kernel for React<'_, '_, L> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { entries, table, uniform, step, buffer, .. } = self;
-        let mut row = [N::zero(); MOST_COEFFICIENTS];
-        if let Some(coefficients) = uniform {
-            let mut k = 0;
-            while k < L::COUNT {
-                row[k] = N::splat(coefficients[k]);
-                k += 1;
-            }
-        }
-        let step = N::splat(step);
-        let mut done = 0;
-        if L::HAS_ROOTS {
-            // SAFETY: there is room for a register behind the batch; so below.
-            unsafe { buffer.find_roots::<N, L>(0) };
-        }
-        while done < buffer.ready {
-            // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
-            // piece of the list, and each has what the law keeps. A repeated entry is written twice, with the same.
-            unsafe {
-                if uniform.is_none() {
-                    table.gather::<L, N>(buffer.row.as_ptr().add(done), &mut row);
-                }
-                let places = buffer.entry.as_ptr().add(done);
-                let constant =
-                    if L::HAS_PAIR_CONSTANT { N::gather(entries.pair_constant.as_ptr(), places, 1) } else { N::zero() };
-                let contact = buffer.take::<N>(done, constant);
-                let spring =
-                    if L::HAS_SPRING { vector(N::load_rows(entries.spring.pointer(), places)) } else { Vector::zero() };
-                let mut roots = [N::zero(); 2];
-                if L::HAS_ROOTS {
-                    buffer.find_roots::<N, L>(done + N::WIDTH);
-                    roots = buffer.roots(done);
-                }
-                let reaction = L::react_at(&row[..L::COUNT], &contact, roots, spring, step);
-                N::store_block(columns(reaction.force), buffer.force.as_mut_ptr().add(done));
-                if L::HAS_TORQUE {
-                    N::store_block(columns(reaction.couple), buffer.couple.as_mut_ptr().add(done));
-                    if L::HAS_ROLLING {
-                        N::store_block(columns(reaction.rolling), buffer.rolling.as_mut_ptr().add(done));
-                    }
-                    let mut sliding = N::bits(reaction.sliding);
-                    while sliding != 0 {
-                        let lane = sliding.trailing_zeros() as usize;
-                        *entries.flags.pointer().add(*places.add(lane) as usize) = TOUCHING | SLIDING;
-                        sliding &= sliding - 1;
-                    }
-                }
-                if L::HAS_SPRING {
-                    N::store_rows(columns(reaction.spring), entries.spring.pointer(), places);
-                }
             }
             done += N::WIDTH;
         }

@@ -2,11 +2,7 @@
 
 use super::bonds::{Bonded, idle};
 use super::overlaps::for_each_overlap;
-use crate::contact::cohesion::TakeCohesion;
-use crate::contact::normal::TakeNormal;
-use crate::contact::rolling::TakeRolling;
-use crate::contact::tangential::TakeTangential;
-use crate::contact::{Cohesion, FrictionNeeds, MaterialPair, Missing, Normal, Rolling, Tangential};
+use crate::contact::{MaterialPair, Missing};
 use crate::scene::error::{SceneError, SceneErrors};
 use crate::scene::mistake::Mistake;
 use crate::scene::{ContactLaw, Scene, Shape};
@@ -66,7 +62,7 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
             continue;
         };
         let pair = MaterialPair { a: first, b: second, properties: &scene.pairs[a * count + b] };
-        for Missing { table, key } in missing(law, &pair) {
+        for Missing { table, key } in law.choice().coefficients(&pair).err().unwrap_or_default() {
             if findings.iter().any(|finding| finding.table == table && finding.key == key) {
                 continue;
             }
@@ -96,59 +92,6 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
         false => particles[a] > 0 && (particles[b] > 0 || walls[b]) || particles[b] > 0 && walls[a],
     };
     (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(|(a, b)| touch(*a, *b)).collect()
-}
-
-/// What the sub-models of a law miss for two materials, all of it.
-fn missing(law: &ContactLaw, pair: &MaterialPair) -> Vec<Missing> {
-    let (has_spring, has_dashpot) = law.tangential.visit(Parts);
-    let damping = has_dashpot && law.switches.damps_slip();
-    let ask = Ask(pair, FrictionNeeds { stiffness: has_spring, damping });
-    [law.normal.visit(ask), law.tangential.visit(ask), law.rolling.visit(ask), law.cohesion.visit(ask)]
-        .into_iter()
-        .flatten()
-        .collect()
-}
-
-/// Asks a tangential model whether it has a spring, and a dashpot.
-struct Parts;
-
-impl TakeTangential for Parts {
-    type Output = (bool, bool);
-    fn take<M: Tangential>(self, _keys: &M::Keys) -> (bool, bool) {
-        (M::HAS_SPRING, M::HAS_DASHPOT)
-    }
-}
-
-/// Asks a sub-model for its coefficients, for what it misses.
-#[derive(Clone, Copy)]
-struct Ask<'a>(&'a MaterialPair<'a>, FrictionNeeds);
-
-impl TakeNormal for Ask<'_> {
-    type Output = Option<Missing>;
-    fn take<M: Normal>(self, keys: &M::Keys) -> Option<Missing> {
-        M::between(self.0, keys, self.1).err()
-    }
-}
-
-impl TakeTangential for Ask<'_> {
-    type Output = Option<Missing>;
-    fn take<M: Tangential>(self, keys: &M::Keys) -> Option<Missing> {
-        M::between(self.0, keys).err()
-    }
-}
-
-impl TakeRolling for Ask<'_> {
-    type Output = Option<Missing>;
-    fn take<M: Rolling>(self, keys: &M::Keys) -> Option<Missing> {
-        M::between(self.0, keys).err()
-    }
-}
-
-impl TakeCohesion for Ask<'_> {
-    type Output = Option<Missing>;
-    fn take<M: Cohesion>(self, keys: &M::Keys) -> Option<Missing> {
-        M::between(self.0, keys).err()
-    }
 }
 
 /// What speaks against the combination of a law's sub-models and switches.

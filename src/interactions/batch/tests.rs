@@ -1,0 +1,129 @@
+//! Batches against one contact at a time: the same bits in every lane width, whether sub-models work one after another
+//! or as one.
+
+use super::buffer::Buffer;
+use super::law::{BatchLaw, Stage};
+use super::{ContactGeometry, Entries, Needs};
+use crate::contact::LawChoice;
+use crate::contact::fixtures::{corners, every_law, properties, with_pair};
+use crate::interactions::coefficients::CoefficientTable;
+use crate::lanes::Width;
+use crate::number::{Row, Vector};
+use crate::state::contacts::{SLIDING, TOUCHING};
+
+/// Contacts in a batch: more than a register holds, and no whole number of registers.
+const COUNT: usize = 11;
+
+/// What is to be remembered of an entry before.
+fn before(entry: usize, row: usize) -> Row {
+    [0.125, -0.5 * entry as f64, 0.25 * row as f64, 0.0625]
+}
+
+/// Forces, couples, torques, flags and history of a batch.
+fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width) -> Vec<(Vec<Row>, u8)> {
+    let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
+    let mut buffer = Buffer::new();
+    let all = Needs { torque: true, spin: true, section: true };
+    for entry in 0..COUNT {
+        let geometry = ContactGeometry { contact: corners()[entry % 5], first_arm: 0.5, second_arm: 0.25 };
+        // SAFETY: the buffer has room for more.
+        unsafe { buffer.put::<f64, true>(entry, &geometry, all) };
+        // Entries stand in the list in another order.
+        buffer.entry[entry] = ((entry * 3) % COUNT) as u32;
+        buffer.row[entry] = (entry % 4) as u32;
+    }
+    for place in COUNT..COUNT + 8 {
+        let geometry = ContactGeometry { contact: corners()[(COUNT - 1) % 5], first_arm: 0.5, second_arm: 0.25 };
+        // SAFETY: as above.
+        unsafe { buffer.put::<f64, true>(place, &geometry, all) };
+        buffer.entry[place] = buffer.entry[COUNT - 1];
+        buffer.row[place] = buffer.row[COUNT - 1];
+    }
+    buffer.ready = COUNT;
+    let constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
+    let mut flags = vec![TOUCHING; COUNT];
+    let kept = law.law.history().len();
+    let mut history: Vec<Vec<Row>> =
+        (0..kept).map(|row| (0..COUNT).map(|entry| before(entry, row)).collect()).collect();
+    let entries = Entries::of(&mut flags, &mut history, &constants);
+    let (places, own) = (law.law.places(), law.law.history_places());
+    let uniform = uniform.then_some(rows);
+    let mut stage =
+        Stage { entries: &entries, table: &table, uniform, places, history: own, step: 0.5, buffer: &mut buffer };
+    law.react(width, &mut stage);
+    let mut found = Vec::new();
+    for place in 0..COUNT {
+        let entry = (place * 3) % COUNT;
+        let mut rows = vec![buffer.force[place]];
+        if law.needs.torque {
+            rows.push(buffer.couple[place]);
+        }
+        if law.needs.spin {
+            rows.push(buffer.rolling[place]);
+        }
+        rows.extend(history.iter().map(|list| list[entry]));
+        found.push((rows, flags[entry]));
+    }
+    found
+}
+
+/// Where an entry of the list stands in the batch.
+fn place_of(entry: usize) -> usize {
+    (0..COUNT).find(|place| (place * 3) % COUNT == entry).expect("every entry has a place")
+}
+
+/// The same, contact by contact.
+fn one_by_one(law: &BatchLaw, rows: &[f64]) -> Vec<(Vec<Row>, u8)> {
+    let of = |vector: Vector| vector.row_with(0.0);
+    let one = |place: usize| {
+        let entry = (place * 3) % COUNT;
+        let mut history: Vec<Row> = (0..law.law.history().len()).map(|row| before(entry, row)).collect();
+        let reaction = law.law.react(rows, &corners()[place % 5], &mut history, 0.5);
+        let mut found = vec![of(reaction.force)];
+        if law.needs.torque {
+            found.push(of(reaction.couple));
+        }
+        if law.needs.spin {
+            found.push(of(reaction.rolling));
+        }
+        found.extend(history);
+        (found, if reaction.sliding { TOUCHING | SLIDING } else { TOUCHING })
+    };
+    (0..COUNT).map(one).collect()
+}
+
+/// Bits of what was found.
+fn bits(found: &[(Vec<Row>, u8)]) -> Vec<u64> {
+    let of = |(rows, flags): &(Vec<Row>, u8)| {
+        let numbers = rows.as_flattened().iter().map(|number| number.to_bits());
+        numbers.chain([u64::from(*flags)]).collect::<Vec<u64>>()
+    };
+    found.iter().flat_map(of).collect()
+}
+
+#[test]
+fn every_law_has_the_bits_of_one_contact_in_every_lane_width_sub_model_by_sub_model_and_whole() {
+    let (mut whole, mut tried) = (0, 0);
+    for choice in every_law() {
+        let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
+        let laws = [BatchLaw::of(&choice), BatchLaw::sub_models(&choice)];
+        whole += usize::from(laws[0].is_fused());
+        let expected = one_by_one(&laws[0], &rows);
+        for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+            for (law, uniform) in laws.iter().flat_map(|law| [(law, true), (law, false)]) {
+                let found = batch(law, &rows, uniform, width);
+                assert_eq!(bits(&found), bits(&expected), "{choice:?}, {width:?}\n{found:?}\n{expected:?}");
+                tried += 1;
+            }
+        }
+    }
+    // Forms that several models share count once for each of them.
+    assert!(whole >= 6 && tried >= 90 * 4, "{whole} laws are compiled whole, {tried} batches");
+}
+
+#[test]
+fn a_law_that_is_not_compiled_whole_is_done_by_its_sub_models() {
+    let of = |choice: &LawChoice| (BatchLaw::of(choice).is_fused(), BatchLaw::sub_models(choice).is_fused());
+    let found: Vec<(bool, bool)> = every_law().iter().map(of).collect();
+    assert!(found.contains(&(false, false)) && found.contains(&(true, false)) && !found.contains(&(true, true)));
+}
