@@ -3,13 +3,13 @@
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
-use cograin::output::{self, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
-use cograin::scene::{Scene, Source};
+use cograin::output::{self, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
+use cograin::scene::{Scene, Setting, Source};
 use cograin::verify;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,11 +45,22 @@ enum Command {
     Verify(VerifyArguments),
 }
 
-/// A scene and how it is computed.
+/// A scene.
 #[derive(Args)]
 struct SceneArguments {
     /// The scene file
     scene: PathBuf,
+    /// A value of the scene instead of what the file says, as pair.glass.glass.friction=0.4; may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<Setting>,
+}
+
+/// How a scene is computed.
+#[derive(Args)]
+struct ComputeArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
     /// Threads, instead of what the scene says
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -58,23 +69,26 @@ struct SceneArguments {
 /// `cograin check`
 #[derive(Args)]
 struct CheckArguments {
-    /// The scene.
+    /// The scene and how it is computed.
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: ComputeArguments,
 }
 
 /// `cograin run`
 #[derive(Args)]
 struct RunArguments {
-    /// The scene.
+    /// The scene and how it is computed.
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: ComputeArguments,
     /// Folder of the results
     #[arg(short, long, value_name = "DIR", default_value = "output")]
     output: PathBuf,
     /// Go on from a checkpoint: this one, or the last one in the folder of the results
     #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
+    /// Replace the results of an earlier run in that folder
+    #[arg(long)]
+    overwrite: bool,
     /// Table of the driven boundaries' displacements: CSV with `time` and columns named as the unit's inputs
     #[arg(long, value_name = "CSV")]
     inputs: Option<PathBuf>,
@@ -83,9 +97,9 @@ struct RunArguments {
 /// `cograin settle`
 #[derive(Args)]
 struct SettleArguments {
-    /// The scene.
+    /// The scene and how it is computed.
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: ComputeArguments,
     /// File of the settled state
     #[arg(short, long, value_name = "CHECKPOINT")]
     output: PathBuf,
@@ -97,8 +111,9 @@ struct SettleArguments {
 /// `cograin export`
 #[derive(Args)]
 struct ExportArguments {
-    /// The scene file
-    scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
     /// Begin with this state instead of the scene's
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
@@ -180,22 +195,32 @@ fn main() -> ExitCode {
         Err(Ending::Refused(reason)) => (2, reason),
     };
     // Who closed the standard error does not want to know.
-    let _ = writeln!(std::io::stderr(), "{reason}");
+    let _ = writeln!(std::io::stderr(), "{}", printable(&reason));
     ExitCode::from(status)
 }
 
 /// Prints a line, also to a reader that is gone.
 fn say(line: impl Display) {
-    let _ = writeln!(std::io::stdout(), "{line}");
+    let _ = writeln!(std::io::stdout(), "{}", printable(&line.to_string()));
+}
+
+/// The text with control characters written out: names come from files, and a terminal would obey them.
+fn printable(text: &str) -> String {
+    let shown = |letter: char| match letter {
+        '\n' => "\n".to_owned(),
+        letter if letter.is_control() => letter.escape_default().to_string(),
+        letter => letter.to_string(),
+    };
+    text.chars().map(shown).collect()
 }
 
 /// Reads a scene.
-fn read(path: &Path) -> Result<(Scene, Source), Ending> {
-    Scene::read(path).map_err(Ending::refused)
+fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
+    Scene::read_with(&arguments.scene, &arguments.settings).map_err(Ending::refused)
 }
 
 /// Reads a scene to be computed here. Its files are not needed any more.
-fn read_to_run(arguments: &SceneArguments) -> Result<(Arc<Scene>, Source), Ending> {
+fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
     let (mut scene, mut source) = read(&arguments.scene)?;
     source.files.clear();
     scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
@@ -218,12 +243,18 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
         Some(None) => Start::LastCheckpoint,
         Some(Some(path)) => Start::Checkpoint(path.clone()),
     };
+    if start == Start::LastCheckpoint && arguments.overwrite {
+        return Err(Ending::refused(
+            "--overwrite replaces the results that --resume goes on with; one of them is right",
+        ));
+    }
     stop_at_interruption()?;
     let order = RunOrder {
         scene: &scene,
         scene_name: &source.name,
         folder: &arguments.output,
         start: &start,
+        earlier_results: if arguments.overwrite { EarlierResults::Replace } else { EarlierResults::Keep },
         inputs: arguments.inputs.as_deref(),
         stop: &STOP,
     };

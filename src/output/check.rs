@@ -2,6 +2,7 @@
 
 use super::error::Refusal;
 use super::remarks::remarks;
+use super::schedule::Schedule;
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Shape, Step};
 use crate::step::Simulation;
 use std::fmt;
@@ -35,6 +36,7 @@ pub struct Report {
 /// Takes a scene to its start and a few steps further, writes nothing, and tells what was seen.
 pub fn check(scene: &Arc<Scene>, scene_name: &str) -> Result<Report, Refusal> {
     let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
+    let _schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let mut simulation = Simulation::new(Arc::clone(scene)).map_err(start)?;
     let mut remarks = remarks(scene, &simulation);
     let uses = uses(scene, &simulation);

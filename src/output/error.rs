@@ -82,9 +82,9 @@ pub enum ResumeError {
         /// The file.
         path: PathBuf,
         /// Rows it has.
-        found: usize,
+        found: u64,
         /// Rows it had.
-        expected: usize,
+        expected: u64,
         /// Time of the checkpoint \[s\].
         time: f64,
     },
@@ -157,6 +157,67 @@ pub enum Refusal {
         scene: String,
         /// Why not.
         source: RunError,
+    },
+    /// The results have no place there.
+    #[error("{}: is a file; a folder, or a name that is not there yet, is right", folder.display())]
+    NotAFolder {
+        /// Where they were to be.
+        folder: PathBuf,
+    },
+    /// Another process writes into the folder.
+    #[error("{}: in use by {holder}; another folder with -o is right, or the same one when that run has ended", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+        /// The process and when it began.
+        holder: String,
+    },
+    /// The folder holds results that were not asked to be replaced.
+    #[error(
+        "{}: holds results of an earlier run ({held}); --resume goes on with it, --overwrite puts this run in its place, \
+         another folder with -o keeps both", folder.display()
+    )]
+    Used {
+        /// The folder.
+        folder: PathBuf,
+        /// What is known of that run.
+        held: String,
+    },
+    /// More outputs than anybody can mean.
+    #[error(
+        "{scene}, [output] {key}: {interval:e} s gives {count:.3e} {what} up to t = {end} s; at most {most:e} are right"
+    )]
+    Counts {
+        /// File name of the scene.
+        scene: String,
+        /// The interval's key.
+        key: &'static str,
+        /// The interval \[s\].
+        interval: f64,
+        /// How many outputs.
+        count: f64,
+        /// Of what.
+        what: &'static str,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// More time steps than a clock can count.
+    #[error(
+        "{scene}, [run] step: {step:e} s gives {count:.3e} time steps up to t = {end} s; at most {most:e} are right"
+    )]
+    Steps {
+        /// File name of the scene.
+        scene: String,
+        /// The step \[s\].
+        step: f64,
+        /// How many.
+        count: f64,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
     },
     /// The checkpoint does not fit.
     #[error(transparent)]

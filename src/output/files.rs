@@ -1,14 +1,12 @@
 //! Files that are whole at any time, also for one who looks after a crash.
 
+use super::UNFINISHED;
 use super::error::{OutputError, ResumeError};
 use crate::state::State;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-
-/// Ending of a file that is being written.
-pub(super) const UNFINISHED: &str = "part";
 
 /// Whether a file must be on the disk, or may still be in the system's memory, when it has its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +60,7 @@ fn unfinished(path: &Path) -> PathBuf {
 }
 
 /// Makes a new name in a folder last, where the system lets folders be opened.
-fn sync_folder(path: &Path) -> io::Result<()> {
+pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

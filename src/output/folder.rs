@@ -2,10 +2,14 @@
 
 use super::collection::Collection;
 use super::error::{OutputError, ResumeError};
-use super::files::{Durability, UNFINISHED, sync, write_checkpoint, write_whole};
+use super::files::{Durability, sync, write_checkpoint, write_whole};
+use super::replacement::results;
 use super::schedule::Schedule;
 use super::table::{Found, Table};
-use super::{BREAKAGE, CHECKPOINT, HISTORY, SUMMARY, frames, vtk::Cloud};
+use super::{
+    BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, collection_name, frame_name, frame_number, frames,
+    vtk::Cloud,
+};
 use crate::bond::breakage::Cause;
 use crate::interface::Value;
 use crate::scene::Scene;
@@ -15,9 +19,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
-
-/// Kinds of frames: beginning of the names of their files.
-const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];
 
 /// Columns of `breakage.csv`.
 const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
@@ -50,17 +51,6 @@ pub(super) enum Job {
     Tell(SyncSender<()>),
 }
 
-/// Where a run comes from, as far as its files are concerned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// At time 0: what an earlier run left is removed.
-    Anew,
-    /// At a later time, in the folder of the run that is continued.
-    Here,
-    /// At a later time, from a checkpoint of another folder.
-    Elsewhere,
-}
-
 /// A frame's `.pvd` and what has been added.
 struct Series {
     /// Beginning of the file names.
@@ -87,66 +77,73 @@ pub(super) struct Folder {
     unsynced: Vec<PathBuf>,
 }
 
-/// What a continued run keeps of the files in a folder; looking changes nothing.
+/// What a run keeps of the files in its folder; looking changes nothing.
+#[derive(Default)]
 pub(super) struct Kept {
     /// The rows of the history, or none where a new file is begun.
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
     breakage: Option<Found>,
-    /// Times of the frames \[s\].
-    frames: Vec<f64>,
+    /// Numbers and times of the frames that are there \[s\].
+    frames: Vec<(usize, f64)>,
+    /// Number of the next frame.
+    next_frame: usize,
 }
 
-/// What a continued run begins with, as far as its files are concerned.
+/// Where a run takes up its files.
 #[derive(Clone, Copy)]
-pub(super) struct Beginning<'a> {
-    /// What is simulated.
-    pub scene: &'a Scene,
+pub(super) struct Place<'a> {
     /// Columns of the history.
     pub names: &'a [String],
     /// When what is written.
     pub schedule: &'a Schedule,
-    /// Communication point where it begins \[s\].
+    /// The communication point \[s\].
     pub time: f64,
     /// The state there.
     pub state: &'a State,
-    /// Where it comes from.
-    pub origin: Origin,
 }
 
 impl Kept {
-    /// Nothing is kept.
-    const NOTHING: Self = Self { history: None, breakage: None, frames: Vec::new() };
+    /// Nothing is kept, and this is the number of the first frame.
+    pub(super) fn nothing(next_frame: usize) -> Self {
+        Self { next_frame, ..Self::default() }
+    }
 
-    /// Looks at the files in a folder.
-    pub(super) fn look(path: &Path, beginning: &Beginning<'_>) -> Result<Self, ResumeError> {
-        let Beginning { scene, names, schedule, time, state, origin } = *beginning;
-        let history = path.join(HISTORY);
-        let keeps = match origin {
-            Origin::Anew => false,
-            Origin::Here => true,
-            Origin::Elsewhere => history.exists(),
-        };
-        if !keeps {
-            return Ok(Self::NOTHING);
+    /// Looks at the files of a run. A run that began at time 0 has all rows; one that began later has those from there on.
+    pub(super) fn look(path: &Path, place: &Place<'_>) -> Result<Self, ResumeError> {
+        let Place { names, schedule, time, state } = *place;
+        let file = path.join(HISTORY);
+        let history = Found::until(&file, names, time)?;
+        let expected = history.first.map_or(0, |first| 1 + schedule.rows_until(time) - schedule.rows_until(first));
+        if history.rows != expected {
+            return Err(ResumeError::Rows { path: file, found: history.rows, expected, time });
         }
-        let history = Found::rows(&history, names, schedule.rows_until(time), time)?;
-        let breakage = if scene.bonds.is_empty() {
+        let breakage = if state.bonds.is_empty() {
             None
         } else {
-            let broken = state.bonds.iter().map(|list| list.broken).sum::<u64>();
-            let columns = BREAKAGE_COLUMNS.map(String::from);
-            Some(Found::rows(&path.join(BREAKAGE), &columns, broken as usize, time)?)
+            let (file, columns) = (path.join(BREAKAGE), BREAKAGE_COLUMNS.map(String::from));
+            let found = Found::until(&file, &columns, state.clock.time)?;
+            let expected = state.bonds.iter().map(|list| list.broken).sum::<u64>();
+            let whole = history.first == Some(0.0);
+            if found.rows > expected || (whole && found.rows < expected) {
+                return Err(ResumeError::Rows { path: file, found: found.rows, expected, time });
+            }
+            Some(found)
         };
-        Ok(Self { history: Some(history), breakage, frames: schedule.frames_until(time) })
+        let times = schedule.frames_until(time);
+        let next_frame = times.len();
+        let there = |number: &usize| path.join(frame_name(FRAMES[0], *number)).exists();
+        let frames = (0..).zip(times).filter(|(number, _)| there(number)).collect();
+        Ok(Self { history: Some(history), breakage, frames, next_frame })
     }
 }
 
 impl Folder {
-    /// Makes the folder ready for the first row.
+    /// Makes the folder ready for the next row, keeping what is kept and nothing else.
     pub(super) fn open(path: &Path, scene: Arc<Scene>, names: &[String], kept: &Kept) -> Result<Self, OutputError> {
-        fs::create_dir_all(path).map_err(OutputError::at(path))?;
-        remove_results(path, kept)?;
+        for stale in results(path)?.iter().filter(|file| is_stale(file, kept)) {
+            fs::remove_file(stale).map_err(OutputError::at(stale))?;
+        }
         let table = |name: &str, names: &[String], found: &Option<Found>| match found {
             Some(found) => Table::reopen(&path.join(name), found),
             None => Table::create(&path.join(name), names),
@@ -158,7 +155,7 @@ impl Folder {
         let wanted = [true, scene.output.contacts, bonded];
         let series = (FRAMES.into_iter().zip(wanted))
             .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
-            .map(|(name, _)| Series::open(path, name, &kept.frames))
+            .map(|(name, _)| Series::open(path, name, kept))
             .collect::<Result<_, _>>()?;
         Ok(Self { scene, path: path.to_owned(), history, breakage, series, unsynced: Vec::new() })
     }
@@ -232,11 +229,11 @@ impl Folder {
 }
 
 impl Series {
-    /// Takes up the frames of these times \[s\].
-    fn open(path: &Path, name: &'static str, times: &[f64]) -> Result<Self, OutputError> {
-        let frames: Vec<_> = (0..).zip(times).map(|(number, time)| (*time, frame_name(name, number))).collect();
-        let collection = Collection::create(&path.join(format!("{name}.pvd")), &frames)?;
-        Ok(Self { name, collection, next: times.len() })
+    /// Takes up the frames that are kept.
+    fn open(path: &Path, name: &'static str, kept: &Kept) -> Result<Self, OutputError> {
+        let frames: Vec<_> = kept.frames.iter().map(|(number, time)| (*time, frame_name(name, *number))).collect();
+        let collection = Collection::create(&path.join(collection_name(name)), &frames)?;
+        Ok(Self { name, collection, next: kept.next_frame })
     }
 
     /// Writes the next frame.
@@ -251,43 +248,17 @@ impl Series {
     }
 }
 
-/// File name of a frame.
-fn frame_name(kind: &str, number: usize) -> String {
-    format!("{kind}_{number:06}.vtu")
-}
-
-/// Removes what an earlier run left in the folder and this one does not keep, and nothing else. The checkpoint
-/// stays until the next one takes its place: this run may have begun from it.
-fn remove_results(path: &Path, kept: &Kept) -> Result<(), OutputError> {
-    for entry in fs::read_dir(path).map_err(OutputError::at(path))? {
-        let entry = entry.map_err(OutputError::at(path))?;
-        let name = entry.file_name();
-        let Some(name) = name.to_str() else { continue };
-        if is_stale(name, kept) {
-            fs::remove_file(entry.path()).map_err(OutputError::at(&entry.path()))?;
-        }
+/// Whether a result is not kept. The checkpoint stays until the next one takes its place, a `.pvd` until it is written anew.
+fn is_stale(file: &Path, kept: &Kept) -> bool {
+    let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    if name.ends_with(&format!(".{UNFINISHED}")) {
+        return true;
     }
-    Ok(())
-}
-
-/// Whether a file is of an earlier run and not kept by this one.
-fn is_stale(name: &str, kept: &Kept) -> bool {
-    if let Some(name) = name.strip_suffix(&format!(".{UNFINISHED}")) {
-        return is_stale(name, &Kept::NOTHING);
-    }
-    let number = |kind: &str| -> Option<usize> {
-        let digits = name.strip_prefix(kind)?.strip_prefix('_')?.strip_suffix(".vtu")?;
-        (digits.len() >= 6 && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
-    };
-    let frame = FRAMES.iter().find_map(|kind| number(kind));
     match name {
         HISTORY => kept.history.is_none(),
         BREAKAGE => kept.breakage.is_none(),
         SUMMARY => true,
-        _ => {
-            frame.is_some_and(|number| number >= kept.frames.len())
-                || FRAMES.iter().any(|kind| name == format!("{kind}.pvd"))
-        }
+        _ => frame_number(name).is_some_and(|number| number >= kept.next_frame),
     }
 }
 
@@ -302,24 +273,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn removes_what_an_earlier_run_left_and_nothing_else() {
-        let nothing = Kept::NOTHING;
-        for name in
-            ["history.csv", "particles_000003.vtu", "contacts_1234567.vtu", "particles.pvd", "summary.json.part"]
-        {
-            assert!(is_stale(name, &nothing), "{name}");
-        }
-        for name in
-            ["scene.toml", "particles_3.vtu", "particles_000003.vtk", "my_history.csv", "settled.cograin", "x.part"]
-        {
-            assert!(!is_stale(name, &nothing), "{name}");
-        }
-    }
-
-    #[test]
     fn a_continued_run_keeps_its_frames_and_rows() {
-        let kept = Kept { history: Some(Found::default()), breakage: None, frames: vec![0.0, 0.1] };
-        assert!(!is_stale("history.csv", &kept) && !is_stale("particles_000001.vtu", &kept));
-        assert!(is_stale("particles_000002.vtu", &kept));
+        let kept = Kept { history: Some(Found::default()), next_frame: 2, ..Kept::default() };
+        let is_stale = |name: &str| is_stale(Path::new(name), &kept);
+        assert!(!is_stale("history.csv") && !is_stale("particles_000001.vtu") && !is_stale("particles.pvd"));
+        assert!(is_stale("particles_000002.vtu") && is_stale("summary.json") && is_stale("history.csv.part"));
     }
 }

@@ -22,8 +22,10 @@ mod files;
 mod folder;
 mod frames;
 mod inputs;
+mod lock;
 mod momentum;
 mod remarks;
+mod replacement;
 mod run;
 mod schedule;
 mod settle;
@@ -36,7 +38,7 @@ pub use check::{Report, check};
 pub use error::{Failure, InputsError, OutputError, Refusal, ResumeError};
 pub use files::{read_checkpoint, write_checkpoint};
 pub use remarks::remarks;
-pub use run::{Progress, RunOrder, Start, run};
+pub use run::{EarlierResults, Progress, RunOrder, Start, run};
 pub use settle::{SettleOrder, SettleProgress, Settled, settle};
 pub use summary::Summary;
 pub use vtk::EncodeError;
@@ -52,3 +54,32 @@ pub const CHECKPOINT: &str = "checkpoint.cograin";
 
 /// File that tells how a run went.
 const SUMMARY: &str = "summary.json";
+
+/// Ending of a file that is being written.
+const UNFINISHED: &str = "part";
+
+/// Kinds of frames: beginning of the names of their files.
+const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];
+
+/// File name of a frame.
+fn frame_name(kind: &str, number: usize) -> String {
+    format!("{kind}_{number:06}.vtu")
+}
+
+/// The number of a frame, from its file name.
+fn frame_number(name: &str) -> Option<usize> {
+    FRAMES.iter().find_map(|kind| {
+        let digits = name.strip_prefix(kind)?.strip_prefix('_')?.strip_suffix(".vtu")?;
+        (digits.len() >= 6 && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
+    })
+}
+
+/// File name of the times of the frames of a kind.
+fn collection_name(kind: &str) -> String {
+    format!("{kind}.pvd")
+}
+
+/// Whether a file holds the times of frames.
+fn is_collection(name: &str) -> bool {
+    FRAMES.iter().any(|kind| name == collection_name(kind))
+}

@@ -2,16 +2,18 @@
 
 use super::error::{Failure, OutputError, Refusal, ResumeError};
 use super::files::{Durability, read_checkpoint, write_whole};
-use super::folder::{Beginning, Folder, Job, Kept, Origin};
+use super::folder::{Folder, Job, Kept, Place};
 use super::inputs::Inputs;
-use super::momentum;
+use super::lock::FolderLock;
 use super::schedule::{Due, Schedule};
-use super::summary::{Meter, Summary};
+use super::summary::{self, Meter, Summary};
 use super::writer::{Writer, opened};
 use super::{CHECKPOINT, SUMMARY};
+use super::{momentum, replacement};
 use crate::interface::Interface;
 use crate::scene::Scene;
 use crate::step::Simulation;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -32,6 +34,15 @@ pub enum Start {
     Checkpoint(PathBuf),
 }
 
+/// What becomes of the results of an earlier run in the folder, where another run begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EarlierResults {
+    /// They stay, and the run is refused.
+    Keep,
+    /// They are replaced, all of them at once.
+    Replace,
+}
+
 /// What is to be run, and where to.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOrder<'a> {
@@ -43,6 +54,8 @@ pub struct RunOrder<'a> {
     pub folder: &'a Path,
     /// Where it begins.
     pub start: &'a Start,
+    /// What becomes of the results of an earlier run.
+    pub earlier_results: EarlierResults,
     /// A table of the driven boundaries' displacements over time; without one they stay where they are.
     pub inputs: Option<&'a Path>,
     /// Set from outside to stop at the next communication point.
@@ -104,6 +117,8 @@ struct Session<'a> {
     meter: Meter,
     /// When the last checkpoint was handed over.
     last_checkpoint: Instant,
+    /// What keeps others out of the folder.
+    _lock: FolderLock,
 }
 
 impl<'a> Session<'a> {
@@ -114,7 +129,8 @@ impl<'a> Session<'a> {
         let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
         let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
         let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
-        let schedule = Schedule::new(&order.scene.output, end);
+        let schedule = Schedule::new(order.scene, order.scene_name, end)?;
+        let early_lock = if order.folder.exists() { Some(claim(&order)?) } else { None };
         let (simulation, time, origin) = match checkpoint(&order)? {
             Some((path, origin)) => {
                 let state = read_checkpoint(&path, order.scene.fingerprint)?;
@@ -128,18 +144,21 @@ impl<'a> Session<'a> {
                 (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
             }
         };
+        let lock = early_lock.map_or_else(|| claim(&order), Ok)?;
         let outputs = interface.outputs().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
-        let state = simulation.state();
-        let beginning = Beginning { scene: order.scene, names: &names, schedule: &schedule, time, state, origin };
-        let kept = Kept::look(order.folder, &beginning)?;
+        if origin != Origin::Here {
+            let first = First { order: &order, interface: &interface, schedule: &schedule, names: &names };
+            first.write(&simulation, time, origin)?;
+        }
+        let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
+        let kept = Kept::look(order.folder, &place)?;
         let folder = Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?;
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
         let meter = Meter::start(&simulation);
-        let last_checkpoint = Instant::now();
-        let mut session = Self {
+        Ok(Self {
             order,
             schedule,
             end,
@@ -152,16 +171,9 @@ impl<'a> Session<'a> {
             start: time,
             momentum,
             meter,
-            last_checkpoint,
-        };
-        match origin {
-            Origin::Anew => session.write(session.schedule.at_start(), Checkpoint::InPlace)?,
-            Origin::Elsewhere => {
-                session.write(Due { history: false, frame: false, checkpoint: true }, Checkpoint::InPlace)?;
-            }
-            Origin::Here => {}
-        }
-        Ok(session)
+            last_checkpoint: Instant::now(),
+            _lock: lock,
+        })
     }
 
     /// Goes from point to point.
@@ -205,15 +217,10 @@ impl<'a> Session<'a> {
     fn write(&mut self, due: Due, checkpoint: Checkpoint) -> Result<(), OutputError> {
         let time = self.time;
         if due.history {
-            let values = self.interface.outputs().map(|(index, _)| self.interface.value(&self.simulation, index));
-            let values = values.collect();
-            self.writer.send(Job::Row { time, values })?;
+            self.writer.send(row(&self.interface, &self.simulation, time))?;
         }
         if due.frame {
-            let particles = Box::new(self.simulation.state().particles.clone());
-            let contacts = self.order.scene.output.contacts.then(|| self.simulation.contacts());
-            let bonds = (!self.order.scene.bonds.is_empty()).then(|| self.simulation.bonds());
-            self.writer.send(Job::Frame { time, particles, contacts, bonds })?;
+            self.writer.send(frame(&self.simulation, time))?;
         }
         if due.checkpoint {
             self.last_checkpoint = Instant::now();
@@ -245,6 +252,82 @@ impl<'a> Session<'a> {
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
         result.and(written.map_err(Failure::from)).map(|()| summary)
     }
+}
+
+/// Where a run comes from, as far as its files are concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    /// At time 0: all files are new.
+    Anew,
+    /// At a later time, in the folder of the run that is continued.
+    Here,
+    /// At a later time, from a checkpoint of another folder: what was written up to then stays there.
+    Elsewhere,
+}
+
+/// What a run writes before its first step.
+struct First<'a> {
+    /// What was asked for.
+    order: &'a RunOrder<'a>,
+    /// The variables.
+    interface: &'a Interface,
+    /// When what is written.
+    schedule: &'a Schedule,
+    /// Columns of the history.
+    names: &'a [String],
+}
+
+impl First<'_> {
+    /// Writes the first files of a run, in place of what is in the folder: all of them or none.
+    fn write(&self, simulation: &Simulation, time: f64, origin: Origin) -> Result<(), OutputError> {
+        let path = self.order.folder;
+        let new = replacement::begin(path)?;
+        let earlier_frames = if origin == Origin::Anew { 0 } else { self.schedule.frames_until(time).len() };
+        let kept = Kept::nothing(earlier_frames);
+        let mut folder = Folder::open(&new, Arc::clone(self.order.scene), self.names, &kept)?;
+        if origin == Origin::Anew {
+            folder.write(Job::Breaks(simulation.state().breaks.clone()))?;
+            folder.write(row(self.interface, simulation, time))?;
+            if self.schedule.at_start().frame {
+                folder.write(frame(simulation, time))?;
+            }
+        }
+        folder.checkpoint(simulation.state())?;
+        drop(folder);
+        replacement::finish(path)
+    }
+}
+
+/// The row of the history at the present time.
+fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
+    let values = interface.outputs().map(|(index, _)| interface.value(simulation, index)).collect();
+    Job::Row { time, values }
+}
+
+/// The frame at the present time.
+fn frame(simulation: &Simulation, time: f64) -> Job {
+    let scene = simulation.scene();
+    let particles = Box::new(simulation.state().particles.clone());
+    let contacts = scene.output.contacts.then(|| simulation.contacts());
+    let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
+    Job::Frame { time, particles, contacts, bonds }
+}
+
+/// Locks the folder of the results, ends what another run may have left half done there, and refuses to begin where
+/// an earlier run's results are to be kept.
+fn claim(order: &RunOrder<'_>) -> Result<FolderLock, Failure> {
+    let path = order.folder;
+    if path.exists() && !path.is_dir() {
+        return Err(Refusal::NotAFolder { folder: path.to_owned() }.into());
+    }
+    fs::create_dir_all(path).map_err(OutputError::at(path))?;
+    let lock = FolderLock::take(path)?;
+    replacement::take_up(path)?;
+    let own = || *order.start == Start::LastCheckpoint || matches!(checkpoint(order), Ok(Some((_, Origin::Here))));
+    if order.earlier_results == EarlierResults::Keep && !own() && !replacement::results(path)?.is_empty() {
+        return Err(Refusal::Used { folder: path.to_owned(), held: summary::told(&path.join(SUMMARY)) }.into());
+    }
+    Ok(lock)
 }
 
 /// The checkpoint that a run begins with, if any, and what that means for its files.

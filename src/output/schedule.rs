@@ -7,10 +7,21 @@
 //! communication steps as the unbroken run, and gives the same bits. Times are products and no sums, so they do
 //! not drift; two of them that differ by rounding alone are one.
 
-use crate::scene::Output;
+use super::error::Refusal;
+use crate::scene::{Scene, Step};
 
 /// Communication steps of a run whose scene names no interval.
 const DEFAULT_STEPS: f64 = 100.0;
+
+/// Outputs of each kind there may be: key, what they are, how many. Frames are files, checkpoints are waited for.
+const MOST: [(&str, &str, f64); 3] = [
+    ("history_interval", "rows of history.csv", 1e8),
+    ("frame_interval", "frames", 1e6),
+    ("checkpoint_interval", "checkpoints", 1e6),
+];
+
+/// Time steps there may be: beyond, a clock of 53 bits no longer tells one from the next.
+const MOST_STEPS: f64 = 1e15;
 
 /// Two times closer than this part of an interval are one.
 const SAME: f64 = 1e-9;
@@ -87,14 +98,28 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// The communication points of a run to `end` \[s\] that writes these outputs.
-    pub(super) fn new(output: &Output, end: f64) -> Self {
-        let [history, frames, checkpoints] =
-            [output.history_interval, output.frame_interval, output.checkpoint_interval]
-                .map(|interval| interval.map(Series::every));
+    /// The communication points of a run to `end` \[s\] that writes what the scene asks for; refused where nobody can mean
+    /// so many. The name is that of the scene, for the message.
+    pub(super) fn new(scene: &Scene, scene_name: &str, end: f64) -> Result<Self, Refusal> {
+        let output = &scene.output;
+        let intervals = [output.history_interval, output.frame_interval, output.checkpoint_interval];
+        for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
+            let Some(interval) = interval else { continue };
+            let count = end / interval;
+            if count > most {
+                return Err(Refusal::Counts { scene: scene_name.to_owned(), key, interval, count, what, end, most });
+            }
+        }
+        if let Step::Given(step) = scene.run.step
+            && end / step > MOST_STEPS
+        {
+            let (scene, count) = (scene_name.to_owned(), end / step);
+            return Err(Refusal::Steps { scene, step, count, end, most: MOST_STEPS });
+        }
+        let [history, frames, checkpoints] = intervals.map(|interval| interval.map(Series::every));
         let named = history.or(frames).or(checkpoints).is_some();
         let plain = (!named).then(|| Series::every(end / DEFAULT_STEPS));
-        Self { history, frames, checkpoints, plain, end }
+        Ok(Self { history, frames, checkpoints, plain, end })
     }
 
     /// All intervals.
@@ -147,36 +172,40 @@ impl Schedule {
     /// Times of the frames up to and with the point at `time` \[s\].
     pub(super) fn frames_until(&self, time: f64) -> Vec<f64> {
         let Some(series) = self.frames else { return Vec::new() };
-        self.times_until(series, time)
-    }
-
-    /// Rows of the history up to and with the point at `time` \[s\].
-    pub(super) fn rows_until(&self, time: f64) -> usize {
-        match self.history {
-            Some(series) => self.times_until(series, time).len(),
-            None => 1 + usize::from(time >= self.end),
-        }
-    }
-
-    /// Times of one kind of output up to and with the point at `time` \[s\].
-    fn times_until(&self, series: Series, time: f64) -> Vec<f64> {
-        let slack = SAME * series.interval;
-        let before_end = |time: &f64| self.end - time >= slack;
-        let mut times: Vec<_> = (0..=series.last(time, slack)).map(|k| series.time(k)).filter(before_end).collect();
+        let mut times: Vec<_> = (0..self.regular_until(series, time)).map(|k| series.time(k)).collect();
         if time >= self.end {
             times.push(self.end);
         }
         times
+    }
+
+    /// Rows of the history up to and with the point at `time` \[s\].
+    pub(super) fn rows_until(&self, time: f64) -> u64 {
+        let regular = self.history.map_or(1, |series| self.regular_until(series, time));
+        regular + u64::from(time >= self.end)
+    }
+
+    /// Outputs of one kind up to and with the point at `time` \[s\], without the one at the end of the run.
+    fn regular_until(&self, series: Series, time: f64) -> u64 {
+        let slack = SAME * series.interval;
+        let count = series.last(time, slack) + 1;
+        if count > 1 && self.end - series.time(count - 1) < slack { count - 1 } else { count }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Output;
+
+    /// The schedule of these outputs.
+    fn of(output: Output, end: f64) -> Result<Schedule, Refusal> {
+        Schedule::new(&Scene { output, ..Scene::default() }, "scene.toml", end)
+    }
 
     /// A schedule with these intervals of history and frames.
     fn schedule(history: f64, frames: Option<f64>, end: f64) -> Schedule {
-        Schedule::new(&Output { history_interval: Some(history), frame_interval: frames, ..Output::default() }, end)
+        of(Output { history_interval: Some(history), frame_interval: frames, ..Output::default() }, end).unwrap()
     }
 
     /// All points of a run from `time` on.
@@ -231,13 +260,27 @@ mod tests {
     }
 
     #[test]
+    fn counts_that_nobody_can_mean_are_refused() {
+        let frames = |interval| of(Output { frame_interval: Some(interval), ..Output::default() }, 1e-3);
+        let told = frames(1e-300).unwrap_err().to_string();
+        let expected = "scene.toml, [output] frame_interval: 1e-300 s gives 1.000e297 frames up to t = 0.001 s; at most 1e6 are right";
+        assert_eq!(told, expected);
+        assert!(frames(1e-9).is_ok());
+        let rows = |interval| of(Output { history_interval: Some(interval), ..Output::default() }, 1.0);
+        assert!(rows(1e-12).is_err() && rows(1e-8).is_ok());
+        let run = crate::scene::Run { step: Step::Given(1e-30), ..Default::default() };
+        let told = Schedule::new(&Scene { run, ..Scene::default() }, "scene.toml", 1.0).unwrap_err().to_string();
+        assert!(told.starts_with("scene.toml, [run] step: 1e-30 s gives 1.000e30 time steps"), "{told}");
+    }
+
+    #[test]
     fn a_time_between_two_points_is_told_the_nearest() {
         assert_eq!(schedule(2e-3, None, 1e-2).point_of(5.1e-3), Err(6e-3));
     }
 
     #[test]
     fn a_scene_without_intervals_has_a_hundred_points_and_two_rows() {
-        let plain = Schedule::new(&Output::default(), 0.5);
+        let plain = of(Output::default(), 0.5).unwrap();
         let all = points(&plain, 0.0);
         assert_eq!(all.len(), 100);
         assert_eq!(all.iter().filter(|point| point.due.history).count(), 1);

@@ -8,6 +8,8 @@ use crate::state::ledger::Source;
 use crate::step::{RunError, Simulation};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Counts what a session does.
@@ -254,6 +256,16 @@ impl std::fmt::Display for Summary {
             write!(formatter, ", {cost:.1} ns per {of} and step")?;
         }
         write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })
+    }
+}
+
+/// What the summary in a folder tells of the run that left it, in a few words.
+pub(super) fn told(path: &Path) -> String {
+    let summary = fs::read(path).ok().and_then(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).ok());
+    let Some(summary) = summary else { return "it did not come to its end".to_owned() };
+    match (summary["scene"].as_str(), summary["ended"].as_str(), summary["time"].as_f64()) {
+        (Some(scene), Some(ended), Some(time)) => format!("{scene}, {ended} at t = {time} s"),
+        _ => "its summary.json cannot be read".to_owned(),
     }
 }
 

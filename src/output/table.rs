@@ -46,32 +46,37 @@ impl Table {
 }
 
 /// The part of an existing file that a continued run keeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Found {
     /// Its length.
     bytes: u64,
+    /// Its rows.
+    pub rows: u64,
+    /// Time of the first of them \[s\].
+    pub first: Option<f64>,
 }
 
 impl Found {
-    /// Looks for the first `count` rows of a file that begins with these column names; `time` \[s\] is for the message.
-    pub(super) fn rows(path: &Path, names: &[String], count: usize, time: f64) -> Result<Self, ResumeError> {
-        let bytes = match std::fs::read(path) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-            Err(source) => return Err(ResumeError::Read { path: path.to_owned(), source }),
-        };
-        let ends: Vec<usize> = (1..).zip(&bytes).filter(|(_, byte)| **byte == b'\n').map(|(end, _)| end).collect();
-        let missing = |found| ResumeError::Rows { path: path.to_owned(), found, expected: count, time };
-        let Some(&header) = ends.first() else { return Err(missing(0)) };
-        let mut columns = csv::ReaderBuilder::new().has_headers(false).from_reader(&bytes[..header]);
+    /// Looks for the rows up to a time \[s\] in a file that begins with these column names, `time` before all.
+    pub(super) fn until(path: &Path, names: &[String], time: f64) -> Result<Self, ResumeError> {
+        let bytes = std::fs::read(path).map_err(|source| ResumeError::Read { path: path.to_owned(), source })?;
+        let mut lines = bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"));
+        let header = lines.next().unwrap_or_default();
+        let mut columns = csv::ReaderBuilder::new().has_headers(false).from_reader(header);
         let same = columns.records().next().is_some_and(|record| record.is_ok_and(|record| record.iter().eq(names)));
         if !same {
             return Err(ResumeError::Columns { path: path.to_owned() });
         }
-        match ends.get(count) {
-            Some(&end) => Ok(Self { bytes: end as u64 }),
-            None => Err(missing(ends.len() - 1)),
+        let mut found = Self { bytes: header.len() as u64, ..Self::default() };
+        for line in lines {
+            let first = line.split(|byte| *byte == b',').next().unwrap_or_default();
+            let row = std::str::from_utf8(first).ok().and_then(|text| text.trim().parse::<f64>().ok());
+            let Some(row) = row.filter(|row| *row <= time) else { break };
+            found.bytes += line.len() as u64;
+            found.rows += 1;
+            found.first = found.first.or(Some(row));
         }
+        Ok(found)
     }
 }
 
@@ -115,7 +120,8 @@ mod tests {
     fn a_reopened_file_goes_on_as_if_it_had_never_been_closed() {
         let path = three_rows("reopened");
         let whole = std::fs::read(&path).unwrap();
-        let found = Found::rows(&path, &names(), 1, 0.0).unwrap();
+        let found = Found::until(&path, &names(), 0.0).unwrap();
+        assert_eq!((found.rows, found.first), (1, Some(0.0)));
         let mut table = Table::reopen(&path, &found).unwrap();
         table.add(&row(1e-7, 1e300)).unwrap();
         table.add(&row(0.1, f64::MIN_POSITIVE)).unwrap();
@@ -123,16 +129,17 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_lacks_rows_is_refused() {
-        let path = three_rows("short");
-        let error = Found::rows(&path, &names(), 5, 0.4).unwrap_err().to_string();
-        assert!(error.contains("3 rows found; a run that is continued at t = 0.4 s has 5"), "{error}");
+    fn a_row_that_was_cut_off_is_not_kept() {
+        let path = three_rows("cut");
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &whole[..whole.len() - 2]).unwrap();
+        assert_eq!(Found::until(&path, &names(), 1.0).unwrap().rows, 2);
     }
 
     #[test]
     fn a_file_of_other_columns_is_refused() {
         let path = three_rows("columns");
-        let error = Found::rows(&path, &names()[..2], 1, 0.0).unwrap_err();
+        let error = Found::until(&path, &names()[..2], 0.0).unwrap_err();
         assert!(matches!(error, ResumeError::Columns { .. }), "{error}");
     }
 }

@@ -12,10 +12,12 @@ mod import;
 mod messages;
 mod mistake;
 mod nearest;
+mod setting;
 mod source;
 
 pub use error::{SceneError, SceneErrors};
 pub use mistake::Mistake;
+pub use setting::{Setting, SettingError};
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;

@@ -4,6 +4,7 @@ use super::check;
 use super::document::{Document, Faults};
 use super::error::{SceneError, SceneErrors};
 use super::mistake::Mistake;
+use super::setting::{self, Setting};
 use super::{Scene, check::raw_tables};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -44,10 +45,22 @@ impl Source {
 impl Scene {
     /// Reads a scene and the files that it names, which are looked for beside it.
     pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
+        Self::read_with(path, &[])
+    }
+
+    /// The same with some values set from outside; they are part of the text from here on.
+    pub fn read_with(path: &Path, settings: &[Setting]) -> Result<(Self, Source), SceneErrors> {
         let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
         let text = fs::read_to_string(path).map_err(|error| unreadable(&name, &error))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut source = Source { name, text, files: BTreeMap::new() };
+        let changes = setting::apply(&mut source.text, settings);
+        let scene = Self::with_files(&mut source, folder).map_err(|errors| changes.told(&source.name, errors))?;
+        Ok((scene, source))
+    }
+
+    /// Reads a scene from its text, and the files that it names from a folder.
+    fn with_files(source: &mut Source, folder: &Path) -> Result<Self, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
         for (table, key, file) in raw_tables::files(&document) {
@@ -58,8 +71,7 @@ impl Scene {
                 Err(error) => faults.add(&table, key, Mistake::Unreadable { file, reason: reason(&error) }),
             }
         }
-        let scene = check::scene(&source, &document, faults)?;
-        Ok((scene, source))
+        check::scene(source, &document, faults)
     }
 
     /// Reads a scene from its source alone.

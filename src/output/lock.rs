@@ -1,0 +1,104 @@
+//! One folder, one run: a lock that ends with the process that holds it.
+//!
+//! The lock is an advisory one of the system on a hidden file, so it is gone when the process is, whatever ended it.
+//! The file says who holds it; it is removed in the end, and one that a killed process left behind is taken over.
+
+use super::error::{Failure, OutputError, Refusal};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// File that is locked.
+pub(super) const LOCK: &str = ".cograin-lock";
+
+/// The lock of a folder, until it is dropped.
+#[derive(Debug)]
+pub(super) struct FolderLock {
+    /// The locked file.
+    path: PathBuf,
+    /// What keeps it locked.
+    _file: File,
+}
+
+impl FolderLock {
+    /// Locks a folder. If another process holds it, the refusal names that process and when it began.
+    pub(super) fn take(folder: &Path) -> Result<Self, Failure> {
+        let path = folder.join(LOCK);
+        let failed = |source: io::Error| OutputError::Write { path: path.clone(), source };
+        loop {
+            let mut file =
+                OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(failed)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    let mut holder = String::new();
+                    // Who cannot be read is told without a name.
+                    let _ = file.read_to_string(&mut holder);
+                    return Err(Refusal::InUse { folder: folder.to_owned(), holder: name(&holder) }.into());
+                }
+                // A file system without locks: nobody can be kept out, and nobody is.
+                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
+                Err(TryLockError::Error(error)) => return Err(failed(error).into()),
+            }
+            // Whoever held it before may have removed the file after it was opened here.
+            if !is_at(&file, &path).map_err(failed)? {
+                continue;
+            }
+            file.set_len(0).and_then(|()| file.rewind()).map_err(failed)?;
+            let begun = humantime::format_rfc3339_seconds(SystemTime::now());
+            writeln!(file, "process {}, started {begun}", std::process::id()).map_err(failed)?;
+            return Ok(Self { path, _file: file });
+        }
+    }
+}
+
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        // A file that stays locks nobody out.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Who holds the lock, in a message.
+fn name(holder: &str) -> String {
+    let holder = holder.trim();
+    if holder.is_empty() { "another process".to_owned() } else { holder.to_owned() }
+}
+
+/// Whether a path still leads to this open file.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let open = file.metadata()?;
+    match fs::metadata(path) {
+        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a path still leads to this open file: elsewhere an open file cannot be removed.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> io::Result<bool> {
+    Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_locked_once_and_free_again_afterwards() {
+        let folder = std::env::temp_dir().join(format!("cograin-lock-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        // What a killed process leaves locks nobody out.
+        fs::write(folder.join(LOCK), "process 1, started long ago").unwrap();
+        let held = FolderLock::take(&folder).unwrap();
+        let told = FolderLock::take(&folder).unwrap_err().to_string();
+        assert!(told.contains(&format!("process {}, started 2", std::process::id())), "{told}");
+        drop(held);
+        assert!(!folder.join(LOCK).exists());
+        drop(FolderLock::take(&folder).unwrap());
+    }
+}

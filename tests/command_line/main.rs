@@ -1,0 +1,10 @@
+//! The commands: what they leave, what they say, and with which status they end.
+
+mod broken_off;
+mod checks;
+mod folders;
+mod ground;
+mod inputs;
+mod refusals;
+mod runs;
+mod settling;

@@ -1,0 +1,110 @@
+//! What `settle` leaves, and what begins with it.
+
+use crate::ground::{Place, SCENE, cograin, column, complaint};
+use cograin::output::read_checkpoint;
+use cograin::scene::Scene;
+use cograin::step::Simulation;
+use std::fs;
+use std::sync::Arc;
+
+#[test]
+fn settling_ends_at_rest_and_a_run_begins_there_at_time_0() {
+    let place = Place::new("settle");
+    let scene = place.scene("end = 0.004\nstep = 2e-5", "history_interval = 1e-3");
+    let (state, out) = (place.at("settled.cograin"), place.at("out"));
+    let output = cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap();
+    complaint(&output, 0);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("settled after"), "{output:?}");
+    complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume", &state]).output().unwrap(), 0);
+    let mut history = csv::Reader::from_path(out.join("history.csv")).unwrap();
+    let force = history.headers().unwrap().iter().position(|name| name == "floor.force.z").unwrap();
+    let rows: Vec<_> = history.records().map(|row| row.unwrap()).collect();
+    assert_eq!((&rows[0][0], rows.len()), ("0.0", 5));
+    let radii = [5.0_f64, 5.0, 4.0, 5.0, 6.0].map(|radius| 1e-3 * radius);
+    let mass: f64 = radii.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2500.0).sum();
+    for row in rows {
+        let (found, expected) = (row[force].parse::<f64>().unwrap(), -9.81 * mass);
+        // The tolerance of settling, 1e-4 of the mean contact force, and friction at the side walls' leaning grains.
+        assert!(
+            (found / expected - 1.0).abs() < 0.05,
+            "the floor feels {found} N at {}, the weight is {expected} N",
+            &row[0]
+        );
+    }
+}
+
+#[test]
+fn a_unit_that_begins_settled_keeps_the_packing_when_its_boundaries_are_placed() {
+    let place = Place::new("settled_unit");
+    let path = place.scene("end = 0.004\nstep = 2e-5", "");
+    let file = place.at("settled.cograin");
+    complaint(&cograin(&[&"settle", &path, &"-o", &file]).output().unwrap(), 0);
+    let (scene, _) = Scene::read(&path).unwrap();
+    let state = read_checkpoint(&file, scene.fingerprint).unwrap();
+    let mut simulation = Simulation::resume(Arc::new(scene), state.clone());
+    simulation.place(&[]).unwrap();
+    let particles = &simulation.state().particles;
+    for (index, slot) in particles.slot.iter().enumerate() {
+        let before = state.particles.slot[index] as usize;
+        assert_eq!(particles.position[*slot as usize], state.particles.position[before], "particle {index}");
+    }
+    assert!(simulation.contact_count() >= 5, "{} contacts are left", simulation.contact_count());
+}
+
+#[test]
+fn what_never_touches_is_told_when_it_does_not_settle() {
+    let place = Place::new("never_touching");
+    let scene = place.at("scene.toml");
+    let text = SCENE.replace("RUN", "step = 2e-5").replace("OUTPUT", "");
+    // Without gravity the spheres stay where they are, and none touches another.
+    fs::write(&scene, text.replace("gravity", "# gravity").replace("velocity = [0.0, 0.1, -0.5]", "id = 4")).unwrap();
+    let state = place.at("settled.cograin");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"300"]).output().unwrap(), 1);
+    assert!(said.contains("not settled after 300 steps") && said.contains("nothing touches"), "{said}");
+    assert!(!said.contains("inf") && !state.exists(), "{said}");
+}
+
+#[test]
+fn a_bonded_beam_that_touches_nothing_settles_under_its_weight() {
+    let place = Place::new("settled_beam");
+    let (scene, state, out) = (place.at("scene.toml"), place.at("settled.cograin"), place.at("out"));
+    let beam = r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 1e-3
+[material.glass]
+density = 2500.0
+[particles.beam]
+material = "glass"
+lattice = { kind = "simple_cubic", origin = [0.0, 0.0, 0.0], counts = [5, 1, 1], spacing = 2e-3, radius = 1e-3 }
+[boundary.clamp]
+particles = { set = "beam", box = [[-1e-3, -1e-3, -1e-3], [0.5e-3, 1e-3, 1e-3]] }
+[bond.glue]
+between = ["beam", "beam"]
+create_distance = 2.1e-3
+normal_stiffness = 1e12
+tangential_stiffness = 4e11
+[output]
+history_interval = 1e-3
+"#;
+    fs::write(&scene, beam).unwrap();
+    let output = cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap();
+    complaint(&output, 0);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("of the mean bond force"), "{output:?}");
+    complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume", &state]).output().unwrap(), 0);
+    // The four spheres that are free hang on the clamp.
+    let weight = 4.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9 * 2500.0 * 9.81;
+    for force in column(&out, "clamp.force.z") {
+        assert!((force / -weight - 1.0).abs() < 1e-3, "the clamp feels {force} N, the weight is {weight} N");
+    }
+}
+
+#[test]
+fn a_packing_that_does_not_settle_in_time_is_a_failure() {
+    let place = Place::new("unsettled");
+    let scene = place.scene("end = 0.004\nstep = 2e-5", "");
+    let state = place.at("settled.cograin");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"5000"]).output().unwrap(), 1);
+    assert!(said.contains("not settled after 5000 steps") && said.contains("is asked for"), "{said}");
+    assert!(!state.exists());
+}
