@@ -81,11 +81,13 @@ class Interface:
         """Reads where the units stand."""
         self.displacement = np.concatenate([part.unit.get(part.displacements) for part in self._parts])
         self._saved = self.displacement
-
-    @property
-    def units(self) -> list[Unit]:
-        """Every unit, once."""
-        return list({id(part.unit): part.unit for part in self._parts}.values())
+        #: Every unit, once.
+        self.units = list({id(part.unit): part.unit for part in self._parts}.values())
+        # Names of the works of each unit; two parts may speak of one boundary. Nothing where one keeps no account.
+        works = [[name for part in self._parts if part.unit is unit for name in part.works] for unit in self.units]
+        whole = all(part.works for part in self._parts)
+        self._accounts = [(unit, tuple(dict.fromkeys(names))) for unit, names in zip(self.units, works, strict=True)]
+        self._accounts = self._accounts if whole else []
 
     @property
     def names(self) -> list[str]:
@@ -115,19 +117,22 @@ class Interface:
 
     def force(self, kind: Force) -> Vector:
         """Force of the particles on the interface: mean of the last step or at its end \\[N, N m\\]."""
-        return np.concatenate([part.unit.get(part.forces[kind]) for part in self._parts])
+        found = [part.unit.get(part.forces[kind]) for part in self._parts]
+        return found[0] if len(found) == 1 else np.concatenate(found)
 
     @property
     def work(self) -> float | None:
         """Work on the particles since the start, by the units' own account \\[J\\]; none without one."""
-        if not all(part.works for part in self._parts):
+        if not self._accounts:
             return None
-        # Two parts may name one boundary of one unit.
-        names = {(id(part.unit), name): part.unit for part in self._parts for name in part.works}
-        return sum(unit.number(name) for (_, name), unit in names.items())
+        return sum(float(sum(unit.get(names))) for unit, names in self._accounts)
 
     def advance(self, displacement: Vector, step: Step, kind: Force) -> Vector:
         """Moves the interface there during this step; gives the force of this kind \\[N, N m\\]."""
+        if self.substeps == 1:
+            self._move(displacement, step.length, step.end)
+            self.displacement = displacement
+            return self.force(kind)
         begin, impulse = self.displacement, np.zeros(len(displacement))
         length = step.length / self.substeps
         for count in range(1, self.substeps + 1):

@@ -61,9 +61,11 @@ class Structure:
         if substeps < 1:
             raise ValueError(f"substeps: {substeps}; at least 1 is right")
         self.substeps = substeps
-        self.static = not _any(self.mass) and not _any(self.damping)
+        self._damped = _any(self.damping)
+        self.static = not _any(self.mass) and not self._damped
         self.position = np.zeros(len(keep))  # of the free degrees of freedom [m]
         self.velocity = np.zeros(len(keep))  # [m/s]
+        self.displacement = self._at_interface(self.position)  # of the interface [m, rad]
         self.work = 0.0  # of the particles [J]
         self.load_work = 0.0  # of the load [J]
         self.loss = 0.0  # in the dashpots, and in the jumps of a static structure [J]
@@ -74,11 +76,6 @@ class Structure:
         self._mass_solver: Any = None
 
     # What it is and does
-
-    @property
-    def displacement(self) -> Vector:
-        """Where the interface is now \\[m, rad\\]."""
-        return vector(self.at.T @ self.position)
 
     @property
     def energy(self) -> float:
@@ -93,19 +90,25 @@ class Structure:
         everywhere[self.free] = self.position
         return everywhere
 
+    def _at_interface(self, position: Vector) -> Vector:
+        """Displacement of the interface at these positions \\[m, rad\\]."""
+        found: Vector = self.at.T @ position
+        return found
+
     def place(self, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
         """Puts the free degrees of freedom there \\[m\\], with these velocities \\[m/s\\]."""
         if position is not None:
             self.position = np.broadcast_to(vector(position), self.position.shape).copy()
         if velocity is not None:
             self.velocity = np.broadcast_to(vector(velocity), self.velocity.shape).copy()
+        self.displacement = self._at_interface(self.position)
         self._unforced = None
 
     # The partner of an exchange
 
     def predict(self, force: Vector, step: Step) -> Vector:
         """Where the interface would be at the end of this step under this force; changes nothing."""
-        return vector(self.at.T @ self._end_unforced(step) + self.compliance(step) @ force)
+        return self._at_interface(self._end_unforced(step)) + self._response(step.length)[1] @ force
 
     def compliance(self, step: Step) -> Matrix:
         """Change of that displacement per change of the force \\[m/N\\]."""
@@ -113,28 +116,39 @@ class Structure:
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
         """Takes the step under this force, and stands at this displacement of the interface."""
-        begin, loss = self.displacement, 0.0
-        position, velocity = self.position, self.velocity
-        applied = self.at @ force
-        for middle, length in self._parts(step):
-            load = self._loads(middle)
-            mean = self._mean_velocity(position, velocity, applied + load, length)
-            before, position = position, position + length * mean
-            velocity = np.zeros_like(mean) if self.static else 2.0 * mean - velocity
-            moved = position - before
-            if self.static:
-                loss += 0.5 * float(moved @ (self.stiffness @ moved))
-            else:
-                loss += length * float(mean @ (self.damping @ mean))
-            self.load_work += float(load @ moved)
-        self.position, self.velocity, self._unforced = position, velocity, None
-        self.loss += loss
+        begin = self.displacement
+        if self.substeps == 1:
+            # What was predicted is what happens: no second solution of the equations.
+            end = self._end_unforced(step) + self._response(step.length)[0] @ force
+            self._take(end, step.middle, step.length)
+        else:
+            applied = self.at @ force
+            for middle, length in self._parts(step):
+                forces = applied if self._load is None else applied + self._loads(middle)
+                mean = self._mean_velocity(self.position, self.velocity, forces, length)
+                self._take(self.position + length * mean, middle, length)
+        self._unforced = None
         self._stand(displacement, force, step)
         self.work += float(force @ (displacement - begin))
 
+    def _take(self, end: Vector, middle: float, length: float) -> None:
+        """Goes there in a substep, and books what that costs."""
+        moved = end - self.position
+        if self.static:
+            self.loss += 0.5 * float(moved @ (self.stiffness @ moved))
+        else:
+            mean = moved / length
+            self.velocity = 2.0 * mean - self.velocity
+            if self._damped:
+                self.loss += length * float(mean @ (self.damping @ mean))
+        if self._load is not None:
+            self.load_work += float(self._loads(middle) @ moved)
+        self.position = end
+
     def _stand(self, displacement: Vector, force: Vector, step: Step) -> None:
         """Moves the interface to where the units are; the energy that this makes or takes is booked."""
-        off = displacement - self.displacement
+        off = displacement - self._at_interface(self.position)
+        self.displacement = displacement
         if not off.any():
             return
         reached, compliance = self._response(step.length)
@@ -146,17 +160,20 @@ class Structure:
 
     def drift(self, force: Vector, step: Step) -> Vector:
         """Where the interface is at the end after half a kick of the begin's force; changes nothing."""
-        return vector(self.at.T @ (self.position + step.length * self._half_kicked(force, step)))
+        return self._at_interface(self.position + step.length * self._half_kicked(force, step))
 
     def kick(self, begin: Vector, end: Vector, step: Step) -> None:
         """Takes the step with the forces of its begin and end."""
         half, before = self._half_kicked(begin, step), self.displacement
         self.position = self.position + step.length * half
+        self.displacement = self._at_interface(self.position)
         self._unforced = None
         self.velocity = half + 0.5 * step.length * self._acceleration(self.position, half, end, step.end)
-        self.loss += step.length * float(half @ (self.damping @ half))
-        loads = 0.5 * (self._loads(step.begin) + self._loads(step.end))
-        self.load_work += step.length * float(loads @ half)
+        if self._damped:
+            self.loss += step.length * float(half @ (self.damping @ half))
+        if self._load is not None:
+            loads = 0.5 * (self._loads(step.begin) + self._loads(step.end))
+            self.load_work += step.length * float(loads @ half)
         self.work += 0.5 * float((begin + end) @ (self.displacement - before))
 
     def _half_kicked(self, force: Vector, step: Step) -> Vector:
@@ -166,8 +183,13 @@ class Structure:
     def _acceleration(self, position: Vector, velocity: Vector, force: Vector, time: float) -> Vector:
         if self._mass_solver is None:
             self._mass_solver = self._factorised(self.mass, "velocity Verlet needs a mass at every degree of freedom")
-        forces = self.at @ force + self._loads(time) - self.damping @ velocity - self.stiffness @ position
-        return vector(self._mass_solver(forces))
+        forces = self.at @ force - self.stiffness @ position
+        if self._damped:
+            forces = forces - self.damping @ velocity
+        if self._load is not None:
+            forces = forces + self._loads(time)
+        found: Vector = self._mass_solver(forces)
+        return found
 
     # The midpoint rule
 
@@ -189,9 +211,12 @@ class Structure:
             matrix = self.stiffness if self.static else self.mass + half * self.damping + half * half * self.stiffness
             self._solvers[length] = self._factorised(matrix, "the structure has nothing that holds it")
         solve = self._solvers[length]
+        found: Vector
         if self.static:
-            return vector((solve(forces) - position) / length)
-        return vector(solve(self.mass @ velocity + half * (forces - self.stiffness @ position)))
+            found = (solve(forces) - position) / length
+        else:
+            found = solve(self.mass @ velocity + half * (forces - self.stiffness @ position))
+        return found
 
     def _end_unforced(self, step: Step) -> Vector:
         """Positions at the end of the step without a force of the particles \\[m\\]."""

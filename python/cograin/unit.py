@@ -174,7 +174,7 @@ class Unit:
     def set(self, names: Sequence[str], values: Iterable[float]) -> None:
         """Sets real variables: all of them or none."""
         references, room, count = self._group(tuple(names))
-        room[:] = [float(value) for value in values]
+        room[:] = list(values)
         self._call(self.slave.fmi2SetReal, self.slave.component, references, count, room)
 
     def __getitem__(self, name: str) -> Value:

@@ -1,0 +1,204 @@
+"""The coupling set: problems with closed forms, by every exchange, and by other programs where they are installed.
+
+Writes results.csv and coupling_set.png: error and interface energy against wall time.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+import time
+from importlib import import_module
+from pathlib import Path
+
+from cograin import (
+    Aitken,
+    Coupling,
+    CouplingStopped,
+    FixedPoint,
+    GaussSeidel,
+    Interface,
+    Jacobi,
+    Newton,
+    Program,
+    QuasiNewton,
+    Secant,
+    StepControl,
+    Tolerance,
+    Unit,
+    Verlet,
+)
+from peers import NAMES
+from problems import Drop, FiniteRod, Rod, TwoMasses
+
+HERE = Path(__file__).resolve().parent
+PROBLEMS = (Drop(), Rod(), FiniteRod(), TwoMasses())
+TIGHT = Tolerance(displacement=1e-13)
+EXCHANGES = {
+    "Gauss–Seidel": GaussSeidel,
+    "Jacobi": Jacobi,
+    "Verlet": Verlet,
+    "fixed point": lambda: FixedPoint(tolerance=TIGHT, limit=60),
+    "Aitken": lambda: Aitken(tolerance=TIGHT),
+    "secant": lambda: Secant(tolerance=TIGHT),
+    "secant, two at most": lambda: Secant(limit=2),
+    "quasi-Newton": lambda: QuasiNewton(tolerance=TIGHT),
+    "Newton, differences": lambda: Newton("differences", tolerance=TIGHT),
+}
+COLUMNS = ["problem", "program", "exchange", "step", "error", "energy", "interface", "evaluations", "in_contact"]
+COLUMNS += ["unconverged", "wall", "said"]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    parser.add_argument("--program", default="cograin", help="the cograin command")
+    parser.add_argument("--output", type=Path, default=Path("out/coupling_set"), help="folder of all results")
+    parser.add_argument(
+        "--problems", nargs="*", choices=[one.name for one in PROBLEMS], help="all of them if not given"
+    )
+    parser.add_argument("--repeats", type=int, default=3, help="runs of which the fastest counts")
+    parser.add_argument("--no-peers", action="store_true", help="leave the other programs out")
+    parser.add_argument("--peer", choices=NAMES, help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+def interface_name(problem):
+    """The displacement that is coupled."""
+    return "right.displacement.x" if problem.scene == "oscillator.toml" else "floor.displacement.z"
+
+
+def run(problem, side, sphere, exchange, step):
+    """A course of a problem: its measure, and what it took; `sphere` says the watched values of the particles."""
+    partner = problem.partner()
+    watch = {name: (lambda place=place: sphere()[place]) for place, name in enumerate(problem.watch)}
+    watch["speed"] = lambda: partner.velocity[0]
+    control = StepControl(unconverged="accept", halvings=0)
+    began, said = time.perf_counter(), ""
+    try:
+        coupling = Coupling(side, partner, exchange, step, control=control, watch=watch)
+        coupling.run(round(problem.end / step) * step, progress=False)
+    except (CouplingStopped, ValueError) as refusal:
+        return None, 0.0, str(refusal)
+    wall = time.perf_counter() - began
+    record = coupling.record
+    measure = problem.measure(record, [side.names[0], *problem.watch], record["speed"])
+    touched = record[record.names[9]] != 0.0
+    counts = record["evaluations"]
+    mean = float(counts[touched].mean()) if touched.any() else 0.0
+    return (measure, float(counts.mean()), mean, len(record.unconverged)), wall, said
+
+
+def ours(problem, unit, name, step):
+    """One course by the unit."""
+    unit.reset()
+    side = Interface(unit, interface_name(problem))
+    return run(problem, side, lambda: unit.get(problem.watch), EXCHANGES[name](), step)
+
+
+def theirs(problem, open_side, name, step):
+    """One course by another program."""
+    height = getattr(problem, "height", 0.0)
+    velocity = -getattr(problem, "speed", 0.0)
+    time_step = 1e-5 if problem.name == "drop" else 1e-6
+    side = open_side(problem, time_step, height, velocity, problem.name == "drop")
+
+    def sphere():
+        place, speed = side.sphere()
+        return place - height, speed
+
+    try:
+        return run(problem, side, sphere, EXCHANGES[name](), step)
+    finally:
+        side.close()
+
+
+def row(problem, program, name, step, course, repeats):
+    """The fastest of several courses as a row; the numbers of all are the same."""
+    taken = [course() for _ in range(repeats)]
+    figures, wall, said = min(taken, key=lambda one: one[1])
+    if figures is None:
+        return [problem.name, program, name, step, *[""] * 7, said]
+    measure, mean, touched, unconverged = figures
+    numbers = [measure.error, measure.energy, measure.interface, mean, touched, unconverged, wall]
+    return [problem.name, program, name, step, *numbers, said]
+
+
+def chosen(options):
+    """The problems that were asked for."""
+    return [one for one in PROBLEMS if not options.problems or one.name in options.problems]
+
+
+def of_peer(options):
+    """Rows of one other program."""
+    open_side = import_module(f"peers.{options.peer}_side").Side
+    for problem in chosen(options):
+        # A dashpot has no mass for velocity Verlet, and nothing bonded is compared here.
+        names = {"drop": ("Gauss–Seidel", "Verlet"), "rod": ("Gauss–Seidel",)}.get(problem.name, ())
+        for name in names:
+            for step in problem.steps:
+                course = lambda n=name, s=step, p=problem: theirs(p, open_side, n, s)  # noqa: E731
+                yield row(problem, options.peer, name, step, course, options.repeats)
+
+
+def of_peers(options):
+    """Rows of all other programs, each from a process of its own."""
+    for name in NAMES:
+        command = [sys.executable, __file__, "--peer", name, "--repeats", str(options.repeats)]
+        command += ["--problems", *[one.name for one in chosen(options)]]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        found = [json.loads(line[2:]) for line in done.stdout.splitlines() if line.startswith("##")]
+        if done.returncode:
+            print(f"\n{name} is left out: {(done.stderr.strip().splitlines() or ['it gives no reason'])[-1]}")
+        yield from found
+
+
+def rows(options):
+    """Rows of COLUMNS, as they come."""
+    command = Program(options.program)
+    for problem in chosen(options):
+        print(f"\n{problem.name}: {problem.exact_error}")
+        path = options.output / f"{Path(problem.scene).stem}.fmu"
+        with Unit(command.export(HERE / problem.scene, path)) as unit:
+            for name in EXCHANGES:
+                for step in problem.steps:
+                    course = lambda n=name, s=step, p=problem, u=unit: ours(p, u, n, s)  # noqa: E731
+                    yield row(problem, "cograin", name, step, course, options.repeats)
+    if not options.no_peers:
+        print("\nother programs")
+        yield from of_peers(options)
+
+
+def told(one):
+    """A row in words."""
+    problem, program, name, step, error, energy, interface, mean, touched, unconverged, wall, said = one
+    if said:
+        return f"  {program:9} {name:20} {step:7.0e}  {said}"
+    figures = f"error {error:8.1e}  energy {energy:8.1e}  interface {interface:8.1e}"
+    counts = f"evaluations {mean:5.2f}, in contact {touched:5.2f}"
+    left = f"  {unconverged} steps not converged" if unconverged else ""
+    name = name if program == "cograin" else f"{problem}, {name}"
+    return f"  {program:9} {name:20} {step:7.0e}  {figures}  {counts}  {wall:7.3f} s{left}"
+
+
+def main():
+    options = arguments()
+    if options.peer:
+        for one in of_peer(options):
+            print("##" + json.dumps(one), flush=True)
+        return
+    options.output.mkdir(parents=True, exist_ok=True)
+    table = []
+    for one in rows(options):
+        table.append(one)
+        print(told(one), flush=True)
+    with (options.output / "results.csv").open("w", newline="") as text:
+        csv.writer(text).writerows([COLUMNS, *table])
+    from picture import draw
+
+    draw(options.output / "coupling_set.png", COLUMNS, table)
+    print(f"\n{options.output / 'results.csv'} and coupling_set.png written")
+
+
+if __name__ == "__main__":
+    main()
