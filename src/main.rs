@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
 use cograin::output::{self, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
-use cograin::scene::{Scene, Setting, Source};
+use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin::verify;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
@@ -214,9 +214,22 @@ fn printable(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
-/// Reads a scene.
+/// Reads a scene, and shows how far its random packings are.
 fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
-    Scene::read_with(&arguments.scene, &arguments.settings).map_err(Ending::refused)
+    let bar = bar("{spinner} {msg}  {elapsed}");
+    let result = Scene::read_with(&arguments.scene, &arguments.settings, &mut |progress| {
+        if bar.is_hidden() {
+            return;
+        }
+        bar.set_message(match progress {
+            PackingProgress::Placing { set, placed, count } => format!("[{set}] {placed} of {count} spheres placed"),
+            PackingProgress::Pushing { set, rounds, overlap } => {
+                format!("[{set}] packing: {rounds} rounds, largest overlap {overlap:.1e} of the radius")
+            }
+        });
+    });
+    bar.finish_and_clear();
+    result.map_err(Ending::refused)
 }
 
 /// Reads a scene to be computed here. Its files are not needed any more.

@@ -275,13 +275,13 @@ fn damaged(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
     bytes
 }
 
-#[test]
-fn a_damaged_scene_or_file_is_accepted_or_refused_and_never_panics() {
-    let mut random = ChaCha8Rng::seed_from_u64(11);
+/// Reads so many damaged copies of each good scene; how many were refused.
+fn refused_of_damaged(copies: usize, seed: u64) -> usize {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut refused = 0;
     for path in scenes("good") {
         let (_, whole) = Scene::read(&path).unwrap();
-        for _ in 0..300 {
+        for _ in 0..copies {
             let mut source = whole.clone();
             if let Some(bytes) = source.files.values_mut().next().filter(|_| random.next_u32() % 2 == 0) {
                 *bytes = damaged(bytes, &mut random);
@@ -294,7 +294,67 @@ fn a_damaged_scene_or_file_is_accepted_or_refused_and_never_panics() {
             }
         }
     }
+    refused
+}
+
+#[test]
+fn a_damaged_scene_or_file_is_accepted_or_refused_and_never_panics() {
+    let refused = refused_of_damaged(200, 11);
     assert!(refused > 500, "only {refused} refused");
+}
+
+/// `cargo test --test scenes -- --ignored`
+#[test]
+#[ignore = "takes a minute"]
+fn twenty_thousand_damaged_scenes_end_in_words() {
+    let refused = refused_of_damaged(20_000 / scenes("good").len() + 1, 12);
+    assert!(refused > 5_000, "only {refused} refused");
+}
+
+#[test]
+fn thousands_of_mistakes_are_found_in_linear_time_and_twenty_are_printed() {
+    let entry = "{ position = [0, 0, 0], radius = 1, colour = 1 },\n";
+    let text = format!(
+        "[material.a]\ndensity = 1\n[particles.p]\nmaterial = \"a\"\nlist = [\n{}]\n",
+        entry.repeat(20_000)
+    );
+    let source = Source { name: "scene.toml".to_owned(), text, ..Source::default() };
+    let errors = Scene::from_source(&source).unwrap_err();
+    assert_eq!(errors.list.len(), 20_000);
+    assert_eq!(errors.list[19_999].line, Some(20_005));
+    let printed = errors.to_string();
+    assert_eq!(printed.lines().count(), 21);
+    assert!(printed.ends_with("\nand 19980 more mistakes"), "{printed}");
+}
+
+#[test]
+fn a_table_or_a_script_given_as_a_scene_is_one_mistake() {
+    let table = format!("x,y,z,radius\n{}", "0.0,0.0,0.0,0.1\n".repeat(3000));
+    let source = Source { name: "bed.csv".to_owned(), text: table, ..Source::default() };
+    assert_eq!(
+        Scene::from_source(&source).unwrap_err().to_string(),
+        "bed.csv: a table of numbers found; a scene in TOML whose [particles.<name>] names this file is right"
+    );
+}
+
+#[test]
+fn thousands_of_materials_are_refused_before_memory_is_asked_for() {
+    let text: String = (0..5000).map(|material| format!("[material.m{material}]\ndensity = 1\n")).collect();
+    let source = Source { name: "scene.toml".to_owned(), text, ..Source::default() };
+    assert_eq!(
+        Scene::from_source(&source).unwrap_err().to_string(),
+        "scene.toml, line 1, [material]: 5000 materials found; 256 at most is right"
+    );
+}
+
+#[test]
+fn a_panic_of_the_reader_of_vtk_files_prints_nothing_and_is_told_in_words() {
+    let (_, mut source) = Scene::read(&folder("good").join("from_vtu.toml")).unwrap();
+    let whole = source.files.values().next().unwrap().clone();
+    let file = String::from_utf8(whole).unwrap().replacen("format=\"ascii\">", "format=\"binary\">AAAA", 1);
+    *source.files.values_mut().next().unwrap() = file.into_bytes();
+    let message = Scene::from_source(&source).unwrap_err().to_string();
+    assert!(message.contains("damaged data arrays") || message.contains("damaged one"), "{message}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The text of a scene as tables whose lines are known, and from tables to typed values.
 
 use super::error::{SceneError, SceneErrors};
+use super::foreign::looks_like;
 use super::messages;
 use super::mistake::Mistake;
 use serde::de::DeserializeOwned;
@@ -8,12 +9,17 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
+/// How often one table is read again at most, so that a text full of different mistakes costs no quadratic time.
+const READINGS: usize = 100;
+
 /// A scene's text, parsed.
 pub(super) struct Document<'a> {
     /// The scene's name, for messages.
     name: &'a str,
     /// The text.
     text: &'a str,
+    /// Where each line begins.
+    lines: Vec<usize>,
     /// The top table.
     root: Spanned<DeValue<'a>>,
 }
@@ -23,11 +29,16 @@ impl<'a> Document<'a> {
     pub(super) fn parse(name: &'a str, text: &'a str) -> Result<Self, SceneErrors> {
         let (root, errors) = DeTable::parse_recoverable(text);
         let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
-        let document = Self { name, text, root };
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(place, _)| place + 1)).collect();
+        let document = Self { name, text, lines, root };
         if errors.is_empty() {
             return Ok(document);
         }
         let mut faults = Faults::new(&document);
+        if let Some(mistake) = looks_like(text) {
+            faults.at_line(None, "", "", mistake);
+            return faults.finish().map(|()| document);
+        }
         for error in errors {
             let line = error.span().map(|span| document.line(span.start));
             let mistake = Mistake::Syntax { message: error.message().to_owned() };
@@ -38,8 +49,7 @@ impl<'a> Document<'a> {
 
     /// The line, counted from 1, of a byte of the text.
     fn line(&self, offset: usize) -> usize {
-        let end = offset.min(self.text.len());
-        1 + self.text.as_bytes()[..end].iter().filter(|byte| **byte == b'\n').count()
+        self.lines.partition_point(|start| *start <= offset)
     }
 
     /// The value at a dotted path; the empty path is the top.
@@ -92,6 +102,12 @@ impl<'a> Document<'a> {
         offset.map(|offset| self.line(offset))
     }
 
+    /// The line of a table or key whose name may hold any characters, below a table.
+    pub(super) fn line_of_name(&self, table: &str, name: &str) -> Option<usize> {
+        let (key_start, below) = child(self.find(table)?, name)?;
+        Some(self.line(if self.has_header(below) { below.span().start } else { key_start }))
+    }
+
     /// Whether a table has a `[header]` of its own.
     fn has_header(&self, value: &Spanned<DeValue>) -> bool {
         matches!(value.get_ref(), DeValue::Table(_)) && self.text[value.span()].starts_with('[')
@@ -99,7 +115,8 @@ impl<'a> Document<'a> {
 
     /// Reads a table into a type; an absent table is read as an empty one.
     ///
-    /// All mistakes are reported: what is unknown or wrong is taken out and the table read again.
+    /// All mistakes are reported: what is unknown or wrong is taken out and the table read again. A key that an entry
+    /// of a list may not have is taken out of all its entries at once, as those are of one type.
     pub(super) fn read<T: DeserializeOwned>(&self, table: &str, faults: &mut Faults) -> Option<T> {
         self.read_key(table, "", faults)
     }
@@ -110,6 +127,7 @@ impl<'a> Document<'a> {
         let mut value = self.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
         let before = faults.count();
         let mut wrong: Vec<String> = Vec::new();
+        let mut readings = 0;
         loop {
             let error = match T::deserialize(ValueDeserializer::from(value.clone())) {
                 Ok(read) => return (faults.count() == before).then_some(read),
@@ -130,11 +148,17 @@ impl<'a> Document<'a> {
             {
                 return None;
             }
-            let whole = segments(key).map(str::to_owned).chain(path.iter().cloned()).collect();
-            self.report(table, whole, &error, mistake, faults);
-            let out = if unknown { &path[..] } else { path.get(..1).unwrap_or_default() };
-            wrong.extend(out.first().cloned());
-            if !take_out(&mut value, out) {
+            let ways = if unknown { alike(&value, &path) } else { vec![path.clone()] };
+            let mut taken = false;
+            for way in ways {
+                let whole = segments(key).map(str::to_owned).chain(way.iter().cloned()).collect();
+                self.report(table, whole, &error, mistake.clone(), faults);
+                let out = if unknown { &way[..] } else { way.get(..1).unwrap_or_default() };
+                wrong.extend(out.first().filter(|first| wrong.last() != Some(*first)).cloned());
+                taken = take_out(&mut value, out);
+            }
+            readings += 1;
+            if !taken || readings == READINGS {
                 return None;
             }
         }
@@ -194,6 +218,23 @@ fn path_to(value: &Spanned<DeValue>, place: &Range<usize>) -> Vec<String> {
         _ => None,
     };
     path.unwrap_or_default()
+}
+
+/// The ways to a key of an entry of a list, and to the same key of the list's other entries.
+fn alike(value: &Spanned<DeValue>, path: &[String]) -> Vec<Vec<String>> {
+    let mut below = value;
+    for (depth, name) in path.iter().enumerate() {
+        if let (DeValue::Array(list), [key]) = (below.get_ref(), &path[depth + 1..]) {
+            let has = |entry: &Spanned<DeValue>| child(entry, key).is_some();
+            let entries = (1..).zip(list.iter()).filter(|(_, entry)| has(entry));
+            return entries.map(|(entry, _)| [&path[..depth], &[entry.to_string(), key.clone()]].concat()).collect();
+        }
+        match child(below, name) {
+            Some((_, next)) => below = next,
+            None => break,
+        }
+    }
+    vec![path.to_vec()]
 }
 
 /// Removes the key at the path; whether it was there.

@@ -3,6 +3,12 @@
 use super::mistake::Mistake;
 use std::fmt;
 
+/// How many mistakes are printed.
+const PRINTED: usize = 20;
+
+/// How many characters of one word are printed.
+const LONGEST: usize = 100;
+
 /// Everything found wrong with a scene, in the order of its lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors {
@@ -14,13 +20,17 @@ impl std::error::Error for SceneErrors {}
 
 impl fmt::Display for SceneErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, error) in self.list.iter().enumerate() {
+        for (index, error) in self.list.iter().take(PRINTED).enumerate() {
             if index > 0 {
                 writeln!(f)?;
             }
             write!(f, "{error}")?;
         }
-        Ok(())
+        match self.list.len().saturating_sub(PRINTED) {
+            0 => Ok(()),
+            1 => write!(f, "\nand 1 more mistake"),
+            more => write!(f, "\nand {more} more mistakes"),
+        }
     }
 }
 
@@ -54,6 +64,23 @@ impl fmt::Display for SceneError {
             (table, "") => place.push(format!("[{table}]")),
             (table, key) => place.push(format!("[{table}] {key}")),
         }
-        write!(f, "{}: {}", place.join(", "), self.mistake)
+        write!(f, "{}", printable(&format!("{}: {}", place.join(", "), self.mistake)))
     }
+}
+
+/// The text without characters that steer a terminal, and without numbers of hundreds of digits.
+fn printable(text: &str) -> String {
+    let word = |word: &str| {
+        let count = word.chars().count();
+        let kept: String = word.chars().take(if count > LONGEST { LONGEST / 2 } else { count }).collect();
+        let shown: String = kept
+            .chars()
+            .flat_map(|letter| match letter.is_control() && letter != '\n' {
+                true => letter.escape_default().collect::<Vec<_>>(),
+                false => vec![letter],
+            })
+            .collect();
+        if count > LONGEST { format!("{shown}.. ({count} characters)") } else { shown }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }

@@ -54,7 +54,8 @@ pub(super) fn mistake(error: &Error, key: &str) -> Mistake {
         return absent(&found).unwrap_or_else(|| Mistake::Choice { found, known: quoted.collect() });
     }
     if message.ends_with("number overflowed") {
-        let (found, right) = ("a number too large for 64 bits".to_owned(), "a finite number".to_owned());
+        let found = "a number that 64 bits do not hold".to_owned();
+        let right = "a whole number up to 9223372036854775807, or one with a decimal point up to 1.79e308,".to_owned();
         return Mistake::Wrong { found, right };
     }
     if let Some(number) = message.strip_prefix("wanted exactly 1 element, ") {

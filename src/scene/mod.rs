@@ -1,21 +1,24 @@
 //! From the text a user writes to a checked [`Scene`].
 //!
 //! A `Scene` cannot be wrong: single values are checked by their type as they are read, relations between
-//! tables in `check.rs`. Nothing after this module asks again.
+//! tables in `check`. Nothing after this module asks again.
 
 mod check;
 mod document;
 mod error;
 mod file;
+mod foreign;
 mod generate;
 mod import;
 mod messages;
 mod mistake;
 mod nearest;
+mod overlaps;
 mod setting;
 mod source;
 
 pub use error::{SceneError, SceneErrors};
+pub use generate::PackingProgress;
 pub use mistake::Mistake;
 pub use setting::{Setting, SettingError};
 pub use source::Source;

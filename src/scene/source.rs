@@ -5,7 +5,7 @@ use super::document::{Document, Faults};
 use super::error::{SceneError, SceneErrors};
 use super::mistake::Mistake;
 use super::setting::{self, Setting};
-use super::{Scene, check::raw_tables};
+use super::{PackingProgress, Scene, check::raw_tables};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -45,22 +45,31 @@ impl Source {
 impl Scene {
     /// Reads a scene and the files that it names, which are looked for beside it.
     pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
-        Self::read_with(path, &[])
+        Self::read_with(path, &[], &mut |_| {})
     }
 
-    /// The same with some values set from outside; they are part of the text from here on.
-    pub fn read_with(path: &Path, settings: &[Setting]) -> Result<(Self, Source), SceneErrors> {
+    /// The same with some values set from outside, which are part of the text from here on; tells how far its random
+    /// packings are.
+    pub fn read_with(
+        path: &Path,
+        settings: &[Setting],
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Result<(Self, Source), SceneErrors> {
         let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
         let text = fs::read_to_string(path).map_err(|error| unreadable(&name, &error))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut source = Source { name, text, files: BTreeMap::new() };
         let changes = setting::apply(&mut source.text, settings);
-        let scene = Self::with_files(&mut source, folder).map_err(|errors| changes.told(&source.name, errors))?;
+        let scene = Self::with_files(&mut source, folder, tell).map_err(|errors| changes.told(&source.name, errors))?;
         Ok((scene, source))
     }
 
     /// Reads a scene from its text, and the files that it names from a folder.
-    fn with_files(source: &mut Source, folder: &Path) -> Result<Self, SceneErrors> {
+    fn with_files(
+        source: &mut Source,
+        folder: &Path,
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Result<Self, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
         for (table, key, file) in raw_tables::files(&document) {
@@ -71,7 +80,7 @@ impl Scene {
                 Err(error) => faults.add(&table, key, Mistake::Unreadable { file, reason: reason(&error) }),
             }
         }
-        check::scene(source, &document, faults)
+        check::scene(source, &document, faults, tell)
     }
 
     /// Reads a scene from its source alone.
@@ -84,7 +93,7 @@ impl Scene {
                 faults.add(&table, key, Mistake::Unreadable { file, reason });
             }
         }
-        check::scene(source, &document, faults)
+        check::scene(source, &document, faults, &mut |_| {})
     }
 }
 

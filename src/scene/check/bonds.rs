@@ -1,7 +1,6 @@
 //! Bond laws: between whom, and which bonds are there at the start.
 
 use super::consistency::Finding;
-use super::overlaps::for_each_overlap;
 use super::particles::Born;
 use super::raw_tables::RawTables;
 use crate::bond::creation::Creation;
@@ -10,6 +9,7 @@ use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::document::{Document, Faults};
 use crate::scene::import::REPORTED;
 use crate::scene::mistake::Mistake;
+use crate::scene::overlaps::for_each_overlap;
 use crate::scene::source::Source;
 use crate::scene::{Bond, Particle, Scene, Shape, Step};
 

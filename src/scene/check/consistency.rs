@@ -1,11 +1,12 @@
 //! What must hold in any scene, read from a file or built in code.
 
 use super::bonds::{Bonded, idle};
-use super::overlaps::for_each_overlap;
 use crate::contact::{MaterialPair, Missing};
 use crate::scene::error::{SceneError, SceneErrors};
 use crate::scene::mistake::Mistake;
-use crate::scene::{ContactLaw, Scene, Shape};
+use crate::scene::overlaps::for_each_overlap;
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Particle, Scene, Shape};
+use std::collections::BTreeSet;
 
 /// A mistake and the table and key where it shows.
 #[derive(Debug)]
@@ -54,6 +55,7 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
         return findings;
     }
     let count = scene.materials.len();
+    let mut told = BTreeSet::new();
     for (a, b) in touching(scene) {
         let (first, second) = (&scene.materials[a], &scene.materials[b]);
         let Some(law) = scene.contacts.iter().find(|law| law.between[a * count + b]) else {
@@ -63,7 +65,7 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
         };
         let pair = MaterialPair { a: first, b: second, properties: &scene.pairs[a * count + b] };
         for Missing { table, key } in law.choice().coefficients(&pair).err().unwrap_or_default() {
-            if findings.iter().any(|finding| finding.table == table && finding.key == key) {
+            if !told.insert((table.clone(), key)) {
                 continue;
             }
             let right = format!("[contact.{}] needs it for {} and {}", law.name, first.name, second.name);
@@ -114,9 +116,42 @@ fn objection(law: &ContactLaw) -> Option<Finding> {
 pub(super) fn places(scene: &Scene) -> Vec<Finding> {
     let mut findings = Vec::new();
     outside(scene, &mut findings);
+    findings.extend(numbers(scene));
     planes(scene, &mut findings);
     overlaps(scene, &mut findings);
     findings.extend(idle(scene));
+    findings
+}
+
+/// Spacing of numbers at a particle over its radius, above which its place is too coarse to say what it touches.
+const COARSE: f64 = 1e-6;
+
+/// Particles whose mass or inertia no number holds, or which are so far away that numbers do not resolve their radius.
+fn numbers(scene: &Scene) -> Vec<Finding> {
+    let holds = |value: f64| value.is_normal();
+    let light = |particle: &&Particle| {
+        !holds(particle.mass()) || !holds(0.4 * particle.mass() * particle.radius * particle.radius)
+    };
+    let far = |particle: &&Particle| {
+        let most = particle.position.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+        most * f64::EPSILON > COARSE * particle.radius
+    };
+    let table = |particle: &Particle| {
+        scene.sets.get(particle.set.index()).map_or("particles".to_owned(), |set| format!("particles.{set}"))
+    };
+    let mut findings = Vec::new();
+    if let Some(particle) = scene.particles.iter().find(light) {
+        let (id, radius, mass, density) = (particle.id.0, particle.radius, particle.mass(), particle.density);
+        let what = format!("particle {id} of radius {radius:?} m and density {density:?} kg/m³ has a mass of {mass:?} kg");
+        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308) are right".to_owned();
+        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+    }
+    if let Some(particle) = scene.particles.iter().find(far) {
+        let (id, position, radius) = (particle.id.0, particle.position, particle.radius);
+        let what = format!("particle {id} of radius {radius:?} m is at {position:?} m, where numbers are too coarse");
+        let right = format!("at most {:.1e} m from the origin is right", COARSE * radius / f64::EPSILON);
+        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+    }
     findings
 }
 
@@ -135,18 +170,23 @@ fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
 /// Particles behind planes or too deep in them.
 fn planes(scene: &Scene, findings: &mut Vec<Finding>) {
     let permitted = scene.run.max_overlap;
+    let fixed_groups = fixed_groups(scene);
     for boundary in &scene.boundaries {
+        let fixed = is_fixed(boundary);
         let Shape::Plane { material, point, normal } = &boundary.shape else { continue };
         let height =
             |position: &[f64; 3]| -> f64 { (0..3).map(|axis| (position[axis] - point[axis]) * normal[axis]).sum() };
         let name = &boundary.name;
         let (mut behind, mut deep) = ((0.0, 0, 0), (0.0, 0, 0));
-        for particle in &scene.particles {
+        for (index, particle) in scene.particles.iter().enumerate() {
             let distance = height(&particle.position);
             let overlap = 1.0 - distance / particle.radius;
             if distance < 0.0 {
                 note(&mut behind, -distance, particle.id.0);
-            } else if overlap > permitted && governed(scene, material.index(), particle.material.index()) {
+            } else if overlap > permitted
+                && !(fixed && fixed_groups[index])
+                && governed(scene, material.index(), particle.material.index())
+            {
                 note(&mut deep, overlap, particle.id.0);
             }
         }
@@ -159,6 +199,22 @@ fn planes(scene: &Scene, findings: &mut Vec<Finding>) {
             findings.push(Finding::at(table, "plane", mistake));
         }
     }
+}
+
+/// Whether no axis of a boundary moves.
+fn is_fixed(boundary: &Boundary) -> bool {
+    boundary.axes.iter().all(|axis| *axis == AxisMotion::Fixed)
+}
+
+/// Whether each particle belongs to a group that does not move; such a group may be built into a fixed plane.
+fn fixed_groups(scene: &Scene) -> Vec<bool> {
+    let mut fixed = vec![false; scene.particles.len()];
+    for boundary in scene.boundaries.iter().filter(|boundary| is_fixed(boundary)) {
+        if let Shape::Particles { members } = &boundary.shape {
+            members.iter().for_each(|member| fixed[*member as usize] = true);
+        }
+    }
+    fixed
 }
 
 /// Keeps the worst, its number, and how many there are.

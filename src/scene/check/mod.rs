@@ -6,7 +6,6 @@ mod consistency;
 mod contacts;
 mod damping;
 mod motion;
-mod overlaps;
 mod particles;
 pub(super) mod raw_tables;
 mod selection;
@@ -17,12 +16,17 @@ use super::error::SceneErrors;
 use super::file::{OutputTable, RunTable, StepKey};
 use super::mistake::Mistake;
 use super::source::Source;
-use super::{Output, Run, Scene, Step};
+use super::{Output, PackingProgress, Run, Scene, Step};
 use consistency::Finding;
 use raw_tables::RawTables;
 
 /// The scene that a source describes. Mistakes found so far are in `faults`.
-pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) -> Result<Scene, SceneErrors> {
+pub(super) fn scene(
+    source: &Source,
+    document: &Document,
+    mut faults: Faults,
+    tell: &mut dyn FnMut(PackingProgress),
+) -> Result<Scene, SceneErrors> {
     let written = RawTables::read(document, &mut faults);
     faults.so_far()?;
     let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
@@ -31,7 +35,7 @@ pub(super) fn scene(source: &Source, document: &Document, mut faults: Faults) ->
     let output = output(&written.output, &mut faults);
     let pairs = contacts::pairs(&written, &materials, &mut faults);
     let laws = contacts::laws(&written.contacts, &materials, &mut faults);
-    let born = particles::particles(&written, source, &materials, &mut faults);
+    let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
     let boundaries = boundaries::boundaries(&written, &materials, &born, &mut faults);
     let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);

@@ -9,7 +9,7 @@ use crate::scene::file::ParticlesTable;
 use crate::scene::import::REPORTED;
 use crate::scene::mistake::Mistake;
 use crate::scene::source::Source;
-use crate::scene::{Particle, Run};
+use crate::scene::{PackingProgress, Particle, Run};
 use std::collections::BTreeMap;
 
 /// All particles, and where each comes from.
@@ -26,7 +26,13 @@ pub(super) struct Born {
 }
 
 /// Reads all sets.
-pub(super) fn particles(written: &RawTables, source: &Source, materials: &[Material], faults: &mut Faults) -> Born {
+pub(super) fn particles(
+    written: &RawTables,
+    source: &Source,
+    materials: &[Material],
+    faults: &mut Faults,
+    tell: &mut dyn FnMut(PackingProgress),
+) -> Born {
     let extra: Vec<String> = written
         .damping
         .iter()
@@ -39,7 +45,7 @@ pub(super) fn particles(written: &RawTables, source: &Source, materials: &[Mater
     for (index, (name, table)) in written.particles.iter().enumerate() {
         let set = SetIndex(index as u32);
         let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed };
-        let (list, place, columns) = reader.read(source, &extra, faults);
+        let (list, place, columns) = reader.read(source, &extra, faults, tell);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());
         born.columns.push(columns);

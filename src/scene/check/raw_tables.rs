@@ -14,6 +14,7 @@ use crate::scene::file::{
 use crate::scene::messages;
 use crate::scene::mistake::Mistake;
 use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
 
 /// Tables by name, in the order of the text.
 pub(super) type Named<T> = Vec<(String, T)>;
@@ -60,6 +61,9 @@ pub(super) struct Law {
     pub(super) cohesion: CohesionChoice,
 }
 
+/// How many materials a scene may have: what each two have in common is kept as a square.
+const MOST_MATERIALS: usize = 256;
+
 /// A file that a scene names: the table, the key, and the name.
 pub(in crate::scene) type FileName = (String, &'static str, String);
 
@@ -86,6 +90,12 @@ impl RawTables {
             true => document.read_key("", "gravity", faults),
             false => Some(Triple::default()),
         };
+        let count = document.names("material").len();
+        if count > MOST_MATERIALS {
+            let (found, right) = (format!("{count} materials"), format!("{MOST_MATERIALS} at most"));
+            faults.add("material", "", Mistake::Wrong { found, right });
+            return None;
+        }
         let materials = all(document, "material", faults);
         let pairs = pairs(document, faults);
         let contacts = laws(document, faults);
@@ -129,9 +139,10 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
             true => Mistake::UnknownTable { found: name.clone(), known },
             false => Mistake::UnknownKey { found: name.clone(), known },
         });
+        let line = document.line_of_name("", &name);
         match document.is_table(&name) {
-            true => faults.add(&name, "", mistake),
-            false => faults.add("", &name, mistake),
+            true => faults.at_line(line, &name, "", mistake),
+            false => faults.at_line(line, "", &name, mistake),
         }
     }
 }
@@ -144,7 +155,10 @@ fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec<String> {
     }
     let (names, others): (Vec<String>, Vec<String>) = document.names(kind).into_iter().partition(|name| is_name(name));
     for found in others {
-        faults.add(&format!("{kind}.{found}"), "", Mistake::Name { found });
+        let line = document.line_of_name(kind, &found);
+        let bare = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
+        let shown = if !found.is_empty() && found.chars().all(bare) { found.clone() } else { format!("{found:?}") };
+        faults.at_line(line, &format!("{kind}.{shown}"), "", Mistake::Name { found });
     }
     names
 }
@@ -169,14 +183,18 @@ fn all<T: DeserializeOwned>(document: &Document, kind: &str, faults: &mut Faults
 /// All properties of pairs; both orders of one pair must say the same.
 fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
     let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+    let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
     for a in names(document, "pair", faults) {
         for b in names(document, &format!("pair.{a}"), faults) {
             let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
             let mirrored = [b.clone(), a.clone()];
-            match pairs.iter().find(|(names, _)| *names == mirrored) {
-                Some((_, other)) if *other != properties => asymmetric(document, &a, &b, faults),
+            match known.get(&mirrored) {
+                Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),
                 Some(_) => {}
-                None => pairs.push(([a.clone(), b], properties)),
+                None => {
+                    known.insert([a.clone(), b.clone()], pairs.len());
+                    pairs.push(([a.clone(), b], properties));
+                }
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::scene::file::{ListEntry, ParticlesTable, Triple};
 use crate::scene::import::{self, REPORTED, Request, Rows};
 use crate::scene::mistake::Mistake;
 use crate::scene::source::Source;
-use crate::scene::{Particle, generate};
+use crate::scene::{PackingProgress, Particle, generate};
 use std::collections::BTreeMap;
 
 /// A particle whose number is not yet known.
@@ -62,7 +62,13 @@ pub(super) type Offspring = (Vec<Unnumbered>, Place, BTreeMap<String, Vec<f64>>)
 
 impl SetReader<'_> {
     /// Reads the set.
-    pub(super) fn read(&self, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
+    pub(super) fn read(
+        &self,
+        source: &Source,
+        extra: &[String],
+        faults: &mut Faults,
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Offspring {
         let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
         if !self.has_one_origin(faults) {
             return nobody;
@@ -76,7 +82,7 @@ impl SetReader<'_> {
         }
         let spheres = match (lattice, packing) {
             (Some(lattice), _) => generate::lattice(lattice),
-            (_, Some(packing)) => generate::packing(packing, self.seed, &self.table),
+            (_, Some(packing)) => generate::packing(packing, self.seed, &self.table, tell),
             (None, None) => Ok(Vec::new()),
         };
         match spheres {
@@ -213,7 +219,8 @@ impl SetReader<'_> {
                 ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
             ] {
                 if !fine && faults.count() < before + REPORTED {
-                    let mistake = Mistake::Wrong { found: format!("{found:?}"), right: right.to_owned() };
+                    let found = if key == "id" { format!("{found}") } else { format!("{found:?}") };
+                    let mistake = Mistake::Wrong { found, right: right.to_owned() };
                     faults.in_file(file, rows.line(row), &self.table, key, mistake);
                 }
             }

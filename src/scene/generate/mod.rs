@@ -1,5 +1,6 @@
 //! Particles that no file lists: lattices and random packings.
 
+mod crowd;
 mod dense;
 mod lattice;
 mod packing;
@@ -7,6 +8,29 @@ mod region;
 
 pub(super) use lattice::lattice;
 pub(super) use packing::packing;
+
+/// How far a random packing is; told many times a second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PackingProgress<'a> {
+    /// Spheres are put at free places one after the other.
+    Placing {
+        /// The particle set.
+        set: &'a str,
+        /// How many have their place.
+        placed: usize,
+        /// Of how many.
+        count: usize,
+    },
+    /// Spheres are pushed apart.
+    Pushing {
+        /// The particle set.
+        set: &'a str,
+        /// Rounds of pushes so far.
+        rounds: usize,
+        /// Largest overlap over the smaller radius; below 1e-4 they are apart.
+        overlap: f64,
+    },
+}
 
 /// Centre and radius \[m\].
 pub(super) type Sphere = ([f64; 3], f64);

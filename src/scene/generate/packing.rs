@@ -2,7 +2,7 @@
 
 use super::dense::dense;
 use super::region::Region;
-use super::{MOST, Sphere};
+use super::{MOST, PackingProgress, Sphere};
 use crate::scene::file::PackingTable;
 use crate::scene::mistake::Mistake;
 use rand_chacha::ChaCha8Rng;
@@ -28,12 +28,13 @@ impl Class {
     /// An empty class of spheres up to this radius.
     fn new(largest: f64, size: [f64; 3], spheres: usize) -> Self {
         // More cells than spheres gain nothing.
-        let volume: f64 = size.iter().product();
+        let most = 8.0 * spheres as f64 + 64.0;
+        let cells = |width: f64| size.map(|length| (length / width).ceil().max(1.0));
         let mut width = 2.0 * largest;
-        while volume / (width * width * width) > 8.0 * spheres as f64 + 64.0 {
+        while cells(width).iter().product::<f64>() > most {
             width *= 2.0;
         }
-        let counts = size.map(|length| (length / width).ceil().max(1.0) as usize);
+        let counts = cells(width).map(|count| count as usize);
         Self { largest, width, counts, cells: vec![Vec::new(); counts.iter().product()] }
     }
 
@@ -84,12 +85,20 @@ pub(in crate::scene) fn packing(
     table: &PackingTable,
     seed: u64,
     set: &str,
+    tell: &mut dyn FnMut(PackingProgress),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     let region = Region::named(table)?;
     let mut random = generator(seed, set);
     match (table.count, table.solid_fraction) {
-        (Some(count), None) => scattered(&region, count.get() as usize, table.radius.0, &mut random),
-        (None, Some(fraction)) => dense(&region, fraction.get(), table.radius.0, &mut random),
+        (Some(count), None) => {
+            let count = count.get() as usize;
+            let mut tell = |placed| tell(PackingProgress::Placing { set, placed, count });
+            scattered(&region, count, table.radius.0, &mut random, &mut tell)
+        }
+        (None, Some(fraction)) => {
+            let mut tell = |rounds, overlap| tell(PackingProgress::Pushing { set, rounds, overlap });
+            dense(&region, fraction.get(), table.radius.0, &mut random, &mut tell)
+        }
         _ => {
             let (what, right) = ("not one amount".to_owned(), "one of count, solid_fraction is right".to_owned());
             Err(("packing", Mistake::Senseless { what, right }))
@@ -103,6 +112,7 @@ fn scattered(
     count: usize,
     [least, most]: [f64; 2],
     random: &mut ChaCha8Rng,
+    tell: &mut dyn FnMut(usize),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     if count > MOST {
         let (found, right) = (count.to_string(), format!("{MOST} at most"));
@@ -130,6 +140,7 @@ fn scattered(
         }
         volume += 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
         spheres[index] = (region.in_scene(place), radius);
+        tell(reached + 1);
     }
     Ok(spheres)
 }
@@ -166,7 +177,7 @@ mod tests {
 
     #[test]
     fn spheres_of_wide_sizes_stay_apart_and_inside() {
-        let spheres = packing(&cube(500, [0.005, 0.06]), 1, "a").unwrap();
+        let spheres = packing(&cube(500, [0.005, 0.06]), 1, "a", &mut |_| {}).unwrap();
         for (index, (p, r)) in spheres.iter().enumerate() {
             assert!(p.iter().all(|x| x - r >= -1.0 - 1e-15 && x + r <= 1e-15), "{p:?}");
             for (q, s) in &spheres[..index] {
@@ -178,7 +189,7 @@ mod tests {
 
     #[test]
     fn the_same_seed_and_set_give_the_same_packing_and_others_another() {
-        let of = |seed, set| packing(&cube(50, [0.02, 0.03]), seed, set).unwrap();
+        let of = |seed, set| packing(&cube(50, [0.02, 0.03]), seed, set, &mut |_| {}).unwrap();
         assert_eq!(of(1, "a"), of(1, "a"));
         assert_ne!(of(1, "a"), of(2, "a"));
         assert_ne!(of(1, "a"), of(1, "b"));
@@ -186,7 +197,7 @@ mod tests {
 
     #[test]
     fn a_full_box_says_how_many_it_took() {
-        let (key, mistake) = packing(&cube(10_000, [0.1, 0.1]), 1, "a").unwrap_err();
+        let (key, mistake) = packing(&cube(10_000, [0.1, 0.1]), 1, "a", &mut |_| {}).unwrap_err();
         assert_eq!(key, "packing.count");
         let Mistake::Full { reached, count, fraction } = mistake else { panic!("{mistake}") };
         assert_eq!(count, 10_000);

@@ -71,7 +71,13 @@ impl Reader {
     fn head(&mut self, number: usize, content: &str) -> Result<(), Vec<FileFault>> {
         let words: Vec<&str> = content.split_whitespace().collect();
         match words[..] {
-            [count, "atoms"] => self.announced = count.parse().ok().map(|count| (count, number)),
+            [count, "atoms"] => match count.parse() {
+                Ok(count) => self.announced = Some((count, number)),
+                Err(_) => {
+                    let (found, right) = (format!("{count:?} atoms"), "a whole number of atoms".to_owned());
+                    return Err(vec![FileFault::at(number, "", Mistake::Wrong { found, right })]);
+                }
+            },
             [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
                 return Err(non_spherical(number));
             }

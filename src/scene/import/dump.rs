@@ -22,6 +22,8 @@ struct Snapshot<'a> {
     columns: Line<'a>,
     /// Lines of the atoms.
     atoms: Vec<Line<'a>>,
+    /// Where its last `ITEM:` stands.
+    last: Option<usize>,
 }
 
 /// Reads the text of a dump file, and the units it states.
@@ -52,7 +54,9 @@ fn snapshots(text: &str) -> (Vec<Snapshot<'_>>, Option<String>) {
             item = name.trim();
             if item == "TIMESTEP" {
                 snapshots.push(Snapshot::default());
-            } else if let Some(snapshot) = snapshots.last_mut() {
+            }
+            if let Some(snapshot) = snapshots.last_mut() {
+                snapshot.last = Some(number);
                 if let Some(faces) = item.strip_prefix("BOX BOUNDS") {
                     snapshot.faces = (number, faces);
                 } else if let Some(columns) = item.strip_prefix("ATOMS") {
@@ -106,18 +110,16 @@ impl Snapshot<'_> {
         if self.announced != Some(self.atoms.len()) {
             let found = format!("{} lines of atoms", self.atoms.len());
             let right = self.announced.map_or("ITEM: NUMBER OF ATOMS".to_owned(), |count| count.to_string());
-            return Err(vec![FileFault {
-                line: Some(line),
-                column: String::new(),
-                mistake: Mistake::Wrong { found, right },
-            }]);
+            let line = Some(line).filter(|line| *line > 0).or(self.last);
+            return Err(vec![FileFault { line, column: String::new(), mistake: Mistake::Wrong { found, right } }]);
         }
         let names: Vec<Option<String>> = columns.iter().map(|column| known(column, request.extra)).collect();
         let mut present: Vec<String> = names.iter().flatten().cloned().collect();
         if present.iter().any(|name| name == "diameter") {
             present.push("radius".to_owned());
         }
-        needed(&present, Some(line)).map_err(|missing| found_columns(missing, &columns))?;
+        let line = Some(line).filter(|line| *line > 0).or(self.last);
+        needed(&present, line).map_err(|missing| found_columns(missing, &columns))?;
         let mut rows = self.atoms(&columns, &names)?;
         self.unscale(&columns, &mut rows)?;
         density_of_mass(&mut rows);

@@ -3,6 +3,7 @@
 mod csv;
 mod data;
 mod dump;
+mod packed_sizes;
 mod vtu;
 
 use super::file::{Format, Units};

@@ -1,16 +1,20 @@
 //! Particles from VTK's XML unstructured grids, read by vtkio: points, and arrays of point data.
 
-use super::{FileFault, POSSIBLE, Request, Rows, needed};
+use super::{FileFault, POSSIBLE, Request, Rows, needed, packed_sizes};
 use crate::scene::mistake::Mistake;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
 use vtkio::model::{Attribute, DataArray, DataSet, Piece};
 use vtkio::{IOBuffer, Vtk};
 
 /// Reads a `.vtu` file.
 pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {
+    if let Some(found) = packed_sizes::implausible(bytes) {
+        return Err(refused(found));
+    }
     // vtkio panics on some files; nothing of its state outlives the call.
-    let parsed = catch_unwind(AssertUnwindSafe(|| Vtk::parse_xml(bytes)));
-    let pieces = match parsed {
+    let pieces = match silently(|| Vtk::parse_xml(bytes)) {
         Ok(Ok(Vtk { data: DataSet::UnstructuredGrid { pieces, .. }, .. })) => pieces,
         Ok(Ok(_)) => return Err(refused("VTK data of another kind".to_owned())),
         Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => {
@@ -20,7 +24,7 @@ pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
             return Err(refused("data packed by lzma".to_owned()));
         }
         Ok(Err(_)) => return Err(refused("a file that is no VTK file, or a damaged one,".to_owned())),
-        Err(_) => return Err(refused("a file that VTK's reader fails on".to_owned())),
+        Err(Panicked) => return Err(refused("a file with damaged data arrays".to_owned())),
     };
     let mut rows = Rows::default();
     for piece in pieces {
@@ -51,6 +55,32 @@ pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         return Err(refused(format!("{} materials for {} points", rows.label.len(), rows.count)));
     }
     Ok(rows)
+}
+
+thread_local! {
+    /// Whether a panic of this thread is expected and caught.
+    static EXPECTED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The work panicked.
+struct Panicked;
+
+/// Does the work; a panic in it prints nothing. Panics of other threads are printed as ever.
+fn silently<T>(work: impl FnOnce() -> T) -> Result<T, Panicked> {
+    /// The hook that knows which panics are expected is set once and hands the others on.
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let otherwise = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            if !EXPECTED.get() {
+                otherwise(panic);
+            }
+        }));
+    });
+    EXPECTED.set(true);
+    let done = catch_unwind(AssertUnwindSafe(work));
+    EXPECTED.set(false);
+    done.map_err(|_| Panicked)
 }
 
 /// One array of point data, if anything is wanted of it.
@@ -106,6 +136,6 @@ fn holds(bytes: &[u8], part: &[u8]) -> bool {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib,".to_owned();
+    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib or lz4,".to_owned();
     vec![FileFault::whole(Mistake::Wrong { found, right })]
 }

@@ -2,7 +2,7 @@
 
 /// One size class of spheres, sorted by cell; a cell is as wide as the largest sphere of the class.
 struct Level {
-    /// Width of a cell \[m\].
+    /// Width of a cell \[m\], at least the largest diameter of the class.
     width: f64,
     /// Cell and sphere, ascending.
     entries: Vec<(u64, u32)>,
@@ -14,11 +14,14 @@ const BITS: u32 = 21;
 /// Cells kept free at each end of an axis, so that neighbouring rows never wrap around.
 const MARGIN: u64 = 2;
 
+/// How much wider than the largest sphere a cell is, so that rounding never puts a touching pair two cells apart.
+const SLACK: f64 = 1.0 + 1e-9;
+
 /// Calls `found` for each two spheres whose surfaces overlap, with the overlap \[m\].
 ///
 /// Spheres are classed by size, each class twice as large as the one before; small ones are looked for
 /// among larger ones, so that wide size ratios do not crowd the cells.
-pub(super) fn for_each_overlap(spheres: &[([f64; 3], f64)], mut found: impl FnMut(u32, u32, f64)) {
+pub(in crate::scene) fn for_each_overlap(spheres: &[([f64; 3], f64)], mut found: impl FnMut(u32, u32, f64)) {
     let Some(smallest) = spheres.iter().map(|(_, radius)| *radius).reduce(f64::min) else { return };
     let lower = spheres
         .iter()
@@ -27,13 +30,14 @@ pub(super) fn for_each_overlap(spheres: &[([f64; 3], f64)], mut found: impl FnMu
         (0..3).fold(extent, |extent, axis| extent.max(position[axis] - lower[axis]))
     });
     let cells = (1_u64 << (BITS - 1)) as f64;
-    let mut levels: Vec<Level> = Vec::new();
     let classes: Vec<usize> = spheres.iter().map(|(_, radius)| class(*radius, smallest)).collect();
-    let mut width = 4.0 * smallest;
-    for _ in 0..=classes.iter().copied().max().unwrap_or(0) {
-        levels.push(Level { width: width.max(extent / cells), entries: Vec::new() });
-        width *= 2.0;
+    let mut largest = vec![0.0_f64; 1 + classes.iter().copied().max().unwrap_or(0)];
+    for ((_, radius), class) in spheres.iter().zip(&classes) {
+        largest[*class] = largest[*class].max(*radius);
     }
+    let width = |radius: f64| (2.0 * SLACK * radius).max(extent / cells);
+    let mut levels: Vec<Level> =
+        largest.into_iter().map(|radius| Level { width: width(radius), entries: Vec::new() }).collect();
     for ((index, (position, _)), class) in (0..).zip(spheres).zip(&classes) {
         let level = &mut levels[*class];
         level.entries.push((cell(position, &lower, level.width), index));
@@ -50,7 +54,7 @@ pub(super) fn for_each_overlap(spheres: &[([f64; 3], f64)], mut found: impl FnMu
         within(&level.entries, &mut test);
     }
     for (index, (position, _)) in (0..).zip(spheres) {
-        for level in &levels[classes[index as usize] + 1..] {
+        for level in levels[classes[index as usize] + 1..].iter().filter(|level| !level.entries.is_empty()) {
             around(level, cell(position, &lower, level.width), &mut |other| test(index, other));
         }
     }
