@@ -8,8 +8,9 @@ mod quantity;
 
 pub use quantity::Quantity;
 
+use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
-use crate::scene::{AxisMotion, Boundary, Scene, Shape};
+use crate::scene::{Boundary, Scene};
 use crate::state::State;
 use crate::step::{RunError, Simulation};
 use meaning::Meaning;
@@ -242,7 +243,6 @@ impl Interface {
 
 /// What the outside gives to and gets from one boundary, inputs first.
 fn of_boundary(scene: &Scene, boundary: &Boundary, index: BoundaryIndex) -> Vec<Meaning> {
-    use AxisMotion::{Driven, Fixed, Free};
     let axes = &scene.boundaries[index.index()].axes;
     let place = |axis: usize| match axis {
         0..3 => Meaning::Displacement(index, axis),
@@ -252,15 +252,15 @@ fn of_boundary(scene: &Scene, boundary: &Boundary, index: BoundaryIndex) -> Vec<
         0..3 => Meaning::Velocity(index, axis),
         _ => Meaning::AngularVelocity(index, axis - 3),
     };
-    let of = |chosen: fn(&AxisMotion) -> bool| (0..6).filter(move |&axis| chosen(&axes[axis]));
-    let mut list: Vec<Meaning> = of(|motion| *motion == Driven).map(place).collect();
-    list.extend(of(|motion| !matches!(motion, Driven | Fixed)).map(place));
-    list.extend(of(|motion| *motion == Free).map(rate));
+    let of = |seen: &'static [Seen]| (0..6).filter(move |&axis| seen.contains(&axes[axis].seen()));
+    let mut list: Vec<Meaning> = of(&[Seen::Input]).map(place).collect();
+    list.extend(of(&[Seen::Place, Seen::PlaceAndRate]).map(place));
+    list.extend(of(&[Seen::PlaceAndRate]).map(rate));
     for load in [Meaning::Force, Meaning::Moment, Meaning::MeanForce, Meaning::MeanMoment] {
         list.extend((0..3).map(|axis| load(index, axis)));
     }
     list.push(Meaning::Work(index));
-    if matches!(boundary.shape, Shape::Particles { .. }) {
+    if !boundary.shape.members().is_empty() {
         list.push(Meaning::Mass(index));
     }
     list

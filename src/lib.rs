@@ -5,6 +5,7 @@
 
 pub mod bond;
 mod books;
+mod boundaries;
 mod choices;
 pub mod contact;
 pub mod export;
@@ -14,7 +15,7 @@ mod interactions;
 pub mod interface;
 pub mod lanes;
 pub mod memory;
-mod motion;
+pub mod motion;
 mod neighbours;
 pub mod number;
 pub mod output;
@@ -24,5 +25,6 @@ pub mod scene;
 mod stability;
 pub mod state;
 pub mod step;
+pub mod surface;
 mod threads;
 pub mod verify;

@@ -1,6 +1,8 @@
 //! Numbers that are checked as they are read, and indices that cannot be mixed up.
 
-use serde::{Deserialize, Deserializer, Serialize, de::Error};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
 
 /// Declares a checked `f64`: its name, what it must satisfy, and the words for that in a message.
 macro_rules! checked {
@@ -70,3 +72,59 @@ index!(/// Where a particle set stands in the scene.
     SetIndex);
 index!(/// Where a boundary stands in the scene.
     BoundaryIndex);
+
+/// Three finite numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Triple(pub(crate) [f64; 3]);
+
+impl<'de> Deserialize<'de> for Triple {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let list: Vec<Finite> = deserializer.deserialize_seq(Numbers)?;
+        match list[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("{} numbers found; [x, y, z] is right", list.len()))),
+        }
+    }
+}
+
+/// Reads a list of numbers.
+pub(crate) struct Numbers;
+
+impl<'de> Visitor<'de> for Numbers {
+    type Value = Vec<Finite>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list of numbers")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Finite>, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = list.next_element()? {
+            numbers.push(number);
+        }
+        Ok(numbers)
+    }
+}
+
+/// Two corners, the second above the first along each axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corners(pub(crate) [[f64; 3]; 2]);
+
+impl<'de> Deserialize<'de> for Corners {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let corners = Vec::<Triple>::deserialize(deserializer)?;
+        let [Triple(lower), Triple(upper)] = corners[..] else {
+            let found = corners.len();
+            return Err(D::Error::custom(format!("{found} corners found; [[x, y, z], [x, y, z]] is right")));
+        };
+        match (0..3).find(|axis| lower[*axis] >= upper[*axis]) {
+            None => Ok(Self([lower, upper])),
+            Some(axis) => Err(D::Error::custom(format!(
+                "{:?} to {:?} along {} found; the lower corner before the upper one is right",
+                lower[axis],
+                upper[axis],
+                ["x", "y", "z"][axis]
+            ))),
+        }
+    }
+}

@@ -15,6 +15,9 @@ const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
 /// Where the cases of hidden contacts lie.
 const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/hidden");
 
+/// Where the cases of meshes and cylinders lie.
+const MESH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/mesh");
+
 /// A folder of this test's own that goes when it is dropped.
 struct Scratch(PathBuf);
 
@@ -175,6 +178,16 @@ fn contacts_that_bonds_hide_are_replayed_and_without_the_flag_are_not() {
         }
         let report = replay(&scratch.case(&json.to_string()), &Options::default()).unwrap();
         assert!(!report.passed(), "{report}");
+    }
+}
+
+#[test]
+fn every_case_of_a_mesh_or_a_cylinder_holds() {
+    let cases = find(&[MESH.into()]).unwrap();
+    assert_eq!(cases.len(), 14);
+    for case in cases {
+        let report = replay(&case, &Options::default()).unwrap();
+        assert!(report.passed(), "{report}");
     }
 }
 

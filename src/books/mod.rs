@@ -1,7 +1,7 @@
 //! Kinetic energy, and the algorithmic energy book for the scenes that ask for it.
 
+use crate::boundaries::RigidBody;
 use crate::integration::Fields;
-use crate::motion::RigidBody;
 use crate::number::Vector;
 use crate::state::ledger::{Loads, Source};
 use crate::state::{BoundaryState, Particles, Row, State};

@@ -1,9 +1,9 @@
 //! Gravity, applied forces and Cundall's global damping.
 
 use super::Rows;
+use crate::boundaries::RigidBody;
 use crate::geometry::Quaternion;
 use crate::lanes::Shared;
-use crate::motion::RigidBody;
 use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::{BoundaryState, Particles, Row, State};

@@ -9,6 +9,8 @@ mod records;
 mod sphere_geometry;
 mod suppressed;
 pub(crate) mod suppression;
+mod surface_history;
+pub(crate) mod surfaces;
 pub(crate) mod wall_bonds;
 pub(crate) mod walls;
 

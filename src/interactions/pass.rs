@@ -54,6 +54,11 @@ pub(crate) trait Pass: Send + Sync {
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;
 
+    /// Largest overlap at the present time over the smaller radius of the two (the particle's, at a surface).
+    fn largest_overlap(&self, _state: &State) -> f64 {
+        0.0
+    }
+
     /// Tells each living bond and what it carries. Changes nothing.
     fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
 }

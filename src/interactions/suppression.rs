@@ -6,7 +6,7 @@ use crate::bond::creation::{ContactPolicy, Moment};
 use crate::bond::keys::FormulationChoice;
 use crate::contact::{HistoryRow, Law};
 use crate::number::Vector;
-use crate::scene::{Bond, Scene, Shape};
+use crate::scene::{Bond, Scene};
 use crate::state::contacts::{SLIDING, TOUCHING};
 use crate::state::hidden::{FRESH, Hidden, HiddenContact, LASTING, SILENT};
 use crate::state::{Row, State};
@@ -80,9 +80,8 @@ impl Hiding {
         let materials = scene.materials.len();
         let law_of = (0..materials * materials)
             .map(|entry| scene.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32));
-        let surfaces = scene.boundaries.iter().map(|boundary| match &boundary.shape {
-            Shape::Plane { material, point, normal, .. } => Some((material.0, (*point).into(), (*normal).into())),
-            _ => None,
+        let surfaces = scene.boundaries.iter().map(|boundary| {
+            boundary.shape.plane().map(|plane| (plane.material.0, plane.point.into(), plane.normal.into()))
         });
         Self {
             laws: scene.bonds.iter().map(flags_of).collect(),

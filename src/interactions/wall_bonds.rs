@@ -13,7 +13,7 @@ use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
-use crate::scene::{Boundary, Scene, Shape};
+use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Row, State};
 use crate::threads::{CHUNK, Context};
@@ -59,10 +59,8 @@ impl<L: BondLaw> WallBondPass<L> {
     /// The pass of this bond of the scene; none where the boundary is no plane.
     pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
         let bond = &scene.bonds[index];
-        let Boundary { shape: Shape::Plane { point, normal, .. }, reference, .. } = &scene.boundaries[boundary.index()]
-        else {
-            return None;
-        };
+        let Boundary { shape, reference, .. } = &scene.boundaries[boundary.index()];
+        let plane = shape.plane()?;
         Some(Self {
             index,
             numbers: bond.law,
@@ -71,8 +69,8 @@ impl<L: BondLaw> WallBondPass<L> {
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
             set: bond.between[0],
             boundary,
-            point: (*point).into(),
-            normal: (*normal).into(),
+            point: plane.point.into(),
+            normal: plane.normal.into(),
             reference: (*reference).into(),
             law: PhantomData,
         })

@@ -2,7 +2,7 @@
 
 use super::{Causality, Quantity, Value, Variability, Variable};
 use crate::quantity::BoundaryIndex;
-use crate::scene::{AxisMotion, Scene, Shape};
+use crate::scene::Scene;
 use crate::step::Simulation;
 
 /// Names of the axes in variables.
@@ -143,7 +143,7 @@ impl Meaning {
 
     /// Whether the outside gives it.
     fn is_input(self, scene: &Scene) -> bool {
-        self.axis().is_some_and(|(boundary, axis)| scene.boundaries[boundary.index()].axes[axis] == AxisMotion::Driven)
+        self.axis().is_some_and(|(boundary, axis)| scene.boundaries[boundary.index()].axes[axis].is_driven())
     }
 
     /// What it measures.
@@ -298,12 +298,6 @@ fn count(number: u64) -> Value {
 
 /// Mass of the particles of a boundary; 0 for one that has none \[kg\].
 fn mass(scene: &Scene, boundary: BoundaryIndex) -> f64 {
-    match &scene.boundaries[boundary.index()].shape {
-        Shape::Particles { members } => members
-            .iter()
-            .filter_map(|&member| scene.particles.get(member as usize))
-            .map(crate::scene::Particle::mass)
-            .sum(),
-        Shape::Plane { .. } => 0.0,
-    }
+    let members = scene.boundaries[boundary.index()].shape.members().iter();
+    members.filter_map(|&member| scene.particles.get(member as usize)).map(crate::scene::Particle::mass).sum()
 }

@@ -3,12 +3,13 @@
 use super::*;
 use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::{InputCourse, Output, Particle};
+use crate::scene::{AxisMotion, InputCourse, Output, Particle, Shape};
 use crate::state::BoundaryState;
+use crate::surface::{Group, Plane};
 
 /// A scene of one sphere, a driven plane, a plane that moves by itself, and the sphere as a group that stands.
 fn scene() -> Scene {
-    let plane = Shape::Plane { material: MaterialIndex(0), point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let plane = Shape::of(Plane { material: MaterialIndex(0), point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
     let boundary = |name: &str, shape: &Shape, axes| Boundary {
         name: name.to_owned(),
         shape: shape.clone(),
@@ -35,7 +36,7 @@ fn scene() -> Scene {
         boundaries: vec![
             boundary("floor", &plane, [Fixed, Fixed, Driven, Fixed, Fixed, Fixed]),
             boundary("lid", &plane, [Prescribed(0.1), Fixed, Fixed, Fixed, Fixed, Fixed]),
-            boundary("grip", &Shape::Particles { members: vec![0] }, [Fixed; 6]),
+            boundary("grip", &Shape::of(Group { members: vec![0] }), [Fixed; 6]),
         ],
         ..Scene::default()
     }

@@ -1,72 +1,28 @@
-//! How boundaries move, and what they feel.
+//! How driven axes go through a communication step.
 
-use crate::geometry::{Quaternion, rotation};
-use crate::motion::{RigidBody, Turning};
-use crate::number::Vector;
-use crate::run_error::RunError;
-use crate::scene::{AxisMotion, Boundary, InputCourse, Scene, Shape};
-use crate::state::{Attitude, BoundaryState, State};
+use serde::Deserialize;
 
-/// Half a turn, less what rounding may hide \[rad\].
-const HALF_A_TURN: f64 = std::f64::consts::PI - 1e-9;
-
-/// Begins a communication step of `interval` \[s\]: driven axes now know where they go. Refuses half a turn
-/// or more about several axes; nothing has changed then.
-pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(), RunError> {
-    let mut turns = Vec::with_capacity(state.boundaries.len());
-    for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
-        turns.push(turn_ahead(boundary, moved, interval, state.clock.time)?);
-    }
-    for (moved, turn) in state.boundaries.iter_mut().zip(turns) {
-        for axis in 0..6 {
-            moved.target[axis] += moved.target_rate[axis] * interval;
-        }
-        moved.target_rate = [0.0; 6];
-        moved.start = six(moved.displacement, moved.rotation);
-        moved.start_attitude = moved.attitude;
-        moved.turn = turn;
-        moved.impulse = [0.0; 3];
-        moved.angular_impulse = [0.0; 3];
-    }
-    Ok(())
+/// How a driven axis moves inside a communication step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InputCourse {
+    /// At constant velocity, arriving at the end of the step.
+    #[default]
+    Ramp,
+    /// A cubic in time with the velocity continuous.
+    Smooth,
+    /// At once, in the first time step of the communication step.
+    Hold,
 }
 
-/// Three numbers of x, y, z and three about them.
-fn six([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 6] {
-    [x, y, z, a, b, c]
-}
-
-/// The rotation vector that driven axes turn by in a communication step from `time` on \[rad\]: about one axis by
-/// the change of its angle, about several at once by less than half a turn.
-fn turn_ahead(boundary: &Boundary, moved: &BoundaryState, interval: f64, time: f64) -> Result<[f64; 3], RunError> {
-    let driven: Vec<usize> = (0..3).filter(|axis| boundary.axes[3 + axis] == AxisMotion::Driven).collect();
-    let target = |axis: usize| moved.target[3 + axis] + moved.target_rate[3 + axis] * interval;
-    let mut turn = [0.0; 3];
-    if let [axis] = driven[..] {
-        turn[axis] = target(axis) - moved.rotation[axis];
-    } else if !driven.is_empty() {
-        let mut rotation = [0.0; 3];
-        for axis in driven {
-            rotation[axis] = target(axis);
+impl InputCourse {
+    /// Which share of its way a driven axis has gone after a share of the time.
+    fn at(self, share: f64) -> f64 {
+        match self {
+            Self::Ramp => share,
+            Self::Smooth => share * share * (3.0 - 2.0 * share),
+            Self::Hold => 1.0,
         }
-        let way = rotation::between(Quaternion::from(moved.attitude), rotation::attitude(rotation.into()));
-        let angle = way.length();
-        if angle > HALF_A_TURN {
-            return Err(RunError::Turn { boundary: boundary.name.clone(), angle, time });
-        }
-        turn = way.to_array();
-    }
-    Ok(turn)
-}
-
-/// Ends a communication step after `elapsed` \[s\].
-pub(crate) fn end(state: &mut State, elapsed: f64) {
-    if elapsed <= 0.0 {
-        return;
-    }
-    for boundary in &mut state.boundaries {
-        boundary.mean_force = boundary.impulse.map(|impulse| impulse / elapsed);
-        boundary.mean_moment = boundary.angular_impulse.map(|impulse| impulse / elapsed);
     }
 }
 
@@ -85,208 +41,25 @@ pub(crate) struct Progress {
 
 impl Progress {
     /// Length of the communication step \[s\].
-    fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.count as f64 * self.step
     }
 
+    /// Whether the present time step is the last one.
+    pub(crate) fn is_last(&self) -> bool {
+        self.done == self.count
+    }
+
     /// Which share of its way a driven axis has gone at the end of the present time step.
-    fn share(&self, course: InputCourse) -> f64 {
-        course_at(course, self.done as f64 / self.count as f64)
+    pub(crate) fn share(&self, course: InputCourse) -> f64 {
+        course.at(self.done as f64 / self.count as f64)
     }
 
     /// Which share it had gone before.
-    fn share_before(&self, course: InputCourse) -> f64 {
+    pub(crate) fn share_before(&self, course: InputCourse) -> f64 {
         match self.done {
             0 | 1 => 0.0,
-            done => course_at(course, (done - 1) as f64 / self.count as f64),
-        }
-    }
-}
-
-/// Which share of its way a driven axis has gone after a share of the time.
-fn course_at(course: InputCourse, share: f64) -> f64 {
-    match course {
-        InputCourse::Ramp => share,
-        InputCourse::Smooth => share * share * (3.0 - 2.0 * share),
-        InputCourse::Hold => 1.0,
-    }
-}
-
-/// The way of a boundary in a time step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Way {
-    /// Along the axes that the outside or the scene moves, then about them \[m, rad\].
-    led: [f64; 6],
-    /// No particle of it went further \[m\]; 0 where it carries none.
-    pub carried: f64,
-}
-
-/// Moves every boundary to where it stands at the end of the present time step.
-pub(crate) fn advance(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State, progress: Progress) -> Vec<Way> {
-    let mut ways = Vec::with_capacity(state.boundaries.len());
-    for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&mut state.boundaries) {
-        let before = moved.displacement;
-        let mut way = Way::default();
-        if let Some(body) = body {
-            body.kick(moved, progress.step);
-        }
-        for axis in 0..3 {
-            match boundary.axes[axis] {
-                AxisMotion::Fixed => {}
-                AxisMotion::Prescribed(velocity) => {
-                    moved.displacement[axis] = velocity * progress.time;
-                    moved.velocity[axis] = velocity;
-                }
-                AxisMotion::Driven => drive(moved, axis, boundary.input, progress),
-                AxisMotion::Free => {
-                    moved.displacement[axis] += progress.step * moved.velocity[axis];
-                    continue;
-                }
-            }
-            way.led[axis] = moved.displacement[axis] - before[axis];
-        }
-        let shift = Vector::from(moved.displacement) - before.into();
-        if let Some(body) = body {
-            let turned = turn(boundary, body, moved, progress);
-            if !body.spins() {
-                way.led[3..].copy_from_slice(&turned.to_array());
-            }
-            way.carried = shift.length() + turned.length() * body.farthest;
-        } else if matches!(boundary.shape, Shape::Particles { .. }) {
-            way.carried = shift.length();
-        }
-        ways.push(way);
-    }
-    ways
-}
-
-/// Moves a driven axis.
-fn drive(moved: &mut BoundaryState, axis: usize, course: InputCourse, progress: Progress) {
-    let (start, target) = (moved.start[axis], moved.target[axis]);
-    let before = moved.displacement[axis];
-    moved.displacement[axis] =
-        if progress.done == progress.count { target } else { start + (target - start) * progress.share(course) };
-    moved.velocity[axis] = match course {
-        InputCourse::Ramp => (target - start) / progress.length(),
-        InputCourse::Smooth => (moved.displacement[axis] - before) / progress.step,
-        InputCourse::Hold => 0.0,
-    };
-}
-
-/// Turns a group. Returns the rotation vector of the time step \[rad\].
-fn turn(boundary: &Boundary, body: &RigidBody, moved: &mut BoundaryState, progress: Progress) -> Vector {
-    match body.turning {
-        Turning::Still => Vector::zero(),
-        Turning::About(_) | Turning::Freely => body.drift(moved, progress.step),
-        Turning::Led => match prescribed_spin(boundary) {
-            Some(spin) => {
-                moved.angular_velocity = spin;
-                let rotation = Vector::from(spin) * progress.time;
-                moved.rotation = rotation.to_array();
-                moved.attitude = Attitude::from(rotation::attitude(rotation));
-                Vector::from(spin) * progress.step
-            }
-            None => drive_turn(moved, boundary.input, progress),
-        },
-    }
-}
-
-/// The constant angular velocity of a boundary that the scene turns \[rad/s\].
-fn prescribed_spin(boundary: &Boundary) -> Option<[f64; 3]> {
-    let spin = [3, 4, 5].map(|axis| match boundary.axes[axis] {
-        AxisMotion::Prescribed(spin) => Some(spin),
-        AxisMotion::Fixed | AxisMotion::Driven | AxisMotion::Free => None,
-    });
-    spin.iter().any(Option::is_some).then(|| spin.map(Option::unwrap_or_default))
-}
-
-/// Turns a boundary on its way through the communication step, at constant direction of its angular velocity.
-fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress) -> Vector {
-    let whole = Vector::from(moved.turn);
-    let (before, share) = (progress.share_before(course), progress.share(course));
-    if progress.done == progress.count {
-        let [.., a, b, c] = moved.target;
-        moved.rotation = [a, b, c];
-        moved.attitude = Attitude::from(rotation::attitude(moved.rotation.into()));
-    } else {
-        let on_the_way = rotation::attitude(whole * share) * Quaternion::from(moved.start_attitude);
-        moved.rotation = rotation::vector_near(on_the_way, moved.rotation.into()).to_array();
-        moved.attitude = Attitude::from(on_the_way);
-    }
-    let turned = whole * (share - before);
-    moved.angular_velocity = match course {
-        InputCourse::Ramp => whole * (1.0 / progress.length()),
-        InputCourse::Smooth => turned * (1.0 / progress.step),
-        InputCourse::Hold => Vector::zero(),
-    }
-    .to_array();
-    turned
-}
-
-/// Puts driven axes where they are to start: axis (0 to 5) and value \[m, rad\].
-pub(crate) fn put(moved: &mut BoundaryState, axis: usize, value: f64) {
-    moved.target[axis] = value;
-    match axis {
-        0..3 => moved.displacement[axis] = value,
-        _ => {
-            moved.rotation[axis - 3] = value;
-            moved.attitude = Attitude::from(rotation::attitude(moved.rotation.into()));
-        }
-    }
-}
-
-/// Puts prescribed axes where they are at this time \[s\].
-pub(crate) fn put_prescribed(scene: &Scene, state: &mut State, time: f64) {
-    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
-        for (axis, motion) in boundary.axes.iter().enumerate() {
-            if let AxisMotion::Prescribed(velocity) = motion {
-                put(moved, axis, velocity * time);
-            }
-        }
-    }
-}
-
-/// Sets the loads of all boundaries to zero. Returns what they were: force and moment of each.
-pub(crate) fn clear_loads(state: &mut State) -> Vec<[[f64; 3]; 2]> {
-    let before = state.boundaries.iter().map(|boundary| [boundary.force, boundary.moment]).collect();
-    for boundary in &mut state.boundaries {
-        boundary.force = [0.0; 3];
-        boundary.moment = [0.0; 3];
-    }
-    before
-}
-
-/// Sums the loads of the particles in groups, as the passes left them, onto their boundary.
-pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
-    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
-        let Shape::Particles { members } = &boundary.shape else { continue };
-        let (mut force, mut moment) = (Vector::zero(), Vector::zero());
-        for &member in members {
-            let slot = state.particles.slot[member as usize] as usize;
-            let load = Vector::from(state.particles.force[slot]);
-            let arm = Vector::from(state.particles.position[slot]) - moved.pivot.into();
-            force += load;
-            moment += arm.cross(load) + Vector::from(state.particles.torque[slot]);
-        }
-        moved.force = force.to_array();
-        moved.moment = moment.to_array();
-    }
-}
-
-/// Books impulse and work of a time step: the kicks of both its halves, times the way. Free axes do no work, and what
-/// crosses them stays inside.
-pub(crate) fn book(scene: &Scene, state: &mut State, before: &[[[f64; 3]; 2]], ways: &[Way], step: f64) {
-    let moves = before.iter().zip(ways).zip(&scene.boundaries);
-    for (moved, (([force, moment], way), boundary)) in state.boundaries.iter_mut().zip(moves) {
-        for axis in 0..3 {
-            let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
-            moved.impulse[axis] += impulse;
-            if boundary.axes[axis] != AxisMotion::Free {
-                moved.total_impulse[axis] += impulse;
-            }
-            moved.angular_impulse[axis] += 0.5 * step * (moment[axis] + moved.moment[axis]);
-            moved.work -= 0.5 * (force[axis] + moved.force[axis]) * way.led[axis];
-            moved.work -= 0.5 * (moment[axis] + moved.moment[axis]) * way.led[3 + axis];
+            done => course.at((done - 1) as f64 / self.count as f64),
         }
     }
 }

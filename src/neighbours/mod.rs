@@ -14,10 +14,14 @@ mod pairs;
 mod planes;
 mod sizes;
 mod skin;
+mod surfaces;
 
 use crate::contact::{HistoryRow, Law};
-use crate::scene::{Scene, Shape};
+use crate::geometry::{Frame, Quaternion, rotation};
+use crate::number::Vector;
+use crate::scene::{Boundary, Scene, Shape};
 use crate::state::{Particles, State};
+use crate::surface;
 use crate::threads::{CHUNK, Context};
 use grid::Grid;
 use lists::Making;
@@ -36,6 +40,8 @@ pub(crate) struct Search {
     histories: Vec<Vec<HistoryRow>>,
     /// Planes of the scene.
     planes: Vec<Plane>,
+    /// Its boundaries: shape, point of reference, and whether they turn.
+    boundaries: Vec<(Shape, Vector, bool)>,
     /// Levels of radii.
     sizes: Sizes,
     /// Radius of the smallest particle \[m\].
@@ -68,15 +74,14 @@ impl Search {
         let here = present(scene);
         let meet = |a: usize, b: usize| here[a] && here[b] && laws.between(a as u32, b as u32).is_some();
         let count = scene.materials.len();
-        let planes = scene.boundaries.iter().enumerate().filter_map(|(index, boundary)| match &boundary.shape {
-            Shape::Plane { material, point, normal } => {
-                Some(Plane { boundary: index as u32, material: material.0, point: *point, normal: *normal })
-            }
-            Shape::Particles { .. } => None,
+        let planes = scene.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
+            let surface::Plane { material, point, normal } = boundary.shape.plane()?;
+            Some(Plane { boundary: index as u32, material: material.0, point, normal })
         });
         Self {
             histories: scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect(),
             planes: planes.collect(),
+            boundaries: scene.boundaries.iter().map(boundary).collect(),
             sizes: Sizes::of(radii()),
             smallest: radii().fold(f64::INFINITY, f64::min),
             skin: scene.run.skin,
@@ -102,11 +107,7 @@ impl Search {
         if !self.touching {
             return false;
         }
-        let walls = self.planes.iter().map(|plane| {
-            let now = state.boundaries[plane.boundary as usize].displacement;
-            let then = state.neighbours.boundary_reference[plane.boundary as usize];
-            way(&now, &then)
-        });
+        let walls = (0..self.boundaries.len()).map(|boundary| self.way_of(state, boundary));
         let wall = walls.fold(0.0, f64::max);
         let skin = state.neighbours.skin;
         let used = |travel: f64| travel + wall.max(travel);
@@ -143,11 +144,15 @@ impl Search {
             self.list_pairs(state, &grid, skin, context);
         }
         for index in 0..state.walls.len() {
-            self.list_near_plane(state, index, context);
+            self.list_near_surface(state, index, context);
         }
         state.neighbours.slabs.clone_from(&self.order.slabs);
         state.neighbours.boundary_reference.clear();
         state.neighbours.boundary_reference.extend(state.boundaries.iter().map(|boundary| boundary.displacement));
+        state.neighbours.boundary_orientation.clear();
+        state.neighbours.boundary_orientation.extend(state.boundaries.iter().map(|boundary| boundary.attitude.0));
+        let extents = (0..self.boundaries.len()).map(|boundary| self.extent(state, boundary)).collect();
+        state.neighbours.boundary_extent = extents;
         state.neighbours.travel = 0.0;
         state.neighbours.made_at = state.clock.steps;
         state.clock.rebuilds += 1;
@@ -170,9 +175,41 @@ impl Search {
         }
     }
 
-    /// Makes the list of one plane and law.
-    fn list_near_plane(&mut self, state: &mut State, index: usize, context: &Context) {
+    /// How far a surface has moved since the lists were made, where it meets particles \[m\].
+    fn way_of(&self, state: &State, boundary: usize) -> f64 {
+        let (shape, _, turns) = &self.boundaries[boundary];
+        if shape.material().is_none() {
+            return 0.0;
+        }
+        let (moved, then) = (&state.boundaries[boundary], &state.neighbours);
+        let shift = way(&moved.displacement, &then.boundary_reference[boundary]);
+        if !turns {
+            return shift;
+        }
+        let [from, to] = [then.boundary_orientation[boundary], moved.attitude.0].map(Quaternion::from_row);
+        shift + rotation::between(from, to).length() * then.boundary_extent[boundary]
+    }
+
+    /// How far from its point of reference a surface that turns meets particles \[m\].
+    fn extent(&self, state: &State, boundary: usize) -> f64 {
+        let (shape, reference, turns) = &self.boundaries[boundary];
+        let Some(features) = shape.features().filter(|_| *turns) else { return 0.0 };
+        let pivot = *reference + state.boundaries[boundary].displacement.into();
+        let particles = surfaces::farthest_from(&state.particles, pivot) + 2.0 * state.neighbours.skin;
+        features.extent(*reference).min(particles)
+    }
+
+    /// Makes the list of one surface and law.
+    fn list_near_surface(&mut self, state: &mut State, index: usize, context: &Context) {
         let list = &mut state.walls[index];
+        let (shape, reference, _) = &self.boundaries[list.boundary as usize];
+        if let (Some(features), Some(material)) = (shape.features(), shape.material()) {
+            let (boundary, skin) = (list.boundary, state.neighbours.skin);
+            let moved = &state.boundaries[boundary as usize];
+            let frame = Frame::of(*reference, moved.displacement.into(), moved.attitude.0);
+            let near = surfaces::Near { boundary, material: material.0, features, frame, skin };
+            return surfaces::replace(list, &near, (&state.particles, &self.laws), (&self.order, context));
+        }
         let Some(plane) = self.planes.iter().find(|plane| plane.boundary == list.boundary) else { return };
         let moved = state.boundaries[list.boundary as usize].displacement;
         let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
@@ -184,13 +221,19 @@ impl Search {
     }
 }
 
+/// Shape of a boundary, its point of reference, and whether it turns.
+fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
+    let turns = boundary.axes[3..].iter().any(|motion| !motion.is_fixed());
+    (boundary.shape.clone(), boundary.reference.into(), turns)
+}
+
 /// Which pairs of the scene have a law.
 fn laws(scene: &Scene) -> Laws {
     let materials = scene.materials.len();
     let of: Vec<Option<u32>> = (0..materials * materials)
         .map(|entry| scene.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32))
         .collect();
-    let groups = scene.boundaries.iter().any(|boundary| matches!(boundary.shape, Shape::Particles { .. }));
+    let groups = scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = present(scene);
     let mut met =
         (0..of.len()).filter(|entry| here[entry / materials] && here[entry % materials]).map(|entry| of[entry]);

@@ -3,7 +3,7 @@
 use super::error::Refusal;
 use super::remarks::remarks;
 use super::schedule::Schedule;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Shape, Step};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
 use crate::step::Simulation;
 use std::fmt;
 use std::sync::Arc;
@@ -107,22 +107,13 @@ fn contact_law(law: &ContactLaw) -> String {
 
 /// A boundary in one line.
 fn boundary(boundary: &Boundary) -> String {
-    let shape = match &boundary.shape {
-        Shape::Plane { .. } => "plane".to_owned(),
-        Shape::Particles { members } => format!("group of {} particles", members.len()),
-    };
     let axes: Vec<_> = (AxisMotion::WORDS.iter().zip(&boundary.axes).zip(0..))
-        .filter_map(|((axis, motion), index)| match motion {
-            AxisMotion::Fixed => None,
-            AxisMotion::Driven => Some(format!("{axis} driven")),
-            AxisMotion::Prescribed(velocity) => {
-                Some(format!("{axis} at {velocity} {}", if index < 3 { "m/s" } else { "rad/s" }))
-            }
-            AxisMotion::Free => Some(format!("{axis} free")),
+        .filter_map(|((axis, motion), index)| {
+            Some(format!("{axis} {}", motion.words(if index < 3 { "m/s" } else { "rad/s" })?))
         })
         .collect();
     let motion = if axes.is_empty() { "fixed".to_owned() } else { axes.join(", ") };
-    format!("boundary {}: {shape}, {motion}", boundary.name)
+    format!("boundary {}: {}, {motion}", boundary.name, boundary.shape.words())
 }
 
 /// The time step, the stable one and what limits it.

@@ -1,6 +1,6 @@
 //! The momentum balance of the particles and groups that move freely.
 
-use crate::scene::{AxisMotion, Scene};
+use crate::scene::Scene;
 use crate::state::State;
 use crate::step::Simulation;
 use serde::Serialize;
@@ -96,7 +96,7 @@ fn account(scene: &Scene, state: &State) -> Account {
 fn free_axes(scene: &Scene, owner: u32) -> [bool; 3] {
     match (owner as usize).checked_sub(1) {
         None => [true; 3],
-        Some(group) => [0, 1, 2].map(|axis| scene.boundaries[group].axes[axis] == AxisMotion::Free),
+        Some(group) => [0, 1, 2].map(|axis| scene.boundaries[group].axes[axis].is_free()),
     }
 }
 

@@ -117,7 +117,7 @@ fn come_to_rest(
 /// Unbalanced force over the mean force of the contacts or bonds; 0 where nothing moves by the forces on it.
 fn unbalanced_force(simulation: &Simulation) -> f64 {
     let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
-    let free = |boundary: &Boundary| boundary.axes.contains(&AxisMotion::Free);
+    let free = |boundary: &Boundary| boundary.axes.iter().any(AxisMotion::is_free);
     let nothing_moves = held && !simulation.scene().boundaries.iter().any(free);
     if nothing_moves { 0.0 } else { simulation.unbalanced_force() }
 }
@@ -126,7 +126,7 @@ fn unbalanced_force(simulation: &Simulation) -> f64 {
 fn standing_still(scene: &Scene) -> Arc<Scene> {
     let mut still = scene.clone();
     for boundary in &mut still.boundaries {
-        for axis in boundary.axes.iter_mut().filter(|axis| **axis != AxisMotion::Free) {
+        for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
             *axis = AxisMotion::Fixed;
         }
     }

@@ -85,6 +85,12 @@ impl<'a> Document<'a> {
         self.find(path)?.get_ref().as_str()
     }
 
+    /// The texts of the list at the path.
+    pub(super) fn texts(&self, path: &str) -> Vec<&str> {
+        let list = self.find(path).and_then(|value| value.get_ref().as_array());
+        list.into_iter().flat_map(|list| list.iter()).filter_map(|value| value.get_ref().as_str()).collect()
+    }
+
     /// The value at the path, as the scene has it.
     pub(super) fn written(&self, path: &str) -> &str {
         self.find(path).and_then(|value| self.text.get(value.span())).unwrap_or_default()

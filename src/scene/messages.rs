@@ -4,7 +4,7 @@ use super::mistake::Mistake;
 use toml::de::Error;
 
 /// What people look for under these names and this program does not have.
-const ABSENT: [(&[&str], &str, &str); 7] = [
+const ABSENT: [(&[&str], &str, &str); 6] = [
     (
         &["periodic", "periodicity", "periodic_cell", "cell"],
         "periodic cells",
@@ -16,9 +16,8 @@ const ABSENT: [(&[&str], &str, &str); 7] = [
         "non-spherical bodies",
         "spheres are",
     ),
-    (&["cylinder", "mesh", "nodes"], "boundaries of this shape", "plane and particles are"),
+    (&["nodes"], "deforming meshes", "rigid ones are"),
     (&["servo", "loaded"], "boundaries that follow a given force", "fixed, driven, prescribed and free axes are"),
-    (&["rotation", "angular_velocities"], "rotating boundaries", "driven and prescribed translations are"),
     (&["region", "regions"], "averaging regions", "outputs of boundaries are"),
 ];
 

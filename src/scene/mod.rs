@@ -17,6 +17,8 @@ mod overlaps;
 mod setting;
 mod source;
 
+pub use crate::motion::{AxisMotion, InputCourse};
+pub use crate::surface::Shape;
 pub use error::{SceneError, SceneErrors};
 pub use generate::PackingProgress;
 pub use mistake::Mistake;
@@ -29,7 +31,6 @@ use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
 use crate::contact::{LawChoice, Material, PairProperties, Switches};
 use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
-use serde::Deserialize;
 
 /// A scene that can be run: everything the file says, checked, in SI units.
 ///
@@ -208,56 +209,6 @@ pub struct Boundary {
     pub input: InputCourse,
     /// The point about which its moment is taken, at time 0 \[m\].
     pub reference: [f64; 3],
-}
-
-/// The shape of a boundary.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// An infinite plane, one-sided: particles live where its normal points.
-    Plane {
-        /// What it is made of.
-        material: MaterialIndex,
-        /// A point on it at time 0 \[m\].
-        point: [f64; 3],
-        /// Unit normal towards the particles.
-        normal: [f64; 3],
-    },
-    /// A group of particles that moves as one rigid body.
-    Particles {
-        /// Indices into [`Scene::particles`], ascending.
-        members: Vec<u32>,
-    },
-}
-
-/// What an axis of a boundary does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AxisMotion {
-    /// Stays.
-    Fixed,
-    /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
-    Driven,
-    /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
-    Prescribed(f64),
-    /// Moves by the forces on it.
-    Free,
-}
-
-impl AxisMotion {
-    /// The axes of a boundary in their order, as scenes and variables name them.
-    pub const WORDS: [&str; 6] = ["x", "y", "z", "rotation.x", "rotation.y", "rotation.z"];
-}
-
-/// How a driven axis moves inside a communication step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum InputCourse {
-    /// At constant velocity, arriving at the end of the step.
-    #[default]
-    Ramp,
-    /// A cubic in time with the velocity continuous.
-    Smooth,
-    /// At once, in the first time step of the communication step.
-    Hold,
 }
 
 /// `[damping.<name>]`: Cundall's damping of the unbalanced force.

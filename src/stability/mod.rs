@@ -6,8 +6,8 @@
 //! eigenvalue of its own 6 × 6 block. It is safe, and at most √2 below the true limit where only springs act.
 //! A group that forces move is one such particle, with its own mass and inertia and the arms of its spheres.
 
+use crate::boundaries::RigidBody;
 use crate::interactions::{Link, Pass};
-use crate::motion::RigidBody;
 use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::{Particles, State};

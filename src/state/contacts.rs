@@ -14,6 +14,12 @@ pub struct Neighbours {
     pub reference: Columns,
     /// Offset of each boundary when the lists were made \[m\].
     pub boundary_reference: Vec<[f64; 3]>,
+    /// Its orientation then.
+    #[serde(with = "plain")]
+    pub boundary_orientation: Vec<Row>,
+    /// How far from its point of reference a surface that can turn meets particles \[m\].
+    #[serde(with = "plain")]
+    pub boundary_extent: Vec<f64>,
     /// First particle of each slab, and behind the last one the number of particles. Pairs reach no
     /// further than the next slab, so slabs of one parity can be worked on side by side.
     #[serde(with = "plain")]
@@ -69,6 +75,9 @@ pub const TOUCHING: u8 = 1;
 /// The tangential spring was at its limit in the last evaluation.
 pub const SLIDING: u8 = 2;
 
+/// The centre was behind the face in the last evaluation.
+pub const REVERSE: u8 = 32;
+
 /// Particles near one plane, for one contact law.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WallContacts {
@@ -88,6 +97,25 @@ pub struct WallContacts {
     /// What the normal model keeps of each; empty where it keeps nothing.
     #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
+    /// At a surface of features, whose contacts the lists above hold: the feature of each; elsewhere empty.
+    #[serde(with = "plain")]
+    pub feature: Vec<u32>,
+    /// What is near a surface of features.
+    pub near: NearParts,
+}
+
+/// Particles near a surface of features, and which of its parts are near each.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NearParts {
+    /// The particles (slots), ascending.
+    #[serde(with = "plain")]
+    pub particle: Vec<u32>,
+    /// First part of each, and behind the last one the number of parts.
+    #[serde(with = "plain")]
+    pub starts: Vec<u32>,
+    /// The parts.
+    #[serde(with = "plain")]
+    pub parts: Vec<u32>,
 }
 
 impl ContactList {

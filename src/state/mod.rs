@@ -16,7 +16,7 @@ pub mod snapshot;
 pub use bonds::{BondList, Break};
 pub use boundaries::{Attitude, BoundaryState};
 pub use clock::Clock;
-pub use contacts::{Columns, ContactList, Neighbours, WallContacts};
+pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use hidden::{Hidden, HiddenContact};
 pub use ledger::Ledger;
 pub use particles::Particles;

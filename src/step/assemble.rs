@@ -1,20 +1,23 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
 use crate::bond::{BondLaw, keys};
+use crate::boundaries::RigidBody;
+use crate::boundaries::rigid_body::sphere_inertia;
+use crate::contact::Law;
 use crate::interactions::Pass;
 use crate::interactions::bonds::BondPass;
 use crate::interactions::contacts::ContactPass;
+use crate::interactions::surfaces::SurfacePass;
 use crate::interactions::wall_bonds::WallBondPass;
 use crate::interactions::walls::{Plane, WallPass};
 use crate::interactions::{BatchLaw, CoefficientTable};
-use crate::motion::RigidBody;
-use crate::motion::rigid_body::sphere_inertia;
 use crate::neighbours;
 use crate::number::Vector;
-use crate::scene::{AxisMotion, Boundary, Scene, Shape};
+use crate::scene::{Boundary, Scene};
 use crate::state::{
     BondList, BoundaryState, Clock, ContactList, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
 };
+use crate::surface;
 
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
@@ -64,10 +67,8 @@ fn particles(scene: &Scene) -> Particles {
     particles.torque = vec![[0.0; 4]; count];
     particles.owner = vec![0; count];
     for (index, boundary) in scene.boundaries.iter().enumerate() {
-        if let Shape::Particles { members } = &boundary.shape {
-            for &member in members {
-                particles.owner[member as usize] = index as u32 + 1;
-            }
+        for &member in boundary.shape.members() {
+            particles.owner[member as usize] = index as u32 + 1;
         }
     }
     particles
@@ -75,10 +76,7 @@ fn particles(scene: &Scene) -> Particles {
 
 /// A boundary at time 0.
 fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
-    let prescribed = boundary.axes.map(|axis| match axis {
-        AxisMotion::Prescribed(velocity) => velocity,
-        AxisMotion::Fixed | AxisMotion::Driven | AxisMotion::Free => 0.0,
-    });
+    let prescribed = boundary.axes.map(|axis| axis.at(0.0).map_or(0.0, |[_, velocity]| velocity));
     let [x, y, z, about_x, about_y, about_z] = prescribed;
     let mut moved = BoundaryState {
         velocity: [x, y, z],
@@ -97,7 +95,7 @@ fn meetings(scene: &Scene) -> Vec<(u32, u32)> {
     let mut meetings = Vec::new();
     let count = scene.materials.len();
     for (index, boundary) in scene.boundaries.iter().enumerate() {
-        let Shape::Plane { material, .. } = &boundary.shape else { continue };
+        let Some(material) = boundary.shape.material() else { continue };
         for (number, law) in scene.contacts.iter().enumerate() {
             let meets = |other: usize| law.between[other * count + material.index()];
             if scene.particles.iter().any(|particle| meets(particle.material.index())) {
@@ -124,7 +122,7 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
         passes.extend(bond.keys.visit(Bonded { scene, index }));
     }
     for (list, meeting) in meetings(scene).into_iter().enumerate() {
-        passes.push(Box::new(at_plane(scene, list, meeting)));
+        passes.push(at_surface(scene, list, meeting));
     }
     passes
 }
@@ -154,19 +152,20 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
     ContactPass { index, table, law: BatchLaw::of(&law.choice()) }
 }
 
-/// The pass of a law at a plane; `list` is its place among those of the state.
-fn at_plane(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> WallPass {
+/// The pass of a law at a surface; `list` is its place among those of the state.
+fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dyn Pass> {
     let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
-    let Shape::Plane { material, point, normal } = &boundary.shape else {
-        unreachable!("only planes meet particles in lists of their own")
+    let table = CoefficientTable::of(&law.choice(), scene, &law.between);
+    let Some(surface::Plane { material, point, normal }) = boundary.shape.plane() else {
+        return Box::new(SurfacePass::of(boundary, list, table, Law::of(&law.choice())));
     };
-    WallPass {
+    Box::new(WallPass {
         index: list,
         name: boundary.name.clone(),
-        plane: Plane { point: (*point).into(), normal: (*normal).into(), velocity: Vector::zero() },
+        plane: Plane { point: point.into(), normal: normal.into(), velocity: Vector::zero() },
         material: material.0,
         reference: boundary.reference.into(),
-        table: CoefficientTable::of(&law.choice(), scene, &law.between),
+        table,
         law: BatchLaw::of(&law.choice()),
-    }
+    })
 }

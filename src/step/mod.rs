@@ -12,11 +12,12 @@ pub use crate::stability::Limit;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 
 use crate::bond::creation::Moment;
+use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
 use crate::interactions::{Pass, suppression, walls};
 use crate::lanes::Width;
-use crate::motion::{Progress, RigidBody, course, rigid_body};
+use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::{Scene, Step};
 use crate::state::State;

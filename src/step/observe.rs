@@ -5,10 +5,10 @@ use crate::bond::Carried;
 use crate::books;
 use crate::interactions::{BondRecord, ContactRecord};
 use crate::number::Vector;
-use crate::scene::Shape;
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{Row, State};
+use crate::surface;
 use crate::threads::Context;
 
 impl Simulation {
@@ -66,7 +66,9 @@ impl Simulation {
         }
         for (place, list) in walls.iter().enumerate() {
             let boundary = list.boundary as usize;
-            let Shape::Plane { point, normal, .. } = self.scene.boundaries[boundary].shape else { continue };
+            let Some(surface::Plane { point, normal, .. }) = self.scene.boundaries[boundary].shape.plane() else {
+                continue;
+            };
             let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);
             let apart = hidden.planes.get(place).into_iter().flatten();
             let apart = apart.filter(|entry| entry.flags & TOUCHING != 0).map(|entry| slot(entry.first));
@@ -76,7 +78,7 @@ impl Simulation {
                 largest = largest.max((particle[3] - distance) / particle[3]);
             }
         }
-        largest
+        self.passes.iter().fold(largest, |most, pass| most.max(pass.largest_overlap(&self.state)))
     }
 
     /// Elastic energy of contacts and bonds \[J\]: of contacts that of normal force and tangential spring, not the

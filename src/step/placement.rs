@@ -2,11 +2,11 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
+use crate::boundaries::course;
 use crate::contact::Law;
 use crate::interactions::{PlacedSpring, suppression};
-use crate::motion::course;
 use crate::number::Vector;
-use crate::scene::{Scene, Shape, Step};
+use crate::scene::{Scene, Step};
 use crate::state::contacts::TOUCHING;
 use crate::state::{Row, State};
 use std::sync::Arc;
@@ -56,7 +56,7 @@ impl Simulation {
     /// What the placement does not name stays as at time 0; what is not in the scene is passed over. A scene with planes
     /// is refused: their springs and bonds would be lost.
     pub fn placed(scene: Arc<Scene>, placement: &Placement) -> Result<Self, RunError> {
-        if let Some(plane) = scene.boundaries.iter().find(|boundary| matches!(boundary.shape, Shape::Plane { .. })) {
+        if let Some(plane) = scene.boundaries.iter().find(|boundary| boundary.shape.material().is_some()) {
             return Err(RunError::PutAtPlane { boundary: plane.name.clone() });
         }
         let mut state = assemble::state(&scene);

@@ -29,7 +29,7 @@ impl Simulation {
 
 /// Leaves the free axes of a boundary where they have come to, and as fast as they are.
 fn stay(axes: &[AxisMotion; 6], begun: &mut BoundaryState, ended: &BoundaryState) {
-    let is_free = |axis: usize| axes[axis] == AxisMotion::Free;
+    let is_free = |axis: usize| axes[axis].is_free();
     for axis in (0..3).filter(|&axis| is_free(axis)) {
         begun.displacement[axis] = ended.displacement[axis];
         begun.velocity[axis] = ended.velocity[axis];

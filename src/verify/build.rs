@@ -1,7 +1,7 @@
 //! From a case to a scene: names are translated and values checked, nothing is computed.
 
 use super::bond;
-use super::case::{Case, GlobalDamping, Scale, Wall};
+use super::case::{Axis, Case, GlobalDamping, Scale, Wall, WallMotion};
 use super::error::Mistake;
 use super::law;
 use crate::bond::keys::FormulationChoice;
@@ -10,10 +10,12 @@ use crate::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex
 use crate::scene::{
     AppliedForce, AxisMotion, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
 };
+use crate::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// The scene that a case describes, its bonds in this formulation.
-pub(super) fn scene(case: &Case, formulation: FormulationChoice) -> Result<Scene, Mistake> {
+pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) -> Result<Scene, Mistake> {
     if case.steps == 0 || case.sample_every == 0 {
         return Err(Mistake::new("steps, sample_every", "0 found; numbers above 0 are right"));
     }
@@ -44,7 +46,7 @@ pub(super) fn scene(case: &Case, formulation: FormulationChoice) -> Result<Scene
         materials,
         pairs,
         contacts: vec![contact],
-        boundaries: boundaries(case, &index_of)?,
+        boundaries: boundaries(case, folder, &index_of)?,
         bonds: bond::laws(case, formulation)?,
         sets: (0..case.materials.len()).map(bond::set_name).collect(),
         damping: damping(case, &particles)?,
@@ -103,10 +105,14 @@ fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
 }
 
 /// Planes, then groups of particles with a motion of their own.
-fn boundaries(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary>, Mistake> {
+fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary>, Mistake> {
     let mut all = Vec::new();
+    let joined: Vec<&String> = case.walls.iter().flat_map(|wall| &wall.joined_with).collect();
     for (index, wall) in case.walls.iter().enumerate() {
-        all.push(plane(case, index, wall)?);
+        // What is joined to another wall is a part of that one.
+        if !wall.file.as_ref().is_some_and(|file| joined.contains(&file)) {
+            all.push(boundary(case, folder, index, wall)?);
+        }
     }
     for (index, motion) in case.prescribed_motion.iter().enumerate() {
         let place = format!("prescribed_motion[{index}]");
@@ -118,7 +124,7 @@ fn boundaries(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary
         let first = members.first().map_or(0, |member| *member as usize);
         all.push(Boundary {
             name: format!("motion{index}"),
-            shape: Shape::Particles { members },
+            shape: Shape::of(Group { members }),
             axes: [0, 1, 2, 3, 4, 5].map(|axis| match velocity.get(axis) {
                 Some(&speed) if speed != 0.0 => AxisMotion::Prescribed(speed),
                 _ => AxisMotion::Fixed,
@@ -130,19 +136,59 @@ fn boundaries(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<Boundary
     Ok(all)
 }
 
+/// One wall.
+fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
+    let place = |key: &str| format!("walls[{index}].{key}");
+    let missing = |key: &str| Mistake::new(place(key), format!("absent; a {} needs one", wall.kind));
+    let of = material(place("type"), wall.material, case)?;
+    let shape = match wall.kind.as_str() {
+        "plane" => return plane(case, index, wall),
+        "mesh" => {
+            let file = wall.file.as_ref().ok_or_else(|| missing("file"))?;
+            let read = |name: &String| {
+                std::fs::read(folder.join(name))
+                    .map_err(|cause| Mistake::new(place("file"), format!("{name}: {cause}")))
+            };
+            let files = std::iter::once(file).chain(&wall.joined_with).map(read).collect::<Result<Vec<_>, _>>()?;
+            mesh::of_files(of, &files, Some(2)).map_err(|wrong| Mistake::new(place("file"), wrong))?
+        }
+        "cylinder" => {
+            let radius = positive(place("radius"), wall.radius.ok_or_else(|| missing("radius"))?)?.get();
+            let point = wall.point.ok_or_else(|| missing("point"))?;
+            let Some(Axis::Direction(axis)) = wall.axis else { return Err(missing("axis")) };
+            cylinder::infinite(of, point, axis, radius).ok_or_else(|| missing("axis"))?
+        }
+        other => {
+            return Err(Mistake::new(place("kind"), format!("\"{other}\" found; plane, mesh or cylinder is right")));
+        }
+    };
+    let (mut axes, mut reference) = ([AxisMotion::Fixed; 6], [0.0; 3]);
+    let moves = |speed: f64| if speed == 0.0 { AxisMotion::Fixed } else { AxisMotion::Prescribed(speed) };
+    match &wall.motion {
+        None => {}
+        Some(WallMotion::Linear { velocity }) => (0..3).for_each(|axis| axes[axis] = moves(velocity[axis])),
+        Some(WallMotion::Rotate { point, axis, period }) => {
+            let spin = std::f64::consts::TAU / positive(place("motion.period"), *period)?.get();
+            (0..3).for_each(|about| axes[3 + about] = moves(spin * axis[about]));
+            reference = *point;
+        }
+    }
+    Ok(Boundary { name: format!("wall{index}"), shape, axes, input: InputCourse::Ramp, reference })
+}
+
 /// One plane.
 fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
     let place = |key: &str| format!("walls[{index}].{key}");
-    if wall.kind != "plane" {
-        return Err(Mistake::new(place("kind"), format!("\"{}\" found; plane is right", wall.kind)));
-    }
     let normal = finite(place("normal"), wall.normal)?;
     let length = normal.iter().map(|component| component * component).sum::<f64>().sqrt();
     if length == 0.0 || !length.is_finite() {
         return Err(Mistake::new(place("normal"), format!("{normal:?} found; a vector with a direction is right")));
     }
-    let on_axis = |axis: &str| ["x", "y", "z"].iter().position(|name| *name == axis);
-    let point = match (wall.point, wall.axis.as_deref().and_then(on_axis), wall.position) {
+    let on_axis = match &wall.axis {
+        Some(Axis::Name(axis)) => ["x", "y", "z"].iter().position(|name| name == axis),
+        _ => None,
+    };
+    let point = match (wall.point, on_axis, wall.position) {
         (Some(point), _, _) => point,
         (None, Some(axis), Some(position)) => {
             let mut point = [0.0; 3];
@@ -154,11 +200,11 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
     let point = finite(place("point"), point)?;
     Ok(Boundary {
         name: format!("wall{index}"),
-        shape: Shape::Plane {
+        shape: Shape::of(Plane {
             material: material(place("type"), wall.material, case)?,
             point,
             normal: normal.map(|component| component / length),
-        },
+        }),
         axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,

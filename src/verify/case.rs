@@ -129,6 +129,36 @@ pub(super) struct Particle {
     pub(super) omega: [f64; 3],
 }
 
+/// An axis: by its name, or a direction along it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Axis {
+    /// `"x"`, `"y"` or `"z"`
+    Name(String),
+    /// Any.
+    Direction([f64; 3]),
+}
+
+/// A motion of a wall.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub(super) enum WallMotion {
+    /// At constant velocity.
+    Linear {
+        /// \[m/s\]
+        velocity: [f64; 3],
+    },
+    /// About an axis, as the right hand does.
+    Rotate {
+        /// A point on it \[m\].
+        point: [f64; 3],
+        /// Its direction.
+        axis: [f64; 3],
+        /// Time of a turn \[s\].
+        period: f64,
+    },
+}
+
 /// A wall.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Wall {
@@ -137,12 +167,22 @@ pub(super) struct Wall {
     pub(super) kind: String,
     /// A point on it \[m\].
     pub(super) point: Option<[f64; 3]>,
-    /// The axis that it stands across, instead of a point.
-    pub(super) axis: Option<String>,
+    /// The axis that a plane stands across, instead of a point; the direction of a cylinder's.
+    pub(super) axis: Option<Axis>,
     /// Where on that axis \[m\].
     pub(super) position: Option<f64>,
-    /// Normal towards the particles.
+    /// Normal of a plane, towards the particles.
+    #[serde(default)]
     pub(super) normal: [f64; 3],
+    /// Radius of a cylinder \[m\].
+    pub(super) radius: Option<f64>,
+    /// File of a mesh, beside the case.
+    pub(super) file: Option<String>,
+    /// Files of other meshes that are one surface with it.
+    #[serde(default)]
+    pub(super) joined_with: Vec<String>,
+    /// How it moves.
+    pub(super) motion: Option<WallMotion>,
     /// Its material, from 1.
     #[serde(rename = "type")]
     pub(super) material: usize,

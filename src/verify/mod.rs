@@ -76,9 +76,10 @@ pub fn find(folders: &[PathBuf]) -> Result<Vec<PathBuf>, VerifyError> {
 pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let name = name_of(folder)?;
     let case = Case::read(&folder.join("case.json"))?;
-    let scene = build::scene(&case, options.formulation).map_err(|mistake| mistake.at(&folder.join("case.json")))?;
+    let scene =
+        build::scene(&case, folder, options.formulation).map_err(|mistake| mistake.at(&folder.join("case.json")))?;
     let scene = Arc::new(scene);
-    let theirs = Samples::read(&folder.join("samples.csv"), &case)?;
+    let theirs = Samples::read(&folder.join(samples_of(folder)), &case)?;
     let history = History::read(&folder.join("bonds.csv"), &case)?;
     let in_windows = !options.free && options.formulation == FormulationChoice::EngineExact && case.walls.is_empty();
     let windows = match (&theirs, &history) {
@@ -102,6 +103,11 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let links = theirs.as_ref().zip(history.as_ref());
     let links = links.map(|(theirs, history)| LinkErrors::between(&case, theirs, history, &run.samples, &measure));
     Ok(Report { name, errors, links, stopped: run.stopped })
+}
+
+/// The file that a case is compared with: where the other engine is wrong, an independent program's.
+fn samples_of(folder: &Path) -> &'static str {
+    if folder.join("samples_rule.csv").is_file() { "samples_rule.csv" } else { "samples.csv" }
 }
 
 /// The name of a case: that of its folder.

@@ -8,6 +8,7 @@ use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{AxisMotion, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
 use cograin::step::Simulation;
+use cograin::surface::Plane;
 use std::sync::Arc;
 
 /// Hertz with a tangential spring.
@@ -72,7 +73,7 @@ pub(crate) fn sphere(radius: f64, density: f64) -> Particle {
 pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundary {
     Boundary {
         name: "plane".into(),
-        shape: Shape::Plane { material: MaterialIndex(material), point, normal },
+        shape: Shape::of(Plane { material: MaterialIndex(material), point, normal }),
         axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,

@@ -11,7 +11,7 @@ use crate::scene::import::REPORTED;
 use crate::scene::mistake::Mistake;
 use crate::scene::overlaps::for_each_overlap;
 use crate::scene::source::Source;
-use crate::scene::{Bond, Particle, Scene, Shape, Step};
+use crate::scene::{Bond, Particle, Scene, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -99,7 +99,7 @@ fn between(
         }
         let boundary = written.boundaries.iter().position(|(boundary, _)| boundary == name);
         let mistake = match boundary.map(|index| (index, &written.boundaries[index].1)) {
-            Some((index, boundary)) if boundary.plane.is_some() && plane.is_none() => {
+            Some((index, boundary)) if boundary.shapes().contains(&"plane") && plane.is_none() => {
                 plane = Some(BoundaryIndex(index as u32));
                 continue;
             }
@@ -260,11 +260,9 @@ pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
 
 /// Whether this law bonds nobody to its plane.
 fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
-    let Shape::Plane { point, normal, .. } = &scene.boundaries.get(plane.index())?.shape else { return None };
+    let plane = scene.boundaries.get(plane.index())?.shape.plane()?;
     let members = scene.particles.iter().filter(|particle| bond.between.contains(&particle.set));
-    let away = |particle: &Particle| -> f64 {
-        2.0 * (0..3).map(|axis| (particle.position[axis] - point[axis]) * normal[axis]).sum::<f64>()
-    };
+    let away = |particle: &Particle| 2.0 * plane.height(particle.position);
     let closest = members.map(away).filter(|away| *away > 0.0).reduce(f64::min);
     if closest.is_some_and(|closest| closest < distance) {
         return None;

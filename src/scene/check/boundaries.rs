@@ -6,14 +6,18 @@ use super::particles::Born;
 use super::raw_tables::RawTables;
 use super::selection::{Owners, members};
 use crate::contact::Material;
+use crate::quantity::MaterialIndex;
+use crate::scene::Boundary;
 use crate::scene::document::Faults;
-use crate::scene::file::{BoundaryTable, PlaneTable};
+use crate::scene::file::BoundaryTable;
 use crate::scene::mistake::Mistake;
-use crate::scene::{AxisMotion, Boundary, Shape};
+use crate::scene::source::Source;
+use crate::surface::{Around, Selection, Shape, Surface};
 
 /// All boundaries.
 pub(super) fn boundaries(
     written: &RawTables,
+    source: &Source,
     materials: &[Material],
     born: &Born,
     faults: &mut Faults,
@@ -22,14 +26,12 @@ pub(super) fn boundaries(
     let mut boundaries = Vec::new();
     for (name, boundary) in &written.boundaries {
         let table = format!("boundary.{name}");
-        let Some(shape) = shape(boundary, &table, materials, born, faults) else { continue };
-        if let Shape::Particles { members } = &shape {
-            owners.claim(members, &table, born, faults);
-        }
-        let reference = boundary.reference.map_or_else(|| centre(&shape, born), |reference| reference.0);
-        let axes = motion::axes(&boundary.motion.0, &table, faults);
-        motion::check(&axes, &shape, boundary.reference.is_some(), &table, faults);
-        if boundary.input.is_some() && !axes.contains(&AxisMotion::Driven) {
+        let Some(shape) = shape((boundary, &table), source, materials, born, faults) else { continue };
+        owners.claim(shape.members(), &table, born, faults);
+        let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
+        let axes = motion::axes(&boundary.motion, &table, faults);
+        motion::check(&axes, &*shape, boundary.reference.is_some(), &table, faults);
+        if boundary.input.is_some() && !axes.iter().any(|axis| axis.is_driven()) {
             let (what, right) = ("no axis is driven".to_owned(), "leave input out".to_owned());
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
@@ -41,75 +43,91 @@ pub(super) fn boundaries(
 
 /// The shape of a boundary.
 fn shape(
-    boundary: &BoundaryTable,
-    table: &str,
+    (boundary, table): (&BoundaryTable, &str),
+    source: &Source,
     materials: &[Material],
     born: &Born,
     faults: &mut Faults,
 ) -> Option<Shape> {
-    match (&boundary.plane, &boundary.particles) {
-        (Some(plane), None) => match &boundary.material {
-            Some(name) => {
-                let material = material_index(materials, name, table, "material", faults);
-                plane_shape(plane, table, faults).zip(material).map(|((point, normal), material)| Shape::Plane {
-                    material,
-                    point,
-                    normal,
-                })
-            }
-            None => {
-                faults.add(table, "material", Mistake::Missing { right: "a plane needs one".to_owned() });
-                None
-            }
-        },
-        (None, Some(selection)) => {
-            if boundary.material.is_some() {
-                let what = "particles have their own material".to_owned();
-                faults.add(table, "material", Mistake::Senseless { what, right: "leave it out".to_owned() });
-            }
-            Some(Shape::Particles { members: members(selection, born, table, faults) })
-        }
-        (Some(_), Some(_)) => {
-            let (found, right) = ("plane and particles".to_owned(), "one shape".to_owned());
-            faults.add(table, "", Mistake::Wrong { found, right });
-            None
-        }
-        (None, None) => {
-            let right = "plane = { point, normal } or particles = { set, box, ids } gives its shape".to_owned();
+    match boundary.shapes()[..] {
+        [_] => boundary.shape(&mut Written { boundary, table, source, materials, born, faults }),
+        [] => {
+            let right = format!("{} gives its shape", alternatives(BoundaryTable::HINTS));
             faults.add(table, "", Mistake::Missing { right });
             None
         }
+        [..] => {
+            let (found, right) = (boundary.shapes().join(" and "), "one shape".to_owned());
+            faults.add(table, "", Mistake::Wrong { found, right });
+            None
+        }
     }
 }
 
-/// Point and unit normal of a plane.
-fn plane_shape(plane: &PlaneTable, table: &str, faults: &mut Faults) -> Option<([f64; 3], [f64; 3])> {
-    let normal = plane.normal.0;
-    // Scaled first, so that neither very long nor very short normals overflow.
-    let largest = normal.iter().fold(0.0_f64, |largest, part| largest.max(part.abs()));
-    if largest == 0.0 {
-        let (found, right) = ("a normal of length 0".to_owned(), "one that points towards the particles".to_owned());
-        faults.add(table, "plane.normal", Mistake::Wrong { found, right });
-        return None;
+/// Several things of which one is right.
+fn alternatives(words: &[&str]) -> String {
+    match words {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
     }
-    let scaled = normal.map(|part| part / largest);
-    let length = scaled.iter().map(|part| part * part).sum::<f64>().sqrt();
-    Some((plane.point.0, scaled.map(|part| part / length)))
+}
+
+/// A boundary as it is written, with what it refers to.
+struct Written<'a, 'b, 'c> {
+    /// The table.
+    boundary: &'a BoundaryTable,
+    /// Its name, as `boundary.floor`.
+    table: &'a str,
+    /// The files of the scene.
+    source: &'a Source,
+    /// All materials.
+    materials: &'a [Material],
+    /// All particles.
+    born: &'a Born,
+    /// Where mistakes go.
+    faults: &'a mut Faults<'b, 'c>,
+}
+
+impl Around for Written<'_, '_, '_> {
+    fn material(&mut self, who: &str) -> Option<MaterialIndex> {
+        let Some(name) = &self.boundary.material else {
+            self.faults.add(self.table, "material", Mistake::Missing { right: format!("{who} needs one") });
+            return None;
+        };
+        material_index(self.materials, name, self.table, "material", self.faults)
+    }
+
+    fn no_material(&mut self, why: &str) {
+        if self.boundary.material.is_some() {
+            let (what, right) = (why.to_owned(), "leave it out".to_owned());
+            self.faults.add(self.table, "material", Mistake::Senseless { what, right });
+        }
+    }
+
+    fn select(&mut self, selection: &Selection) -> Vec<u32> {
+        members(selection, self.born, self.table, self.faults)
+    }
+
+    fn file(&self, name: &str) -> Option<&[u8]> {
+        self.source.files.get(name).map(Vec::as_slice)
+    }
+
+    fn refuse(&mut self, key: &str, found: String, right: &str) {
+        self.faults.add(self.table, key, Mistake::Wrong { found, right: right.to_owned() });
+    }
 }
 
 /// The point about which a moment is taken if the scene names none.
-fn centre(shape: &Shape, born: &Born) -> [f64; 3] {
-    match shape {
-        Shape::Plane { point, .. } => *point,
-        Shape::Particles { members } => {
-            let (mut mass, mut first) = (0.0, [0.0; 3]);
-            for particle in members.iter().map(|member| &born.particles[*member as usize]) {
-                mass += particle.mass();
-                for (sum, part) in first.iter_mut().zip(particle.position) {
-                    *sum += particle.mass() * part;
-                }
-            }
-            if mass > 0.0 { first.map(|moment| moment / mass) } else { [0.0; 3] }
+fn centre(shape: &dyn Surface, born: &Born) -> [f64; 3] {
+    if let Some(point) = shape.reference() {
+        return point;
+    }
+    let (mut mass, mut first) = (0.0, [0.0; 3]);
+    for particle in shape.members().iter().map(|member| &born.particles[*member as usize]) {
+        mass += particle.mass();
+        for (sum, part) in first.iter_mut().zip(particle.position) {
+            *sum += particle.mass() * part;
         }
     }
+    if mass > 0.0 { first.map(|moment| moment / mass) } else { [0.0; 3] }
 }

@@ -5,7 +5,7 @@ use crate::contact::{MaterialPair, Missing};
 use crate::scene::error::{SceneError, SceneErrors};
 use crate::scene::mistake::Mistake;
 use crate::scene::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Particle, Scene, Shape};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Particle, Scene};
 use std::collections::BTreeSet;
 
 /// A mistake and the table and key where it shows.
@@ -85,7 +85,7 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
     }
     let mut walls = vec![false; count];
     for boundary in &scene.boundaries {
-        if let Shape::Plane { material, .. } = boundary.shape {
+        if let Some(material) = boundary.shape.material() {
             walls[material.index()] = true;
         }
     }
@@ -117,7 +117,7 @@ pub(super) fn places(scene: &Scene) -> Vec<Finding> {
     let mut findings = Vec::new();
     outside(scene, &mut findings);
     findings.extend(numbers(scene));
-    planes(scene, &mut findings);
+    surfaces(scene, &mut findings);
     overlaps(scene, &mut findings);
     findings.extend(idle(scene));
     findings
@@ -167,19 +167,17 @@ fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Particles behind planes or too deep in them.
-fn planes(scene: &Scene, findings: &mut Vec<Finding>) {
+/// Particles behind surfaces or too deep in them.
+fn surfaces(scene: &Scene, findings: &mut Vec<Finding>) {
     let permitted = scene.run.max_overlap;
     let fixed_groups = fixed_groups(scene);
     for boundary in &scene.boundaries {
+        let Some(material) = boundary.shape.material() else { continue };
         let fixed = is_fixed(boundary);
-        let Shape::Plane { material, point, normal } = &boundary.shape else { continue };
-        let height =
-            |position: &[f64; 3]| -> f64 { (0..3).map(|axis| (position[axis] - point[axis]) * normal[axis]).sum() };
         let name = &boundary.name;
         let (mut behind, mut deep) = ((0.0, 0, 0), (0.0, 0, 0));
         for (index, particle) in scene.particles.iter().enumerate() {
-            let distance = height(&particle.position);
+            let Some(distance) = boundary.shape.distance(particle.position.into()) else { continue };
             let overlap = 1.0 - distance / particle.radius;
             if distance < 0.0 {
                 note(&mut behind, -distance, particle.id.0);
@@ -193,10 +191,10 @@ fn planes(scene: &Scene, findings: &mut Vec<Finding>) {
         let table = format!("boundary.{name}");
         if let (depth, id, count @ 1..) = behind {
             let mistake = Mistake::Behind { id, boundary: name.clone(), depth, more: count - 1 };
-            findings.push(Finding::at(table, "plane", mistake));
+            findings.push(Finding::at(table, boundary.shape.key(), mistake));
         } else if let (overlap, id, count @ 1..) = deep {
             let mistake = Mistake::WallOverlap { id, boundary: name.clone(), overlap, permitted, more: count - 1 };
-            findings.push(Finding::at(table, "plane", mistake));
+            findings.push(Finding::at(table, boundary.shape.key(), mistake));
         }
     }
 }
@@ -210,9 +208,7 @@ fn is_fixed(boundary: &Boundary) -> bool {
 fn fixed_groups(scene: &Scene) -> Vec<bool> {
     let mut fixed = vec![false; scene.particles.len()];
     for boundary in scene.boundaries.iter().filter(|boundary| is_fixed(boundary)) {
-        if let Shape::Particles { members } = &boundary.shape {
-            members.iter().for_each(|member| fixed[*member as usize] = true);
-        }
+        boundary.shape.members().iter().for_each(|member| fixed[*member as usize] = true);
     }
     fixed
 }
@@ -234,9 +230,7 @@ fn governed(scene: &Scene, a: usize, b: usize) -> bool {
 fn rigid_groups(scene: &Scene) -> Vec<u32> {
     let mut group = vec![0; scene.particles.len()];
     for (number, boundary) in (1..).zip(&scene.boundaries) {
-        if let Shape::Particles { members } = &boundary.shape {
-            members.iter().for_each(|member| group[*member as usize] = number);
-        }
+        boundary.shape.members().iter().for_each(|member| group[*member as usize] = number);
     }
     group
 }

@@ -37,7 +37,7 @@ pub(super) fn scene(
     let laws = contacts::laws(&written.contacts, &materials, &mut faults);
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
-    let boundaries = boundaries::boundaries(&written, &materials, &born, &mut faults);
+    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
     let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);

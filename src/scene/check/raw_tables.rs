@@ -70,12 +70,18 @@ pub(in crate::scene) type FileName = (String, &'static str, String);
 /// The files that a scene names.
 pub(in crate::scene) fn files(document: &Document) -> Vec<FileName> {
     let mut files = Vec::new();
-    for (kind, key) in [("particles", "file"), ("bond", "create.file")] {
+    for (kind, key) in [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file")] {
         for name in document.names(kind) {
             let table = format!("{kind}.{name}");
             if let Some(file) = document.text(&format!("{table}.{key}")) {
                 files.push((table, key, file.to_owned()));
             }
+        }
+    }
+    for name in document.names("boundary") {
+        let table = format!("boundary.{name}");
+        for file in document.texts(&format!("{table}.mesh.joined")) {
+            files.push((table.clone(), "mesh.joined", file.to_owned()));
         }
     }
     files

@@ -4,11 +4,13 @@ mod boundary;
 mod particles;
 mod values;
 
-pub(super) use boundary::{BoundaryTable, MotionTable, PlaneTable};
+pub(super) use crate::quantity::{Corners, Triple};
+pub(super) use crate::surface::Selection;
+pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{
-    CylinderTable, Format, LatticeKind, LatticeTable, ListEntry, PackingTable, ParticlesTable, Selection, Units,
+    CylinderTable, Format, LatticeKind, LatticeTable, ListEntry, PackingTable, ParticlesTable, Units,
 };
-pub(super) use values::{Between, Corners, Safety, StepKey, Triple};
+pub(super) use values::{Between, Safety, StepKey};
 #[cfg(test)]
 pub(super) use values::{Counts, Radii};
 

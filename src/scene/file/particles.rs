@@ -1,7 +1,7 @@
-//! `[particles.<name>]` and how particles are chosen.
+//! `[particles.<name>]`
 
-use super::values::{Corners, Counts, Radii, Triple};
-use crate::quantity::{Fraction, Positive};
+use super::values::{Counts, Radii};
+use crate::quantity::{Corners, Fraction, Positive, Triple};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
@@ -164,19 +164,4 @@ pub(in crate::scene) struct ListEntry {
     pub(in crate::scene) velocity: Option<Triple>,
     /// Its angular velocity \[rad/s\].
     pub(in crate::scene) angular_velocity: Option<Triple>,
-}
-
-/// Which particles: those for which everything given here holds.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene) struct Selection {
-    /// Of this set.
-    pub(in crate::scene) set: Option<String>,
-    /// Of these sets.
-    pub(in crate::scene) sets: Option<Vec<String>>,
-    /// Centre in this box, its faces included \[m\].
-    #[serde(rename = "box")]
-    pub(in crate::scene) corners: Option<Corners>,
-    /// With these numbers.
-    pub(in crate::scene) ids: Option<Vec<u32>>,
 }

@@ -1,66 +1,10 @@
 //! Values that are more than one plain number.
 
-use crate::quantity::{Finite, Positive};
+use crate::quantity::{Numbers, Positive};
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::num::NonZeroU32;
-
-/// Three finite numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::scene) struct Triple(pub(in crate::scene) [f64; 3]);
-
-impl<'de> Deserialize<'de> for Triple {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let list: Vec<Finite> = deserializer.deserialize_seq(Numbers)?;
-        match list[..] {
-            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
-            _ => Err(D::Error::custom(format!("{} numbers found; [x, y, z] is right", list.len()))),
-        }
-    }
-}
-
-/// Reads a list of numbers.
-struct Numbers;
-
-impl<'de> Visitor<'de> for Numbers {
-    type Value = Vec<Finite>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a list of numbers")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Finite>, A::Error> {
-        let mut numbers = Vec::new();
-        while let Some(number) = list.next_element()? {
-            numbers.push(number);
-        }
-        Ok(numbers)
-    }
-}
-
-/// Two corners, the second above the first along each axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::scene) struct Corners(pub(in crate::scene) [[f64; 3]; 2]);
-
-impl<'de> Deserialize<'de> for Corners {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let corners = Vec::<Triple>::deserialize(deserializer)?;
-        let [Triple(lower), Triple(upper)] = corners[..] else {
-            let found = corners.len();
-            return Err(D::Error::custom(format!("{found} corners found; [[x, y, z], [x, y, z]] is right")));
-        };
-        match (0..3).find(|axis| lower[*axis] >= upper[*axis]) {
-            None => Ok(Self([lower, upper])),
-            Some(axis) => Err(D::Error::custom(format!(
-                "{:?} to {:?} along {} found; the lower corner before the upper one is right",
-                lower[axis],
-                upper[axis],
-                ["x", "y", "z"][axis]
-            ))),
-        }
-    }
-}
 
 /// `step` of `[run]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
-use crate::scene::{AxisMotion, Boundary, Scene, Shape};
+use crate::scene::{Boundary, Scene};
 use crate::state::{Attitude, BoundaryState, Particles, State};
 
 /// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
@@ -61,14 +61,17 @@ pub(crate) fn of(scene: &Scene) -> Vec<Option<RigidBody>> {
 impl RigidBody {
     /// The body of a boundary, if it needs one.
     pub(crate) fn of(scene: &Scene, boundary: &Boundary) -> Option<Self> {
-        let Shape::Particles { members } = &boundary.shape else { return None };
-        let moves = [0, 1, 2].map(|axis| boundary.axes[axis] == AxisMotion::Free);
+        let members = boundary.shape.members();
+        let moves = [0, 1, 2].map(|axis| boundary.axes[axis].is_free());
         let turning = turning(boundary);
         if moves == [false; 3] && turning == Turning::Still {
             return None;
         }
+        if members.is_empty() {
+            return Some(Self::led(turning));
+        }
         let mut body = Self {
-            members: members.clone(),
+            members: members.to_vec(),
             mass: 0.0,
             offset: Vector::zero(),
             inertia: Matrix::default(),
@@ -92,6 +95,22 @@ impl RigidBody {
         body.offset = body.offset * (1.0 / body.mass);
         body.inverse = body.inertia.inverse();
         Some(body)
+    }
+
+    /// A surface that turns as it is led: it has no mass, and nobody asks for it.
+    fn led(turning: Turning) -> Self {
+        Self {
+            members: Vec::new(),
+            mass: 1.0,
+            offset: Vector::zero(),
+            inertia: Matrix::default(),
+            inverse: Matrix::default(),
+            moves: [false; 3],
+            turning,
+            farthest: 0.0,
+            smallest: f64::INFINITY,
+            largest: 0.0,
+        }
     }
 
     /// Whether forces move any of its axes.
@@ -267,9 +286,9 @@ impl RigidBody {
 /// How the axes of a boundary make it turn.
 fn turning(boundary: &Boundary) -> Turning {
     let turns = &boundary.axes[3..];
-    let free = |axis: &usize| turns[*axis] == AxisMotion::Free;
+    let free = |axis: &usize| turns[*axis].is_free();
     match (0..3).filter(free).collect::<Vec<_>>()[..] {
-        [] if turns.iter().all(|motion| *motion == AxisMotion::Fixed) => Turning::Still,
+        [] if turns.iter().all(|motion| motion.is_fixed()) => Turning::Still,
         [] => Turning::Led,
         [axis] => Turning::About(axis),
         _ => Turning::Freely,
@@ -286,7 +305,7 @@ pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &
     let State { boundaries, particles, .. } = state;
     for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(boundaries) {
         moved.pivot = (Vector::from(boundary.reference) + moved.displacement.into()).to_array();
-        let Shape::Particles { members } = &boundary.shape else { continue };
+        let members = boundary.shape.members();
         if body.as_ref().is_some_and(|body| body.turning != Turning::Still) {
             place_turned(scene, boundary, moved, members, particles);
             continue;

@@ -1,0 +1,27 @@
+//! `driven`: the axis follows an input.
+
+use super::{InputCourse, Motion, Progress, Seen, Way};
+
+/// An axis that follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
+pub(super) struct Driven;
+
+impl Motion for Driven {
+    fn words(&self, _unit: &str) -> Option<String> {
+        Some("driven".to_owned())
+    }
+
+    fn seen(&self) -> Seen {
+        Seen::Input
+    }
+
+    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
+        let Way { start, target, before, course } = *way;
+        let displacement = if progress.is_last() { target } else { start + (target - start) * progress.share(course) };
+        let velocity = match course {
+            InputCourse::Ramp => (target - start) / progress.length(),
+            InputCourse::Smooth => (displacement - before) / progress.step,
+            InputCourse::Hold => 0.0,
+        };
+        Some([displacement, velocity])
+    }
+}

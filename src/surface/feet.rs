@@ -1,0 +1,88 @@
+//! Where a sphere touches a surface of several features: faces, edges, vertices, or what they are in a profile.
+//!
+//! Every simplex of a surface has its own nearest point, its foot, and a weight; over the simplices whose feet fall
+//! together the weights add up to a whole number, which is what counts:
+//!
+//! ```text
+//! triangle +1     edge 1 − k_e     vertex 1 − k_v + Σ_e (k_e − 1)     (profile: segment +1, corner 1 − k)
+//!
+//! flat, convex, rim: once      concave, edge out of reach: both faces      concave, edge within reach: both less the edge
+//! ```
+//!
+//! By the Euler characteristic of what the surface and a ball have in common, the energy of a sphere is ∫ F(R − s) χ(B(x, s) ∩ S) ds
+//! whatever the triangulation: the force is continuous and conservative over flat, convex and concave bends, without a
+//! tolerance.
+
+use crate::number::Vector;
+use std::fmt::Debug;
+
+/// Where a sphere touches one feature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// The feature on which the foot lies.
+    pub feature: u32,
+    /// Distance of the centre from the foot \[m\].
+    pub distance: f64,
+    /// Unit normal from the foot to the centre, in the axes of the surface.
+    pub normal: Vector,
+    /// How often the normal force counts: once, and less than no times at a saddle.
+    pub weight: f64,
+    /// Whether the centre is behind the face; where the foot is on no face, never.
+    pub behind: bool,
+}
+
+/// A feature of negative weight between two faces that both carry the sphere. It has no friction of its own; that of the
+/// faces becomes less.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Saddle {
+    /// The feature.
+    pub feature: u32,
+    /// The faces.
+    pub faces: [u32; 2],
+    /// Shares of its force that the faces' friction has less of: they add up to 1.
+    pub shares: [f64; 2],
+}
+
+/// Everything that a sphere touches of a surface.
+#[derive(Clone, Debug, Default)]
+pub struct Feet {
+    /// The feet, by ascending feature.
+    pub list: Vec<Foot>,
+    /// The saddles among them.
+    pub saddles: Vec<Saddle>,
+}
+
+impl Feet {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.list.clear();
+        self.saddles.clear();
+    }
+
+    /// The foot on a feature.
+    pub fn on(&self, feature: u32) -> Option<&Foot> {
+        self.list.iter().find(|foot| foot.feature == feature)
+    }
+
+    /// Adds a saddle of two faces, by the distances of their feet from its own \[m\].
+    pub fn add_saddle(&mut self, feature: u32, faces: [u32; 2], [first, second]: [f64; 2]) {
+        let both = first + second;
+        let share = if both > 0.0 { second / both } else { 0.5 };
+        self.saddles.push(Saddle { feature, faces, shares: [share, 1.0 - share] });
+    }
+}
+
+/// A surface of features. Positions are in the axes of the surface, as it stands at time 0.
+pub trait Features: Debug + Send + Sync {
+    /// Adds the parts within reach of a centre, ascending. A surface of few parts adds one whenever any is.
+    fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>);
+
+    /// Finds the feet on these parts that are nearer to a centre than `radius` \[m\].
+    fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet);
+
+    /// Whether the history of a contact passes from one feature to another.
+    fn meet(&self, one: u32, other: u32) -> bool;
+
+    /// The largest distance of its points from a point; infinite where it has no end \[m\].
+    fn extent(&self, point: Vector) -> f64;
+}
