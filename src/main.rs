@@ -147,7 +147,8 @@ struct VerifyArguments {
 
 /// A formulation by its name.
 fn formulation(name: &str) -> Result<FormulationChoice, String> {
-    FormulationChoice::named(name).ok_or_else(|| "finite_rotation, incremental or engine_exact is right".to_owned())
+    let names = || FormulationChoice::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
+    FormulationChoice::named(name).ok_or_else(|| format!("one of {} is right", names()))
 }
 
 /// How a command ended that did not do its work.

@@ -12,11 +12,11 @@ pub struct Body<N: Number = f64> {
     pub velocity: Vector<N>,
     /// Angular velocity, half a time step earlier \[rad/s\].
     pub spin: Vector<N>,
-    /// Attitude; anything where [`super::BondLaw::NEEDS_ATTITUDES`] is false.
-    pub attitude: Quaternion<N>,
+    /// Orientation; anything where [`super::Formulation::NEEDS_ORIENTATIONS`] is false.
+    pub orientation: Quaternion<N>,
     /// Radius \[m\].
     pub radius: N,
-    /// Mass, infinite for a wall; anything where [`super::BondLaw::NEEDS_MASSES`] is false \[kg\].
+    /// Mass, infinite for a wall; anything where [`super::damping::Damping::NEEDS_MASSES`] is false \[kg\].
     pub mass: N,
     /// Moment of inertia, infinite for a wall \[kg m²\].
     pub inertia: N,
@@ -33,10 +33,10 @@ pub struct Pair<N: Number = f64> {
     pub spin_i: Vector<N>,
     /// w_j \[rad/s\].
     pub spin_j: Vector<N>,
-    /// Attitude of i.
-    pub attitude_i: Quaternion<N>,
-    /// Attitude of j.
-    pub attitude_j: Quaternion<N>,
+    /// Orientation of i.
+    pub orientation_i: Quaternion<N>,
+    /// Orientation of j.
+    pub orientation_j: Quaternion<N>,
     /// Share of the distance that is the torque arm of i: R_i/(R_i + R_j), at a wall 1.
     pub share_i: N,
     /// The rest of it: R_j/(R_i + R_j), at a wall 0.
@@ -84,8 +84,8 @@ impl<N: Number> Pair<N> {
             velocity: i.velocity - j.velocity,
             spin_i: i.spin,
             spin_j: j.spin,
-            attitude_i: i.attitude,
-            attitude_j: j.attitude,
+            orientation_i: i.orientation,
+            orientation_j: j.orientation,
             share_i: shares[0],
             share_j: shares[1],
             slip_share_i: shares[2],
@@ -281,16 +281,23 @@ impl<N: Number> Motion<N> {
     /// Without rates.
     #[inline(always)]
     fn at_rest(law: &Coefficients<N>, pair: &Pair<N>, distance: N, per_distance: N) -> Self {
+        let axis = pair.connection * per_distance;
+        Self { per_distance, ..Self::still(axis, distance, law.section(pair.least_radius)) }
+    }
+
+    /// No motion along this axis and at this distance; the distance's inverse is not found.
+    #[inline(always)]
+    pub fn still(axis: Vector<N>, distance: N, section: Section<N>) -> Self {
         Self {
-            axis: pair.connection * per_distance,
+            axis,
             distance,
-            per_distance,
+            per_distance: N::zero(),
             normal_velocity: N::zero(),
             slip: Vector::zero(),
             twist_rate: N::zero(),
             bending_rate: Vector::zero(),
             turn: Turn::none(),
-            section: Section::of(law.radius_multiplier, pair.least_radius),
+            section,
         }
     }
 

@@ -42,7 +42,7 @@ fn part(entry: &mut HiddenContact, step: f64) {
 /// What a contact does; its entry remembers it. Nothing where the bond silences it.
 fn react(law: &Law, entry: &mut HiddenContact, meeting: &Meeting, row: &[f64], step: f64) -> Option<Reaction> {
     let (silent, contact) = (entry.is_silent(), &meeting.contact);
-    let found = creation::hidden(contact.overlap, entry.offset, entry.is_hidden());
+    let found = creation::suppressed(contact.overlap, entry.offset, entry.is_hidden());
     let offset = Offset { pressing: found.pressing, acts: found.acts, contact: meeting.offset };
     let mut history = if silent { [[0.0; 4]; MOST_HISTORY] } else { entry.history };
     let reaction = (!silent).then(|| law.react_beyond(row, contact, &offset, &mut history, step));
@@ -123,8 +123,12 @@ impl ContactPass {
 
     /// Adds what hidden contacts do, in a time step of this length \[s\].
     pub(crate) fn apply_hidden(&self, state: &mut State, step: f64) {
-        let particles = &mut state.particles;
-        for entry in state.hidden.pairs.get_mut(self.index).into_iter().flatten() {
+        let State { particles, hidden, .. } = state;
+        let (Some(list), Some(active)) = (hidden.pairs.get_mut(self.index), hidden.active.get(self.index)) else {
+            return;
+        };
+        for &place in active {
+            let Some(entry) = list.get_mut(place as usize) else { continue };
             let Some(meeting) = pair(particles, entry) else {
                 part(entry, step);
                 continue;
@@ -157,7 +161,7 @@ impl ContactPass {
     /// Tells the stiffness of hidden contacts, as far as they act.
     pub(crate) fn hidden_stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
         let particles = &state.particles;
-        for entry in state.hidden.pairs.get(self.index).into_iter().flatten() {
+        for entry in state.hidden.pairs.get(self.index).into_iter().flatten().filter(|entry| !entry.is_silent()) {
             let Some(Meeting { contact, first_arm, second_arm, .. }) = pair(particles, entry) else { continue };
             let Some(response) = stiffness(&self.law.law, entry, &contact, self.row_of(particles, entry)) else {
                 continue;
@@ -182,7 +186,7 @@ impl ContactPass {
     /// Elastic energy of hidden contacts \[J\].
     pub(crate) fn hidden_energy(&self, state: &State) -> f64 {
         let particles = &state.particles;
-        let entries = state.hidden.pairs.get(self.index).into_iter().flatten();
+        let entries = state.hidden.pairs.get(self.index).into_iter().flatten().filter(|entry| !entry.is_silent());
         let energy = |entry| {
             let meeting = pair(particles, entry)?;
             Some(elastic_energy(&self.law.law, entry, &meeting.contact, self.row_of(particles, entry)))

@@ -3,8 +3,7 @@
 
 use super::records::PlacedSpring;
 use crate::bond::creation::{ContactPolicy, Moment};
-use crate::bond::keys::FormulationChoice;
-use crate::contact::{HistoryRow, Law};
+use crate::contact::{HistoryRow, Law, MOST_HISTORY};
 use crate::number::Vector;
 use crate::scene::{Bond, Scene};
 use crate::state::contacts::{SLIDING, TOUCHING};
@@ -66,7 +65,7 @@ impl Place {
 
 /// The flags of the contacts that a bond law hides; none where contact and bond act side by side.
 fn flags_of(bond: &Bond) -> Option<u8> {
-    let lasting = if bond.keys.formulation == FormulationChoice::EngineExact { LASTING } else { 0 };
+    let lasting = if bond.keys.formulation.is_engine() { LASTING } else { 0 };
     match bond.keys.contact {
         ContactPolicy::Parallel => None,
         ContactPolicy::WithoutNormal => Some(lasting),
@@ -146,6 +145,8 @@ impl Hiding {
                 }
             }
         }
+        state.hidden.find_active();
+        state.hidden.settling = moment.number > 0;
     }
 
     /// Enters the contacts of bonds that were put into place, and those of which an offset is remembered.
@@ -170,6 +171,7 @@ impl Hiding {
                 entry.flags |= self.laws[law].unwrap_or(0) & LASTING;
             }
         }
+        state.hidden.find_active();
     }
 
     /// Overlap of the bodies of an entry, 0 where they do not touch \[m\].
@@ -190,17 +192,29 @@ impl Hiding {
 
     /// Takes notice of the bonds that broke in the evaluation just made: those from this one on.
     pub(crate) fn broken(&self, state: &mut State, told: usize) {
-        for place in told..state.breaks.len() {
-            let broken = state.breaks[place];
-            if self.laws[broken.law as usize].is_none() {
+        let mut changed = state.hidden.settling;
+        for number in told..state.breaks.len() {
+            let broken = state.breaks[number];
+            let law = broken.law as usize;
+            if self.laws[law].is_none() {
                 continue;
             }
-            let place = self.place(state, broken.law as usize, broken.first, broken.second);
-            let Some(entry) = place.as_ref().and_then(|place| place.entry(&mut state.hidden)) else { continue };
+            let Some(place) = self.place(state, law, broken.first, broken.second) else { continue };
+            let overlap = self.overlap(state, law, &place);
+            let Some(entry) = place.entry(&mut state.hidden) else { continue };
+            if entry.is_resting() && !place.at_plane {
+                entry.offset = overlap;
+                entry.history = [[0.0; 4]; MOST_HISTORY];
+                entry.flags = if overlap > 0.0 { entry.flags | TOUCHING } else { entry.flags & !TOUCHING } & !SLIDING;
+            }
             entry.bonds = entry.bonds.saturating_sub(1);
             if entry.bonds == 0 {
                 entry.flags &= !SILENT;
             }
+            changed = true;
+        }
+        if changed {
+            state.hidden.find_active();
         }
     }
 
@@ -229,6 +243,7 @@ impl Hiding {
                 list.remove(&dead);
             }
         }
+        hidden.find_active();
         for (entries, list) in hidden.planes.iter_mut().zip(walls) {
             let mut dead = vec![false; list.particle.len()];
             let exchange = Exchange { rows: &self.histories[list.law as usize], reversed: false };

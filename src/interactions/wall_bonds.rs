@@ -3,11 +3,12 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::bonds::{Done, body_of, book};
+use super::bonds::{Done, begin_losses, body_of, book, shared_damping};
 use super::pass::{Link, Pass};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::{Creation, Moment, near_plane};
-use crate::bond::{Body, BondLaw, Carried, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows};
+use crate::bond::damping::DampingLoad;
+use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
 use crate::contact::Response;
 use crate::lanes::Shared;
 use crate::number::Vector;
@@ -17,14 +18,15 @@ use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Row, State};
 use crate::threads::{CHUNK, Context};
-use std::marker::PhantomData;
 
 /// The pass of one bond law at a plane.
-pub(crate) struct WallBondPass<L> {
+pub(crate) struct WallBondPass {
     /// Which list of the state is its own; also the law's index in the scene.
     index: usize,
     /// The law in numbers.
-    numbers: Law,
+    law: Law,
+    /// Its formulation.
+    one_bond: OneBond,
     /// When bonds are made.
     creation: Creation,
     /// Twice the distance of a centre below which it is bonded \[m\].
@@ -41,8 +43,6 @@ pub(crate) struct WallBondPass<L> {
     normal: Vector,
     /// Point about which the moment is taken, at time 0 \[m\].
     reference: Vector,
-    /// The law.
-    law: PhantomData<fn() -> L>,
 }
 
 /// What a piece of a list came to.
@@ -55,7 +55,7 @@ struct Piece {
     moment: Vector,
 }
 
-impl<L: BondLaw> WallBondPass<L> {
+impl WallBondPass {
     /// The pass of this bond of the scene; none where the boundary is no plane.
     pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
         let bond = &scene.bonds[index];
@@ -63,7 +63,8 @@ impl<L: BondLaw> WallBondPass<L> {
         let plane = shape.plane()?;
         Some(Self {
             index,
-            numbers: bond.law,
+            law: bond.law.clone(),
+            one_bond: bond.law.one_bond(),
             creation: bond.create.clone(),
             create_distance: bond.create_distance.unwrap_or(0.0),
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
@@ -72,7 +73,6 @@ impl<L: BondLaw> WallBondPass<L> {
             point: plane.point.into(),
             normal: plane.normal.into(),
             reference: (*reference).into(),
-            law: PhantomData,
         })
     }
 
@@ -82,7 +82,7 @@ impl<L: BondLaw> WallBondPass<L> {
             position: Vector::from(foot) + plane.displacement.into(),
             velocity: plane.velocity.into(),
             spin: Vector::zero(),
-            attitude: Quaternion::identity(),
+            orientation: Quaternion::identity(),
             radius: 0.0,
             mass: f64::INFINITY,
             inertia: f64::INFINITY,
@@ -102,7 +102,7 @@ impl<L: BondLaw> WallBondPass<L> {
         for (row, column) in rows.iter_mut().zip(&state.bonds[self.index].rows) {
             *row = column[bond];
         }
-        L::carried(&self.numbers, &self.pair(state, bond), &rows)
+        self.law.carried(&self.pair(state, bond), &rows)
     }
 
     /// Particles to be bonded at this moment, with the feet of their bonds where the plane stood at time 0.
@@ -128,10 +128,16 @@ impl<L: BondLaw> WallBondPass<L> {
 
 /// What all pieces of a list share.
 struct Work<'a> {
-    /// The law in numbers.
-    law: Coefficients<f64>,
+    /// The law.
+    law: &'a Law,
+    /// Its formulation.
+    one_bond: OneBond,
+    /// The law at this step.
+    coefficients: Coefficients,
     /// Rows of the list, each a column.
     rows: [Shared<Row>; MOST_ROWS],
+    /// Load of damping in the last evaluation, row by row; empty where nothing damps.
+    damping: [Shared<Row>; 3],
     /// Energy that each bond lost; empty where none does.
     lost: Shared<f64>,
     /// Forces.
@@ -150,17 +156,30 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// The law on a piece of the list. Each piece is for one thread only.
-    fn piece<L: BondLaw>(&self, from: usize, to: usize) -> Piece {
+    fn piece(&self, from: usize, to: usize) -> Piece {
         let mut piece = Piece { done: Done::default(), force: Vector::zero(), moment: Vector::zero() };
         for bond in from..to {
             let mut rows: Rows = [[0.0; 4]; MOST_ROWS];
-            for (row, column) in rows.iter_mut().zip(&self.rows).take(L::ROWS) {
+            for (row, column) in rows.iter_mut().zip(&self.rows).take(self.one_bond.rows) {
                 // SAFETY: pieces do not overlap, and each column has a row for each bond.
                 *row = unsafe { *column.at(bond) };
             }
-            let reaction = L::react(&self.law, &self.pairs[bond], &rows);
+            let mut last = [[0.0; 4]; 3];
+            for (row, column) in last.iter_mut().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
+                // SAFETY: as above.
+                *row = unsafe { *column.at(bond) };
+            }
+            let last = DampingLoad::from_rows(last);
+            let reaction = self.law.react(&self.coefficients, &self.pairs[bond], &rows, &last);
+            let rows = reaction.damping.to_rows();
+            for (row, column) in rows.iter().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
+                // SAFETY: as above.
+                unsafe { *column.at(bond) = *row };
+            }
             if self.step > 0.0 {
-                for (row, column) in reaction.rows.iter().zip(&self.rows).take(L::ROWS).skip(L::FIXED_ROWS) {
+                for (row, column) in
+                    reaction.rows.iter().zip(&self.rows).take(self.one_bond.rows).skip(self.one_bond.fixed_rows)
+                {
                     // SAFETY: as above.
                     unsafe { *column.at(bond) = *row };
                 }
@@ -184,7 +203,7 @@ impl Work<'_> {
     }
 }
 
-impl<L: BondLaw> Pass for WallBondPass<L> {
+impl Pass for WallBondPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let count = state.bonds[self.index].first.len();
         let pairs: Vec<Pair> = (0..count).map(|bond| self.pair(state, bond)).collect();
@@ -193,8 +212,11 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
-            law: self.numbers.coefficients(context.step),
+            law: &self.law,
+            one_bond: self.one_bond,
+            coefficients: self.law.elasticity.at_step(context.step),
             rows: [column(), column(), column()],
+            damping: shared_damping(&mut list.damping),
             lost: Shared::new(&mut list.lost),
             force: Shared::new(&mut state.particles.force),
             torque: Shared::new(&mut state.particles.torque),
@@ -203,8 +225,8 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
             arms: &arms,
             step: context.step,
         };
-        let pieces = context
-            .collect(count.div_ceil(CHUNK), |piece| work.piece::<L>(piece * CHUNK, ((piece + 1) * CHUNK).min(count)));
+        let pieces =
+            context.collect(count.div_ceil(CHUNK), |piece| work.piece(piece * CHUNK, ((piece + 1) * CHUNK).min(count)));
         let plane = &mut state.boundaries[self.boundary.index()];
         let mut results = Vec::with_capacity(pieces.len());
         for piece in pieces {
@@ -220,18 +242,16 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
         let wanted = self.wanted(state, moment);
-        let law = self.numbers.coefficients::<f64>(step);
+        let law = self.law.elasticity.at_step::<f64>(step);
         for &(slot, foot) in &wanted {
             let plane = &state.boundaries[self.boundary.index()];
             let pair = Pair::at_wall(&body_of(&state.particles, slot as usize), &self.foot(foot, plane));
-            let rows = L::create(&law, &pair);
+            let rows = (self.one_bond.create)(&law, &pair);
             let list = &mut state.bonds[self.index];
-            list.rows.resize(L::ROWS, Vec::new());
+            list.rows.resize(self.one_bond.rows, Vec::new());
             list.first.push(slot);
             list.foot.push(foot);
-            if self.numbers.dissipates() {
-                list.lost.push(0.0);
-            }
+            begin_losses(list, &self.law);
             state.particles.count_bond([state.particles.id[slot as usize]]);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
@@ -246,7 +266,7 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
     }
 
     fn needs_attitudes(&self) -> bool {
-        L::NEEDS_ATTITUDES
+        self.one_bond.needs_orientations
     }
 
     fn source(&self) -> Source {
@@ -259,7 +279,7 @@ impl<L: BondLaw> Pass for WallBondPass<L> {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
             let distance = pair.connection.length();
-            let [normal, shear, torsion, bending] = self.numbers.stiffness(pair.least_radius);
+            let [normal, shear, torsion, bending] = self.law.elasticity.stiffness(pair.least_radius);
             tell(Link {
                 first,
                 second: None,

@@ -36,7 +36,7 @@ pub(crate) fn remove(list: &mut BondList, gone: &[(u32, f64, f64)]) {
     for slots in [&mut list.first, &mut list.second] {
         keep(slots, &dead);
     }
-    for column in list.rows.iter_mut().chain([&mut list.foot]) {
+    for column in list.rows.iter_mut().chain(&mut list.damping).chain([&mut list.foot]) {
         keep(column, &dead);
     }
     keep(&mut list.lost, &dead);
@@ -68,7 +68,8 @@ pub(crate) fn sort(list: &mut BondList, new_slot: &[u32], slabs: &[u32]) {
         .collect();
     list.first = order.iter().map(|&bond| list.first[bond as usize]).collect();
     list.second = order.iter().filter_map(|&bond| list.second.get(bond as usize).copied()).collect();
-    for column in list.rows.iter_mut().chain([&mut list.foot]).filter(|column| !column.is_empty()) {
+    let columns = list.rows.iter_mut().chain(&mut list.damping).chain([&mut list.foot]);
+    for column in columns.filter(|column| !column.is_empty()) {
         *column = order.iter().map(|&bond| column[bond as usize]).collect();
     }
     if !list.lost.is_empty() {

@@ -10,7 +10,7 @@ use super::{
     BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, collection_name, frame_name, frame_number, frames,
     vtk::Cloud,
 };
-use crate::bond::breakage::Cause;
+use crate::bond::breakage::cause_name;
 use crate::interface::Value;
 use crate::scene::Scene;
 use crate::state::{Break, Particles, State};
@@ -207,7 +207,7 @@ impl Folder {
         let scene = &self.scene;
         let id = |index: u32| self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
         for broken in breaks {
-            let cause = Cause::from_code(broken.cause).map_or("unknown", Cause::name);
+            let cause = cause_name(broken.cause).unwrap_or("unknown");
             table.add(&[
                 format!("{:?}", broken.time),
                 id(broken.first).to_string(),

@@ -21,6 +21,9 @@ pub struct BondList {
     pub foot: Vec<Row>,
     /// State of the bonds: the rows of the law, each a column here.
     pub rows: Vec<Vec<Row>>,
+    /// Load of damping on each bond in the last evaluation: force on i, torque on i, torque on j, each a column; empty where
+    /// the law has no damping. What it takes of the bodies is known half a step later.
+    pub damping: Vec<Vec<Row>>,
     /// Energy that damping and relaxation took of each bond so far \[J\]; empty where the law takes none.
     #[serde(with = "plain")]
     pub lost: Vec<f64>,

@@ -47,6 +47,12 @@ impl HiddenContact {
         self.is_hidden() && self.flags & SILENT != 0
     }
 
+    /// Whether there is nothing to do for it until its bond breaks: what it remembers follows from where the bodies are
+    /// then. A lasting offset is that of the last touch, which has to be followed.
+    pub fn is_resting(&self) -> bool {
+        self.is_silent() && self.flags & LASTING == 0
+    }
+
     /// Whether it is one of the contacts that are counted and told.
     pub fn is_told(&self) -> bool {
         self.flags & TOUCHING != 0 && !self.is_silent()
@@ -63,6 +69,10 @@ impl HiddenContact {
 pub struct Hidden {
     /// Between particles, a list for each contact law.
     pub pairs: Vec<Vec<HiddenContact>>,
+    /// Places in these lists of the contacts that do not rest, ascending.
+    pub active: Vec<Vec<u32>>,
+    /// Whether some of them rest after the present evaluation.
+    pub settling: bool,
     /// At planes, a list for each of [`State::walls`](super::State::walls).
     pub planes: Vec<Vec<HiddenContact>>,
 }
@@ -71,6 +81,16 @@ impl Hidden {
     /// All of them, between particles first.
     pub fn all(&self) -> impl Iterator<Item = &HiddenContact> {
         self.pairs.iter().chain(&self.planes).flatten()
+    }
+
+    /// Finds the contacts that do not rest, after entries came, went or changed.
+    pub fn find_active(&mut self) {
+        let awake = |list: &Vec<HiddenContact>| {
+            let places = (0..).zip(list).filter(|(_, entry)| !entry.is_resting());
+            places.map(|(place, _)| place).collect()
+        };
+        self.active = self.pairs.iter().map(awake).collect();
+        self.settling = false;
     }
 
     /// The contact of these bodies in a list, or where it would stand.

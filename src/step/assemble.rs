@@ -1,6 +1,5 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
-use crate::bond::{BondLaw, keys};
 use crate::boundaries::RigidBody;
 use crate::boundaries::rigid_body::sphere_inertia;
 use crate::contact::Law;
@@ -119,30 +118,15 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
         passes.push(Box::new(between_particles(scene, index)) as Box<dyn Pass>);
     }
     for (index, bond) in scene.bonds.iter().enumerate() {
-        passes.extend(bond.keys.visit(Bonded { scene, index }));
+        passes.extend(match bond.plane {
+            None => Some(Box::new(BondPass::of(scene, index)) as Box<dyn Pass>),
+            Some(plane) => WallBondPass::of(scene, index, plane).map(|pass| Box::new(pass) as _),
+        });
     }
     for (list, meeting) in meetings(scene).into_iter().enumerate() {
         passes.push(at_surface(scene, list, meeting));
     }
     passes
-}
-
-/// Makes the pass of a bond law.
-struct Bonded<'a> {
-    /// Where particles and bonds stand.
-    scene: &'a Scene,
-    /// Which bond law of the scene it is.
-    index: usize,
-}
-
-impl keys::TakeLaw for Bonded<'_> {
-    type Output = Option<Box<dyn Pass>>;
-    fn take<L: BondLaw>(self) -> Self::Output {
-        match self.scene.bonds[self.index].plane {
-            None => Some(Box::new(BondPass::<L>::of(self.scene, self.index))),
-            Some(plane) => WallBondPass::<L>::of(self.scene, self.index, plane).map(|pass| Box::new(pass) as _),
-        }
-    }
 }
 
 /// The pass of a law between particles.

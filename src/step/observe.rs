@@ -61,7 +61,7 @@ impl Simulation {
                 pair(position(list.first[place]), position(list.second[place]));
             }
         }
-        for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0) {
+        for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0 || entry.is_resting()) {
             pair(position(slot(entry.first)), position(slot(entry.second.unwrap_or(entry.first))));
         }
         for (place, list) in walls.iter().enumerate() {

@@ -4,6 +4,7 @@ use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
 use crate::boundaries::course;
 use crate::contact::Law;
+use crate::interactions::bonds::begin_losses;
 use crate::interactions::{PlacedSpring, suppression};
 use crate::number::Vector;
 use crate::scene::{Scene, Step};
@@ -70,7 +71,7 @@ impl Simulation {
         course::put_prescribed(&scene, &mut state, time);
         put_particles(&mut state, &placement.particles);
         for bond in &placement.bonds {
-            put_bond(&mut state, bond, scene.bonds.get(bond.law).is_some_and(|law| law.law.dissipates()));
+            put_bond(&scene, &mut state, bond);
         }
         let mut simulation = Self::resume(scene, state);
         simulation.give_attitudes();
@@ -103,17 +104,15 @@ fn put(row: &mut Row, vector: [f64; 3]) {
 }
 
 /// Appends a bond to its list; slots are still those of the scene.
-fn put_bond(state: &mut State, bond: &PlacedBond, lossy: bool) {
-    let Some(list) = state.bonds.get_mut(bond.law) else { return };
+fn put_bond(scene: &Scene, state: &mut State, bond: &PlacedBond) {
+    let (Some(list), Some(law)) = (state.bonds.get_mut(bond.law), scene.bonds.get(bond.law)) else { return };
     list.rows.resize(bond.rows.len(), Vec::new());
     list.first.push(bond.bodies[0]);
     list.second.push(bond.bodies[1]);
     for (column, row) in list.rows.iter_mut().zip(bond.rows) {
         column.push(row);
     }
-    if lossy {
-        list.lost.push(0.0);
-    }
+    begin_losses(list, &law.law);
     list.made += 1;
     state.particles.count_bond(bond.bodies);
 }

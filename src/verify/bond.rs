@@ -187,23 +187,19 @@ impl Types<'_> {
 
     /// When bonds of these types break.
     fn breakage(&self) -> Result<BreakageKeys, Mistake> {
+        let mut keys = BreakageKeys::default();
         if !flag(self.case, "stressBreak")? {
-            return Ok(BreakageKeys {
-                max_distance: Some(self.positive("maxDistanceBond")?),
-                ..BreakageKeys::default()
-            });
+            keys.distance.max_distance = Some(self.positive("maxDistanceBond")?);
+            return Ok(keys);
         }
-        let mut keys = BreakageKeys {
-            max_normal_stress: Some(self.positive("maxSigmaBond")?),
-            max_shear_stress: Some(self.positive("maxTauBond")?),
-            compression_breaks: Some(true),
-            ..BreakageKeys::default()
-        };
+        keys.stress.max_normal_stress = Some(self.positive("maxSigmaBond")?);
+        keys.stress.max_shear_stress = Some(self.positive("maxTauBond")?);
+        keys.stress.compression_breaks = Some(true);
         if flag(self.case, "ratioTensionCompression")? {
-            keys.tension_ratio = Some(self.positive("ratioTensionCompression")?);
+            keys.stress.tension_ratio = Some(self.positive("ratioTensionCompression")?);
         }
         if flag(self.case, "druckerPrager")? {
-            keys.friction_angle = NonNegative::new(self.non_negative(FRICTION_ANGLE)?.get().to_radians());
+            keys.stress.friction_angle = NonNegative::new(self.non_negative(FRICTION_ANGLE)?.get().to_radians());
         }
         Ok(keys)
     }

@@ -1,17 +1,39 @@
-//! Breakage by distance alone.
+//! Breakage by distance.
 
-use crate::bond::{Breakage, Cause, Coefficients, Elastic, Motion};
+use super::{Breakage, Loaded, flat_keys};
+use crate::bond::keys::{KeyError, Keys as BondKeys};
 use crate::number::Number;
+use crate::quantity::Positive;
 
-/// Breaks where the centres are further apart than `max_distance` (the engine without `stressBreak`);
-/// with an infinite distance, never.
-#[derive(Clone, Copy, Debug)]
-pub struct Distance;
+flat_keys! {
+    /// Those of [`Distance`].
+    {
+        /// Distance of the centres beyond which the bond breaks \[m\].
+        max_distance: Positive ["m"],
+    }
+}
+
+/// Breaks where the centres (at a plane: centre and foot) are further apart than `max_distance`, as the engine does without
+/// `stressBreak`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// That distance \[m\].
+    pub most: f64,
+}
 
 impl Breakage for Distance {
+    type Keys = Keys;
+    const LIMITS: &'static [&'static str] = &["max_distance"];
+    const CAUSES: &'static [&'static str] = &["distance"];
+
+    fn of(own: &Keys, _bond: &BondKeys) -> Option<Self> {
+        own.max_distance.map(|most| Self { most: most.get() })
+    }
+
+    fn check(_own: &Keys, _bond: &BondKeys, _wrong: &mut Vec<KeyError>) {}
+
     #[inline(always)]
-    fn judge<N: Number>(law: &Coefficients<N>, motion: &Motion<N>, _elastic: &Elastic<N>) -> N {
-        let apart = motion.distance.greater(law.max_distance);
-        N::select(apart, N::splat(Cause::Distance.code()), N::zero())
+    fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N {
+        N::select(loaded.distance.greater(N::splat(self.most)), N::splat(1.0), N::zero())
     }
 }

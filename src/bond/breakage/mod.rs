@@ -1,109 +1,115 @@
-//! When a bond breaks. One criterion a file; the distance is looked at by each.
+//! When a bond breaks. One rule a file and a row in the list below.
+//!
+//! A scene may name several rules; each looks at every bond, and the first of the list that holds names the cause. A rule's
+//! file has its keys with their check, its numbers, what it asks of a bond, and the causes that it reports; its row makes
+//! it part of `[bond.<name>.breakage]`. Nothing else knows of a rule.
 
 pub mod distance;
+mod keys;
+pub mod mohr_coulomb;
 pub mod stress;
 
-use super::{Coefficients, Elastic, Motion, Section};
-use crate::number::Number;
+pub use keys::{KeysOf, Strength};
+pub(in crate::bond) use keys::{breakage_rules, flat_keys, named_keys};
 
-/// Why a bond broke.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-pub enum Cause {
-    /// The centres are further apart than `max_distance`.
-    Distance,
-    /// The normal stress, and no less of it from stretching than from bending.
-    Tension,
-    /// The normal stress, and no less of it from compression than from bending.
-    Compression,
-    /// The shear stress, and no less of it from the shear force than from torsion.
-    Shear,
-    /// The normal stress, most of it from bending.
-    Bending,
-    /// The shear stress, most of it from torsion.
-    Torsion,
+use super::Section;
+use super::keys::{KeyError, Keys};
+use crate::number::{Number, Vector};
+
+breakage_rules! {
+    distance: distance::Distance,
+    stress: stress::ByStress,
+    mohr_coulomb: mohr_coulomb::MohrCoulomb,
 }
 
-impl Cause {
-    /// All causes.
-    const ALL: [Self; 6] =
-        [Self::Distance, Self::Tension, Self::Compression, Self::Shear, Self::Bending, Self::Torsion];
-
-    /// The cause that a lane's code stands for; `None` for a living bond (0).
-    pub fn from_code(code: f64) -> Option<Self> {
-        Self::ALL.into_iter().find(|cause| cause.code() == code)
-    }
-
-    /// The number that stands for it in a lane, above 0.
-    pub fn code(self) -> f64 {
-        match self {
-            Self::Distance => 1.0,
-            Self::Tension => 2.0,
-            Self::Compression => 3.0,
-            Self::Shear => 4.0,
-            Self::Bending => 5.0,
-            Self::Torsion => 6.0,
-        }
-    }
-
-    /// Its name in `breakage.csv`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Distance => "distance",
-            Self::Tension => "tension",
-            Self::Compression => "compression",
-            Self::Shear => "shear",
-            Self::Bending => "bending",
-            Self::Torsion => "torsion",
-        }
-    }
+/// A rule of breakage, in numbers.
+pub trait Breakage: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// What the scene writes of it.
+    type Keys: KeysOf;
+    /// The keys of which at least one makes the rule look at anything.
+    const LIMITS: &'static [&'static str];
+    /// The causes that it reports, by their names in `breakage.csv`.
+    const CAUSES: &'static [&'static str];
+    /// The rule that a bond's table means, if it names this one at all.
+    fn of(own: &Self::Keys, bond: &Keys) -> Option<Self>;
+    /// What the table says that cannot be, each with its key below `breakage`.
+    fn check(own: &Self::Keys, bond: &Keys, wrong: &mut Vec<KeyError>);
+    /// 0 where the bond holds, else the place of its cause in [`Breakage::CAUSES`], from 1.
+    fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N;
 }
 
-/// A criterion of breakage.
-pub trait Breakage: Send + Sync + 'static {
-    /// 0, or the [`Cause::code`]. Where several hold: distance before normal before shear stress.
-    fn judge<N: Number>(law: &Coefficients<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> N;
+/// A bond under its load, without damping, at the end of a time step: what a rule looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Loaded<N: Number = f64> {
+    /// Distance of the centres, at a plane that of the centre from the foot \[m\].
+    pub distance: N,
+    /// The cross-section.
+    pub section: Section<N>,
+    /// u: above 0 compressed, below stretched \[m\].
+    pub compression: N,
+    /// Normal force along the axis, above 0 when it pushes \[N\].
+    pub normal: N,
+    /// Shear force on i \[N\].
+    pub shear: Vector<N>,
+    /// Torsion on i along the axis \[N m\].
+    pub torsion: N,
+    /// Bending torque on i \[N m\].
+    pub bending: Vector<N>,
 }
 
-/// Stresses at the rim of the bond, without damping.
+/// Stresses at the rim of a bond.
 ///
 /// ```text
-/// σ = ±|N|/A + |T_t| r_b/I        τ = |F_t|/A + |T_n| r_b/J
+/// |N|/A      |T_t| r_b/I      |F_t|/A      |T_n| r_b/J
 /// ```
-///
-/// + where the bond is stretched, or where compression breaks; − where compression relieves.
 #[derive(Clone, Copy, Debug)]
 pub struct Stress<N: Number = f64> {
-    /// σ \[Pa\].
-    pub normal: N,
-    /// The part of σ that bending makes, |T_t| r_b/I \[Pa\].
-    pub bending: N,
-    /// τ \[Pa\].
-    pub shear: N,
-    /// The part of τ that torsion makes, |T_n| r_b/J \[Pa\].
-    pub torsion: N,
+    /// |N|/A \[Pa\].
+    pub mean: N,
     /// Mean compressive stress sgn(u) |N|/A \[Pa\].
     pub pressure: N,
+    /// Normal stress that bending makes, |T_t| r_b/I \[Pa\].
+    pub bending: N,
+    /// Shear stress of the shear force and of torsion, |F_t|/A + |T_n| r_b/J \[Pa\].
+    pub shear: N,
+    /// The part of it that torsion makes, |T_n| r_b/J \[Pa\].
+    pub torsion: N,
 }
 
-impl<N: Number> Stress<N> {
-    /// Of this bond.
+impl<N: Number> Loaded<N> {
+    /// Its stresses.
     #[inline(always)]
-    pub fn of(law: &Coefficients<N>, section: &Section<N>, elastic: &Elastic<N>) -> Self {
-        let per_area = N::splat(1.0) / section.area;
-        let per_rim = per_area / section.radius;
-        let mean = elastic.normal.abs() * per_area;
-        let compressed = elastic.compression.greater(N::zero());
-        let stretched = N::zero().greater(elastic.compression);
+    pub fn stress(&self) -> Stress<N> {
+        let per_area = N::splat(1.0) / self.section.area;
+        let per_rim = per_area / self.section.radius;
+        let mean = self.normal.abs() * per_area;
+        let compressed = self.compression.greater(N::zero());
+        let stretched = N::zero().greater(self.compression);
         let sign = N::select(compressed, N::splat(1.0), N::select(stretched, N::splat(-1.0), N::zero()));
         // r_b/I = 4/(A r_b) and r_b/J = 2/(A r_b) of a full circle.
-        let bending = elastic.bending.length() * N::splat(4.0) * per_rim;
-        let torsion = elastic.torsion.abs() * N::splat(2.0) * per_rim;
-        Self {
-            normal: mean * N::select(compressed, law.compression_share, N::splat(1.0)) + bending,
-            bending,
-            shear: elastic.shear.length() * per_area + torsion,
-            torsion,
-            pressure: mean * sign,
-        }
+        let bending = self.bending.length() * N::splat(4.0) * per_rim;
+        let torsion = self.torsion.abs() * N::splat(2.0) * per_rim;
+        Stress { mean, pressure: mean * sign, bending, shear: self.shear.length() * per_area + torsion, torsion }
+    }
+
+    /// Normal stress at the rim: mean and bending, the mean of a compressed bond times this share (1 where compression
+    /// breaks, −1 where it relieves) \[Pa\].
+    #[inline(always)]
+    pub fn normal_stress(&self, stress: &Stress<N>, compression_share: N) -> N {
+        let compressed = self.compression.greater(N::zero());
+        stress.mean * N::select(compressed, compression_share, N::splat(1.0)) + stress.bending
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_of_causes_are_counted_through_the_list() {
+        let names: Vec<&str> = (1..20).map_while(|code| cause_name(f64::from(code))).collect();
+        assert_eq!(names[..6], ["distance", "tension", "compression", "shear", "bending", "torsion"]);
+        assert_eq!(names.len(), CAUSES.iter().map(|causes| causes.len()).sum::<usize>());
+        assert_eq!((cause_name(0.0), cause_name(-1.0), cause_name(1e9)), (None, None, None));
     }
 }

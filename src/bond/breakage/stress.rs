@@ -1,8 +1,32 @@
-//! Breakage by the stresses at the rim.
+//! Breakage by the largest stresses at the rim.
 
-use super::{Stress, distance};
-use crate::bond::{Breakage, Cause, Coefficients, Elastic, Motion};
+use super::{Breakage, Loaded, flat_keys};
+use crate::bond::keys::{KeyError, Keys as BondKeys};
 use crate::number::Number;
+use crate::quantity::{NonNegative, Positive};
+
+flat_keys! {
+    /// Those of [`ByStress`].
+    {
+        /// Largest normal stress \[Pa\].
+        max_normal_stress: Positive ["Pa"],
+        /// Largest shear stress without normal force \[Pa\].
+        max_shear_stress: Positive ["Pa"],
+        /// Strength in tension over that in compression.
+        tension_ratio: Positive,
+        /// φ of the growth of shear strength with compression, from 0 to below π/2 \[rad\].
+        friction_angle: NonNegative,
+        /// Whether compression adds to the normal stress (as in the engine) or relieves it.
+        compression_breaks: bool,
+    }
+}
+
+impl Keys {
+    /// Whether a largest stress is named.
+    fn has_limit(&self) -> bool {
+        self.max_normal_stress.is_some() || self.max_shear_stress.is_some()
+    }
+}
 
 /// |u| below which the engine takes a bond for stretched \[m\].
 const STRETCHED_BELOW: f64 = 1e-16;
@@ -10,6 +34,8 @@ const STRETCHED_BELOW: f64 = 1e-16;
 /// Breaks where σ > S' or τ > τ' (the engine with `stressBreak`).
 ///
 /// ```text
+/// σ  = ±|N|/A + |T_t| r_b/I        + where stretched, or where compression breaks; − where it relieves
+/// τ  = |F_t|/A + |T_n| r_b/J
 /// S' = tension strength where u < 1e-16 m, else compression strength
 /// τ' = shear strength + sgn(u) |N|/A tan φ
 /// ```
@@ -17,28 +43,100 @@ const STRETCHED_BELOW: f64 = 1e-16;
 /// The larger of the two parts of the stress that is too large names the cause: tension or compression, or bending;
 /// shear, or torsion. Where compression relieves, a compressed bond hence breaks by bending.
 ///
-/// σ and τ: [`Stress`], after the evaluation of this step and without damping. With friction, compression
-/// raises the shear strength and tension lowers it, below 0 if need be: Mohr and Coulomb's limit on the mean
-/// normal stress. A strength that is not given is ∞. `max_distance`, where given, holds as well.
-#[derive(Clone, Copy, Debug)]
-pub struct ByStress;
+/// After the evaluation of this step and without damping. With friction, compression raises the shear strength and
+/// tension lowers it, below 0 if need be: Mohr and Coulomb's limit on the mean normal stress. A strength that is not
+/// given is ∞.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ByStress {
+    /// Largest normal stress of a compressed bond, or ∞ \[Pa\].
+    pub compression_strength: f64,
+    /// Largest normal stress of a stretched bond, or ∞ \[Pa\].
+    pub tension_strength: f64,
+    /// Largest shear stress without normal force, or ∞ \[Pa\].
+    pub shear_strength: f64,
+    /// tan φ: growth of the shear strength with the compressive stress.
+    pub friction: f64,
+    /// What compression adds to the normal stress, over |N|/A: 1 where compression breaks, −1 where it relieves.
+    pub compression_share: f64,
+}
+
+/// Place of `tension` among [`ByStress::CAUSES`], from 1.
+const TENSION: f64 = 1.0;
+/// Place of `compression`.
+const COMPRESSION: f64 = 2.0;
+/// Place of `shear`.
+const SHEAR: f64 = 3.0;
+/// Place of `bending`.
+const BENDING: f64 = 4.0;
+/// Place of `torsion`.
+const TORSION: f64 = 5.0;
 
 impl Breakage for ByStress {
+    type Keys = Keys;
+    const LIMITS: &'static [&'static str] = &["max_normal_stress", "max_shear_stress"];
+    const CAUSES: &'static [&'static str] = &["tension", "compression", "shear", "bending", "torsion"];
+
+    fn of(own: &Keys, bond: &BondKeys) -> Option<Self> {
+        let strength = own.max_normal_stress.map_or(f64::INFINITY, Positive::get);
+        own.has_limit().then(|| Self {
+            compression_strength: strength,
+            tension_strength: strength * own.tension_ratio.map_or(1.0, Positive::get),
+            shear_strength: own.max_shear_stress.map_or(f64::INFINITY, Positive::get),
+            friction: own.friction_angle.map_or(0.0, |angle| libm::tan(angle.get())),
+            compression_share: bond.compression_share(),
+        })
+    }
+
+    fn check(own: &Keys, bond: &BondKeys, wrong: &mut Vec<KeyError>) {
+        let (no_normal, no_shear) = (own.max_normal_stress.is_none(), own.max_shear_stress.is_none());
+        let mut add = |there: bool, key: &'static str, message: &str| KeyError::add(wrong, there, key, message);
+        add(
+            own.tension_ratio.is_some() && no_normal,
+            "breakage.tension_ratio",
+            "found without max_normal_stress, which it multiplies",
+        );
+        add(
+            own.friction_angle.is_some() && no_shear,
+            "breakage.friction_angle",
+            "found without max_shear_stress, which it raises",
+        );
+        add(
+            own.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
+            "breakage.friction_angle",
+            "an angle of π/2 or more found; radians from 0 to below π/2 are right",
+        );
+        add(
+            own.compression_breaks.is_some() && no_normal,
+            "breakage.compression_breaks",
+            "found without max_normal_stress, to which it belongs",
+        );
+        let exact = bond.formulation.is_engine();
+        add(
+            exact && own.compression_breaks == Some(false),
+            "breakage.compression_breaks",
+            "false found; in engine_exact compression always breaks",
+        );
+        let by_distance = bond.breakage.is_some_and(|keys| keys.distance.max_distance.is_some());
+        add(
+            exact && own.has_limit() && by_distance,
+            "breakage.max_distance",
+            "found beside a largest stress; engine_exact looks at one of them",
+        );
+    }
+
     #[inline(always)]
-    fn judge<N: Number>(law: &Coefficients<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> N {
-        let stress = Stress::of(law, &motion.section, elastic);
-        let stretched = N::splat(STRETCHED_BELOW).greater(elastic.compression);
-        let strength = N::select(stretched, law.tension_strength, law.compression_strength);
-        let code = |cause: Cause| N::splat(cause.code());
-        let axial_cause = N::select(stretched, code(Cause::Tension), code(Cause::Compression));
-        let bent = stress.bending.greater(stress.normal - stress.bending);
-        let normal_cause = N::select(bent, code(Cause::Bending), axial_cause);
+    fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N {
+        let stress = loaded.stress();
+        let normal = loaded.normal_stress(&stress, N::splat(self.compression_share));
+        let stretched = N::splat(STRETCHED_BELOW).greater(loaded.compression);
+        let strength = N::select(stretched, N::splat(self.tension_strength), N::splat(self.compression_strength));
+        let axial = N::select(stretched, N::splat(TENSION), N::splat(COMPRESSION));
+        let bent = stress.bending.greater(normal - stress.bending);
+        let normal_cause = N::select(bent, N::splat(BENDING), axial);
         let twisted = stress.torsion.greater(stress.shear - stress.torsion);
-        let shear_cause = N::select(twisted, code(Cause::Torsion), code(Cause::Shear));
-        let shear_strength = law.shear_strength + stress.pressure * law.friction;
+        let shear_cause = N::select(twisted, N::splat(TORSION), N::splat(SHEAR));
+        let shear_strength = N::splat(self.shear_strength) + stress.pressure * N::splat(self.friction);
         let by_shear = N::select(stress.shear.greater(shear_strength), shear_cause, N::zero());
-        let by_stress = N::select(stress.normal.greater(strength), normal_cause, by_shear);
-        let by_distance = distance::Distance::judge(law, motion, elastic);
-        N::select(by_distance.greater(N::zero()), by_distance, by_stress)
+        N::select(normal.greater(strength), normal_cause, by_shear)
     }
 }

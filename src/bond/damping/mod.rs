@@ -1,18 +1,94 @@
-//! Damping of bonds: force and torque added to the elastic ones. One model a file.
+//! Damping of bonds: force and torque added to the elastic ones. One model a file and a row in the list below.
 //!
 //! The bond's own state and its breakage do not see damping.
 
 pub mod componentwise;
-pub mod none;
 pub mod opposing;
 pub mod viscous;
 
 use super::{Coefficients, Elastic, Motion, Pair};
 use crate::number::{Number, Vector};
+use serde::Deserialize;
+
+/// Declares the list of damping models: yields `[bond.<name>.damping.<model>]` as the scene writes it, and the way from
+/// a row to its type. A new model is one row.
+macro_rules! damping_models {
+    ($($row:ident: $file:ident::$model:ident,)+) => {
+        /// `[bond.<name>.damping.<model>]`
+        #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum DampingChoice {
+            $(
+                #[doc = concat!("[`", stringify!($file), "::", stringify!($model), "`]")]
+                $row(<$file::$model as Model>::Keys),
+            )+
+        }
+
+        impl DampingChoice {
+            /// Why the model needs a given time step, if it does.
+            pub fn needs_given_step(&self) -> Option<&'static str> {
+                match self { $(Self::$row(_) => <$file::$model as Model>::NEEDS_GIVEN_STEP,)+ }
+            }
+
+            /// Whether the engine has it.
+            pub fn is_the_engines(&self) -> bool {
+                match self { $(Self::$row(_) => <$file::$model as Model>::IS_THE_ENGINES,)+ }
+            }
+
+            /// Goes from the row of the list to the type of what it computes.
+            pub fn visit<V: TakeDamping>(&self, visitor: V) -> V::Output {
+                match self { $(Self::$row(keys) => visitor.take(<$file::$model as Model>::of(keys)),)+ }
+            }
+        }
+    };
+}
+
+damping_models! {
+    Opposing: opposing::Opposing,
+    Viscous: viscous::Viscous,
+    Sign: componentwise::Sign,
+    Smooth: componentwise::Smooth,
+}
+
+/// What the scene says of a damping model.
+pub trait Model {
+    /// What stands in its table.
+    type Keys: Copy + std::fmt::Debug + PartialEq + for<'de> Deserialize<'de>;
+    /// What it computes. Models that differ in their numbers alone share it.
+    type Form: Damping;
+    /// Why it needs a given time step, if it does.
+    const NEEDS_GIVEN_STEP: Option<&'static str> = None;
+    /// Whether LIGGGHTS-INL has it.
+    const IS_THE_ENGINES: bool = false;
+    /// The model that its keys mean.
+    fn of(keys: &Self::Keys) -> Self::Form;
+}
+
+/// A damping model, in numbers.
+pub trait Damping: Copy + std::fmt::Debug + Send + Sync + 'static {
+    /// Whether it looks at masses and moments of inertia.
+    const NEEDS_MASSES: bool;
+    /// What it adds to a bond that moves like this.
+    fn damp<N: Number>(
+        &self,
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        elastic: &Elastic<N>,
+    ) -> Damped<N>;
+}
+
+/// What is to be done with a damping model once its type is known.
+pub trait TakeDamping {
+    /// What comes of it.
+    type Output;
+    /// Called once.
+    fn take<D: Damping>(self, damping: D) -> Self::Output;
+}
 
 /// What damping adds to each part.
 #[derive(Clone, Copy, Debug)]
-pub struct Lost<N: Number> {
+pub struct Damped<N: Number> {
     /// To the normal force on i \[N\].
     pub normal: Vector<N>,
     /// To the shear force on i, which turns both bodies by their arms \[N\].
@@ -23,12 +99,59 @@ pub struct Lost<N: Number> {
     pub bending: Vector<N>,
 }
 
-/// A damping model.
-pub trait Damping: Send + Sync + 'static {
-    /// Whether it adds anything.
-    const ACTIVE: bool;
-    /// Whether it looks at masses and moments of inertia.
-    const NEEDS_MASSES: bool;
-    /// What it adds.
-    fn damp<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N>;
+/// What damping does to two bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct DampingLoad<N: Number = f64> {
+    /// Force on i; j gets the opposite \[N\].
+    pub force: Vector<N>,
+    /// Torque on i \[N m\].
+    pub torque_i: Vector<N>,
+    /// Torque on j \[N m\].
+    pub torque_j: Vector<N>,
+}
+
+impl<N: Number> Damped<N> {
+    /// What it comes to for the two bodies.
+    #[inline(always)]
+    pub fn load(&self, pair: &Pair<N>, motion: &Motion<N>) -> DampingLoad<N> {
+        let couple = self.shear.cross(motion.axis) * motion.distance;
+        let twist = self.torsion + self.bending;
+        DampingLoad {
+            force: self.normal + self.shear,
+            torque_i: couple * pair.share_i + twist,
+            torque_j: couple * pair.share_j - twist,
+        }
+    }
+}
+
+impl<N: Number> DampingLoad<N> {
+    /// No load.
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { force: Vector::zero(), torque_i: Vector::zero(), torque_j: Vector::zero() }
+    }
+
+    /// Energy that it takes of bodies that move like this in half a time step of this length \[s\]: half a step with the
+    /// velocities after its evaluation, or half a step with those before \[J\].
+    ///
+    /// A force acts half a step before its evaluation and half a step after it. What it takes is booked with the
+    /// velocities of both sides, as the integrator does, so that the book holds where damping turns a motion round.
+    #[inline(always)]
+    pub fn taken(&self, pair: &Pair<N>, step: N) -> N {
+        let turning = self.torque_i.dot(pair.spin_i) + self.torque_j.dot(pair.spin_j);
+        -(self.force.dot(pair.velocity) + turning) * (N::splat(0.5) * step)
+    }
+
+    /// As rows, for the state.
+    #[inline(always)]
+    pub fn to_rows(self) -> [[N; 4]; 3] {
+        [self.force, self.torque_i, self.torque_j].map(|vector| [vector.x, vector.y, vector.z, N::zero()])
+    }
+
+    /// Back from them.
+    #[inline(always)]
+    pub fn from_rows(rows: [[N; 4]; 3]) -> Self {
+        let [force, torque_i, torque_j] = rows.map(|[x, y, z, _]| Vector::new(x, y, z));
+        Self { force, torque_i, torque_j }
+    }
 }

@@ -1,8 +1,11 @@
 //! Damping of constant share against the rate.
 
-use super::Lost;
-use crate::bond::{Coefficients, Damping, Elastic, Motion, Pair};
+use super::{Damped, Damping, Model};
+use crate::bond::elasticity::Parts;
+use crate::bond::keys::PartKeys;
+use crate::bond::{Coefficients, Elastic, Motion, Pair};
 use crate::number::{Number, Vector};
+use crate::quantity::Fraction;
 
 /// Smallest divisor of a rate, so that no motion gives no damping.
 const LEAST_RATE: f64 = 1e-300;
@@ -22,7 +25,19 @@ const LEAST_RATE: f64 = 1e-300;
 /// Rates are those in the bond's own frame: nothing depends on the axes of the scene, angular momentum is
 /// kept. As with every damping by a share of the force, a bond under load comes to rest only within ±α |X|.
 #[derive(Clone, Copy, Debug)]
-pub struct Opposing;
+pub struct Opposing {
+    /// α of each part.
+    pub shares: Parts,
+}
+
+impl Model for Opposing {
+    type Keys = PartKeys<Fraction>;
+    type Form = Self;
+
+    fn of(keys: &Self::Keys) -> Self {
+        Self { shares: keys.parts(Fraction::get) }
+    }
+}
 
 /// −α |X| v/|v|.
 #[inline(always)]
@@ -31,15 +46,20 @@ fn against<N: Number>(share: N, part: N, rate: Vector<N>) -> Vector<N> {
 }
 
 impl Damping for Opposing {
-    const ACTIVE: bool = true;
     const NEEDS_MASSES: bool = false;
 
     #[inline(always)]
-    fn damp<N: Number>(law: &Coefficients<N>, _: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
-        let [normal, shear, torsion, bending] = law.damping;
+    fn damp<N: Number>(
+        &self,
+        _law: &Coefficients<N>,
+        _pair: &Pair<N>,
+        motion: &Motion<N>,
+        elastic: &Elastic<N>,
+    ) -> Damped<N> {
+        let [normal, shear, torsion, bending] = self.shares.map(N::splat);
         let approach = motion.axis * motion.normal_velocity;
         let twist = motion.axis * motion.twist_rate;
-        Lost {
+        Damped {
             normal: against(normal, elastic.normal.abs(), approach),
             shear: against(shear, elastic.shear.length(), motion.slip),
             torsion: against(torsion, elastic.torsion.abs(), twist),

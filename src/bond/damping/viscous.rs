@@ -1,8 +1,11 @@
 //! Dashpots.
 
-use super::Lost;
-use crate::bond::{Coefficients, Damping, Elastic, Motion, Pair};
+use super::{Damped, Damping, Model};
+use crate::bond::elasticity::Parts;
+use crate::bond::keys::PartKeys;
+use crate::bond::{Coefficients, Elastic, Motion, Pair};
 use crate::number::Number;
+use crate::quantity::NonNegative;
 
 /// A dashpot beside the spring of each part, set by the share of critical damping.
 ///
@@ -24,7 +27,19 @@ use crate::number::Number;
 /// load, and nothing depends on the axes of the scene. Between two bodies without motion of their own there
 /// is no damping.
 #[derive(Clone, Copy, Debug)]
-pub struct Viscous;
+pub struct Viscous {
+    /// ζ of each part.
+    pub ratios: Parts,
+}
+
+impl Model for Viscous {
+    type Keys = PartKeys<NonNegative>;
+    type Form = Self;
+
+    fn of(keys: &Self::Keys) -> Self {
+        Self { ratios: keys.parts(NonNegative::get) }
+    }
+}
 
 /// 2 ζ √(K M), from 1/M.
 #[inline(always)]
@@ -35,11 +50,16 @@ fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
 }
 
 impl Damping for Viscous {
-    const ACTIVE: bool = true;
     const NEEDS_MASSES: bool = true;
 
     #[inline(always)]
-    fn damp<N: Number>(law: &Coefficients<N>, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) -> Lost<N> {
+    fn damp<N: Number>(
+        &self,
+        law: &Coefficients<N>,
+        pair: &Pair<N>,
+        motion: &Motion<N>,
+        elastic: &Elastic<N>,
+    ) -> Damped<N> {
         let one = N::splat(1.0);
         let section = &motion.section;
         let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
@@ -47,13 +67,14 @@ impl Damping for Viscous {
         let along = one / pair.mass_i + one / pair.mass_j;
         let across = along + arm_i * arm_i * lighter_i + arm_j * arm_j * lighter_j;
         let turning = lighter_i + lighter_j;
-        let [normal, shear, torsion, bending] = law.damping;
+        let [normal, shear, torsion, bending] = self.ratios.map(N::splat);
         let axial = law.normal_stiffness(elastic.compression) * section.area;
-        Lost {
+        Damped {
             normal: motion.axis * -(dashpot(normal, axial, along) * motion.normal_velocity),
-            shear: motion.slip * -dashpot(shear, law.shear * section.area, across),
-            torsion: motion.axis * -(dashpot(torsion, law.torsion * section.polar, turning) * motion.twist_rate),
-            bending: motion.bending_rate * -dashpot(bending, law.bending * section.axial, turning),
+            shear: motion.slip * -dashpot(shear, law.elastic.shear * section.area, across),
+            torsion: motion.axis
+                * -(dashpot(torsion, law.elastic.torsion * section.polar, turning) * motion.twist_rate),
+            bending: motion.bending_rate * -dashpot(bending, law.elastic.bending * section.axial, turning),
         }
     }
 }

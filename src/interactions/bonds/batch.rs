@@ -7,16 +7,21 @@
 //! 3. *react*: the rest of the law, new state, loads as rows;
 //! 4. *spread*: the rows are added to the bodies, one by one, in the order of the list.
 //!
+//! Damping and breakage follow the third stage where a law has them (`after.rs`).
+//!
 //! Each turn of the loop does one stage of four successive registers' worth. A root or a quotient is thus needed a whole
 //! turn after it was asked for: the processor, which looks only some hundred instructions ahead, does not wait for it.
 
+use super::after::{After, Bonds};
 use super::book::Done;
-use super::pipeline_buffer::PipelineBuffer;
+use super::pipeline_buffer::{PipelineBuffer, start_of};
+use crate::bond::damping::DampingLoad;
+use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
-    Body, BondLaw, Coefficients, Law, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Reaction, Rows,
+    Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
 };
 use crate::interactions::batch::{add, subtract};
-use crate::lanes::{self, Kernel, Lane, Shared, Width, columns, prefetch, vector};
+use crate::lanes::{self, Kernel, Lane, Shared, Width, prefetch, vector};
 use crate::state::Row;
 use std::marker::PhantomData;
 
@@ -25,15 +30,19 @@ use std::marker::PhantomData;
 type Energies = [f64; 8];
 
 /// What all slabs share.
-pub(crate) struct Work<'a, L> {
-    /// The law in numbers.
-    pub(crate) numbers: &'a Law,
+pub(super) struct Work<'a> {
+    /// Section and stiffnesses of the law.
+    pub(super) elasticity: &'a Elasticity,
+    /// Damping and breakage.
+    pub(super) after: &'a After,
     /// Body i of each bond.
     pub(crate) first: &'a [u32],
     /// Body j of each bond.
     pub(crate) second: &'a [u32],
     /// State of each bond, row by row.
     pub(crate) rows: [Shared<Row>; MOST_ROWS],
+    /// Load of damping in the last evaluation, row by row; empty where nothing damps.
+    pub(crate) damping: [Shared<Row>; 3],
     /// Energy that each bond lost; empty where none does.
     pub(crate) lost: Shared<f64>,
     /// Positions and radii.
@@ -42,53 +51,67 @@ pub(crate) struct Work<'a, L> {
     pub(crate) velocity: &'a [Row],
     /// Angular velocities and moments of inertia.
     pub(crate) angular_velocity: &'a [Row],
-    /// Attitudes; empty where no law needs them.
-    pub(crate) attitude: &'a [Row],
+    /// Orientations; empty where no law needs them.
+    pub(crate) orientation: &'a [Row],
     /// Forces.
     pub(crate) force: Shared<Row>,
     /// Torques.
     pub(crate) torque: Shared<Row>,
     /// Time since bonds were last advanced.
     pub(crate) step: f64,
-    /// The law.
-    pub(crate) law: PhantomData<fn() -> L>,
 }
 
-impl<L: BondLaw> Work<'_, L> {
-    /// Works through a slab.
-    pub(crate) fn slab(&self, from: usize, to: usize, width: Width) -> Done {
-        let mut done = Done::default();
-        if from < to {
-            let (mut ring, mut energies) = (PipelineBuffer::new(), [[0.0; 8]; 2]);
-            let (ring, lost, told) = (&mut ring, &mut energies, &mut done);
-            lanes::run(width, Slab { work: self, from, to, ring, energies: lost, done: told });
-            done.relaxed = energies[0].iter().sum();
-            done.damped = energies[1].iter().sum();
-        }
-        done
+/// Works through a slab of a list: bonds from one up to another, in this lane width.
+pub(super) type SlabOf = fn(&Work, usize, usize, Width) -> Done;
+
+/// Takes what works through slabs with a formulation.
+pub(super) struct TakeSlabs;
+
+impl TakeFormulation for TakeSlabs {
+    type Output = SlabOf;
+    fn take<F: Formulation>(self) -> SlabOf {
+        slab::<F>
     }
 }
 
+/// Works through a slab.
+fn slab<F: Formulation>(work: &Work, from: usize, to: usize, width: Width) -> Done {
+    let mut done = Done::default();
+    if from < to {
+        let (mut buffer, mut energies) = (PipelineBuffer::new(), [[0.0; 8]; 2]);
+        let (buffer, lost, told) = (&mut buffer, &mut energies, &mut done);
+        let formulation = PhantomData::<F>;
+        lanes::run(width, Slab { work, from, to, width, buffer, energies: lost, done: told, formulation });
+        done.relaxed = energies[0].iter().sum();
+        done.damped = energies[1].iter().sum();
+    }
+    done
+}
+
 /// The stages on one slab.
-struct Slab<'a, 'b, L> {
+struct Slab<'a, 'b, F> {
     /// What all slabs share.
-    work: &'a Work<'a, L>,
+    work: &'a Work<'a>,
     /// First bond.
     from: usize,
     /// Behind the last bond.
     to: usize,
+    /// Lane width.
+    width: Width,
     /// What is under way.
-    ring: &'b mut PipelineBuffer,
+    buffer: &'b mut PipelineBuffer,
     /// What relaxation and damping took.
     energies: &'b mut [Energies; 2],
     /// What else it came to.
     done: &'b mut Done,
+    /// The formulation.
+    formulation: PhantomData<F>,
 }
 
-impl<L: BondLaw> Kernel for Slab<'_, '_, L> {
+impl<F: Formulation> Kernel for Slab<'_, '_, F> {
     #[inline(always)]
     fn run<N: Lane>(mut self) {
-        let law = self.work.numbers.coefficients::<N>(self.work.step);
+        let law = self.work.elasticity.at_step::<N>(self.work.step);
         let count = (self.to - self.from).div_ceil(N::WIDTH);
         let mut held = Held::of(self.work, self.from);
         let mut turn = 0;
@@ -130,7 +153,7 @@ impl Lanes {
     /// # Safety
     /// Bonds from `from` up to `to` are in the list, and at least one.
     #[inline(always)]
-    unsafe fn of<L, N: Lane>(work: &Work<L>, from: usize, to: usize) -> Self {
+    unsafe fn of<N: Lane>(work: &Work, from: usize, to: usize) -> Self {
         let mut lanes = Self { bond: [0; 8], first: [0; 8], second: [0; 8] };
         let mut lane = 0;
         while lane < N::WIDTH {
@@ -147,7 +170,7 @@ impl Lanes {
     }
 }
 
-impl<L: BondLaw> Slab<'_, '_, L> {
+impl<F: Formulation> Slab<'_, '_, F> {
     /// First of the bonds that are worked on together.
     #[inline(always)]
     fn bond<N: Lane>(&self, turn: usize) -> usize {
@@ -166,15 +189,18 @@ impl<L: BondLaw> Slab<'_, '_, L> {
         // SAFETY: both point to as many slots of particles as there are lanes.
         let pair = unsafe {
             if self.to - bond < N::WIDTH {
-                lanes = Lanes::of::<L, N>(work, bond, self.to);
+                lanes = Lanes::of::<N>(work, bond, self.to);
                 (first, second) = (lanes.first.as_ptr(), lanes.second.as_ptr());
             }
-            let mut pair = Pair::of_spheres(&load_body::<L, N>(work, first), &load_body::<L, N>(work, second));
+            let mut pair = Pair::of_spheres(&load_body::<F, N>(work, first), &load_body::<F, N>(work, second));
             pair.velocity = vector(N::load_difference(work.velocity.as_ptr(), first, second));
+            if work.after.needs_masses {
+                self.buffer.put_masses(turn, [pair.mass_i, pair.mass_j, pair.inertia_i, pair.inertia_j]);
+            }
             pair
         };
         let mut row = 0;
-        while row < L::ROWS {
+        while row < F::ROWS {
             let start = work.rows[row].pointer().wrapping_add(bond + AHEAD);
             let mut lane = 0;
             while lane < N::WIDTH {
@@ -183,7 +209,41 @@ impl<L: BondLaw> Slab<'_, '_, L> {
             }
             row += 1;
         }
-        self.ring.put_pairs::<L, N>(turn, &pair, &Lengths::of(L::RATES, law, &pair));
+        self.buffer.put_pairs::<F, N>(turn, &pair, &Lengths::of(F::RATES, law, &pair));
+    }
+
+    /// A row of the bonds from one on, out of its column.
+    ///
+    /// # Safety
+    /// As for [`Slab::meet`]; the column has a row for each bond.
+    #[inline(always)]
+    unsafe fn load<N: Lane>(&self, column: Shared<Row>, bond: usize) -> [N; 4] {
+        // SAFETY: the caller's promise; these bonds belong to this slab alone.
+        unsafe {
+            if self.to - bond < N::WIDTH {
+                let lanes = Lanes::of::<N>(self.work, bond, self.to);
+                N::load_rows(column.pointer(), lanes.bond.as_ptr())
+            } else {
+                N::load_block(column.pointer().add(bond))
+            }
+        }
+    }
+
+    /// Writes a row of the bonds from one on to its column.
+    ///
+    /// # Safety
+    /// As for [`Slab::load`].
+    #[inline(always)]
+    unsafe fn store<N: Lane>(&self, row: [N; 4], column: Shared<Row>, bond: usize) {
+        // SAFETY: as for `load`; a repeated row is written twice with the same.
+        unsafe {
+            if self.to - bond < N::WIDTH {
+                let lanes = Lanes::of::<N>(self.work, bond, self.to);
+                N::store_rows(row, column.pointer(), lanes.bond.as_ptr());
+            } else {
+                N::store_block(row, column.pointer().add(bond));
+            }
+        }
     }
 
     /// State of the bonds.
@@ -194,17 +254,9 @@ impl<L: BondLaw> Slab<'_, '_, L> {
     unsafe fn rows<N: Lane>(&self, bond: usize) -> Rows<N> {
         let mut rows: Rows<N> = [[N::zero(); 4]; MOST_ROWS];
         let mut row = 0;
-        while row < L::ROWS {
-            let column = self.work.rows[row].pointer();
-            // SAFETY: each column has a row for each bond; these bonds belong to this slab alone.
-            rows[row] = unsafe {
-                if self.to - bond < N::WIDTH {
-                    let lanes = Lanes::of::<L, N>(self.work, bond, self.to);
-                    N::load_rows(column, lanes.bond.as_ptr())
-                } else {
-                    N::load_block(column.add(bond))
-                }
-            };
+        while row < F::ROWS {
+            // SAFETY: the caller's promise.
+            rows[row] = unsafe { self.load(self.work.rows[row], bond) };
             row += 1;
         }
         rows
@@ -216,82 +268,107 @@ impl<L: BondLaw> Slab<'_, '_, L> {
     /// As for [`Slab::meet`].
     #[inline(always)]
     unsafe fn open<N: Lane>(&mut self, law: &Coefficients<N>, turn: usize) {
-        let (pair, lengths) = self.ring.pairs::<L, N>(turn);
-        let opening = Opening::of(L::RATES, law, &pair, &lengths);
+        let (pair, lengths) = self.buffer.pairs::<F, N>(turn);
+        let opening = Opening::of(F::RATES, law, &pair, &lengths);
         let mut rows: Rows<N> = [[N::zero(); 4]; MOST_ROWS];
-        if L::HALFWAY > 0 {
+        if F::HALFWAY > 0 {
             // SAFETY: the caller's promise.
             rows = unsafe { self.rows(self.bond::<N>(turn)) };
         }
-        let halfway = L::halfway(&pair, lengths.distance, &rows);
-        self.ring.put_opened::<L, N>(turn, &opening, &halfway);
+        let halfway = F::halfway(&pair, lengths.distance, &rows);
+        self.buffer.put_opened::<F, N>(turn, &opening, &halfway);
     }
 
-    /// The law.
+    /// The formulation, and what follows it.
     ///
     /// # Safety
     /// As for [`Slab::meet`].
     #[inline(always)]
     unsafe fn react<N: Lane>(&mut self, law: &Coefficients<N>, turn: usize) {
         let (work, bond) = (self.work, self.bond::<N>(turn));
-        let (pair, lengths) = self.ring.pairs::<L, N>(turn);
-        let (opening, halfway) = self.ring.opened::<L, N>(turn);
-        let motion = Motion::after(L::RATES, law, &pair, &lengths, &opening);
+        let (pair, lengths) = self.buffer.pairs::<F, N>(turn);
+        let (opening, halfway) = self.buffer.opened::<F, N>(turn);
+        let motion = Motion::after(F::RATES, law, &pair, &lengths, &opening);
         // SAFETY: the caller's promise.
         let rows = unsafe { self.rows(bond) };
-        let reaction = L::act(law, &pair, &motion, &halfway, &rows);
-        let loads = self.ring.loads_mut(turn);
-        // SAFETY: there is room for a register; rows as in `rows`, a repeated one is written twice with the same.
-        unsafe {
-            N::store_block(columns(reaction.force), loads.force.as_mut_ptr());
-            N::store_block(columns(reaction.torque_i), loads.first_torque.as_mut_ptr());
-            N::store_block(columns(reaction.torque_j), loads.second_torque.as_mut_ptr());
-            let mut row = L::FIXED_ROWS;
-            while row < L::ROWS && work.step > 0.0 {
-                let column = work.rows[row].pointer();
-                if self.to - bond < N::WIDTH {
-                    let lanes = Lanes::of::<L, N>(work, bond, self.to);
-                    N::store_rows(reaction.rows[row], column, lanes.bond.as_ptr());
-                } else {
-                    N::store_block(reaction.rows[row], column.add(bond));
-                }
-                row += 1;
-            }
+        let elastic = F::finish(law, &pair, &motion, &halfway, &rows);
+        let mut row = F::FIXED_ROWS;
+        while row < F::ROWS && work.step > 0.0 {
+            // SAFETY: the caller's promise.
+            unsafe { self.store(elastic.rows[row], work.rows[row], bond) };
+            row += 1;
         }
-        self.note(bond, &reaction);
+        if F::RELAXES {
+            self.buffer.answer.put_relaxed(elastic.relaxed);
+        }
+        if N::any(elastic.overbent) && self.done.overbent.is_none() {
+            // Lanes behind the last bond repeat the first one.
+            self.done.overbent = Some((bond + N::bits(elastic.overbent).trailing_zeros() as usize) as u32);
+        }
+        if work.after.damping.is_none() {
+            self.buffer.put_loads(turn, [elastic.force, elastic.torque_i, elastic.torque_j]);
+        }
+        if !work.after.is_empty() {
+            self.buffer.answer.put_elastic(&pair, &motion, &elastic);
+            // SAFETY: the caller's promise.
+            unsafe { self.follow::<N>(turn, &motion, &elastic) };
+        }
+        if F::RELAXES || work.after.damping.is_some() {
+            self.sum_losses(bond, usize::min(self.to - bond, N::WIDTH));
+        }
     }
 
-    /// Notes what broke, what was bent too far, and what the bonds lost.
+    /// Damping and breakage.
+    ///
+    /// # Safety
+    /// As for [`Slab::meet`].
     #[inline(always)]
-    fn note<N: Lane>(&mut self, bond: usize, reaction: &Reaction<N>) {
-        let here = if self.to - bond < N::WIDTH { self.to - bond } else { N::WIDTH };
-        if N::any(reaction.cause.greater(N::zero())) {
-            let mut causes = [0.0; 8];
-            // SAFETY: there is room for a register.
-            unsafe { reaction.cause.store(causes.as_mut_ptr()) };
-            for (lane, &cause) in causes[..here].iter().enumerate().filter(|(_, cause)| **cause != 0.0) {
+    unsafe fn follow<N: Lane>(&mut self, turn: usize, motion: &Motion<N>, elastic: &Elastic<N>) {
+        let Work { after, elasticity, step, .. } = *self.work;
+        let (start, bond) = (start_of::<F>(turn), self.bond::<N>(turn));
+        if let (Some(damping), true) = (&after.damping, F::RATES != Rates::Unseen) {
+            // SAFETY: the caller's promise; a bond that is damped has these rows.
+            let last = unsafe { self.work.damping.map(|column| self.load::<N>(column, bond)) };
+            self.buffer.answer.put_damping(&DampingLoad::from_rows(last));
+            self.buffer.answer.put_motion(&motion.settled(), elastic);
+            damping.run(self.width, Bonds { elasticity, step, buffer: self.buffer, turn, start });
+            let rows = self.buffer.answer.damping::<N>().to_rows();
+            for (column, row) in self.work.damping.into_iter().zip(rows) {
+                // SAFETY: as above.
+                unsafe { self.store(row, column, bond) };
+            }
+        }
+        for rule in &after.breakage {
+            rule.run(self.width, Bonds { elasticity, step, buffer: self.buffer, turn, start });
+        }
+        if self.buffer.answer.breaks {
+            self.break_bonds(turn, bond, usize::min(self.to - bond, N::WIDTH));
+        }
+    }
+
+    /// Notes which of so many bonds from one on broke; they act no more.
+    #[cold]
+    fn break_bonds(&mut self, turn: usize, bond: usize, count: usize) {
+        for lane in 0..count {
+            let cause = self.buffer.answer.cause[0][lane];
+            if cause != 0.0 {
+                self.buffer.clear(turn, lane);
                 self.done.broken.push(((bond + lane) as u32, cause, 0.0));
             }
         }
-        if N::any(reaction.overbent) && self.done.overbent.is_none() {
-            // Lanes behind the last bond repeat the first one.
-            self.done.overbent = Some((bond + N::bits(reaction.overbent).trailing_zeros() as usize) as u32);
-        }
-        if L::RELAXES || L::DAMPS {
-            let (mut relaxed, mut damped) = ([0.0; 8], [0.0; 8]);
-            // SAFETY: there is room for a register.
-            unsafe {
-                reaction.relaxed.store(relaxed.as_mut_ptr());
-                reaction.damped.store(damped.as_mut_ptr());
-            }
-            for lane in 0..here {
-                let place = (bond - self.from + lane) % 8;
-                self.energies[0][place] += relaxed[lane];
-                self.energies[1][place] += damped[lane];
-                if self.work.lost.length() > 0 {
-                    // SAFETY: there is one for each bond, and this bond belongs to this slab alone.
-                    unsafe { *self.work.lost.at(bond + lane) += relaxed[lane] + damped[lane] };
-                }
+    }
+
+    /// Notes what so many bonds from one on lost.
+    #[inline(always)]
+    fn sum_losses(&mut self, bond: usize, count: usize) {
+        for lane in 0..count {
+            let place = (bond - self.from + lane) % 8;
+            let [relaxed, damped] = self.buffer.answer.taken(lane);
+            self.energies[0][place] += relaxed;
+            self.energies[1][place] += damped;
+            if self.work.lost.length() > 0 {
+                // SAFETY: there is one for each bond, and this bond belongs to this slab alone.
+                unsafe { *self.work.lost.at(bond + lane) += relaxed + damped };
             }
         }
     }
@@ -303,7 +380,7 @@ impl<L: BondLaw> Slab<'_, '_, L> {
     #[inline(always)]
     unsafe fn spread<N: Lane>(&mut self, held: &mut Held, turn: usize) {
         let (work, bond) = (self.work, self.bond::<N>(turn));
-        let loads = self.ring.loads(turn);
+        let loads = self.buffer.loads(turn);
         let here = if self.to - bond < N::WIDTH { self.to - bond } else { N::WIDTH };
         let mut lane = 0;
         while lane < here {
@@ -346,20 +423,20 @@ struct Held {
 impl Held {
     /// Of the first body of this bond.
     #[inline(always)]
-    fn of<L>(work: &Work<L>, bond: usize) -> Self {
+    fn of(work: &Work, bond: usize) -> Self {
         Self::at(work, work.first[bond].min(work.second[bond]) as usize)
     }
 
     /// Of this particle.
     #[inline(always)]
-    fn at<L>(work: &Work<L>, slot: usize) -> Self {
+    fn at(work: &Work, slot: usize) -> Self {
         // SAFETY: slabs worked on at the same time do not share particles.
         unsafe { Self { slot, force: *work.force.at(slot), torque: *work.torque.at(slot) } }
     }
 
     /// Back to where they are kept.
     #[inline(always)]
-    fn put<L>(&self, work: &Work<L>) {
+    fn put(&self, work: &Work) {
         // SAFETY: as above.
         unsafe { (*work.force.at(self.slot), *work.torque.at(self.slot)) = (self.force, self.torque) };
     }
@@ -370,14 +447,14 @@ impl Held {
 /// # Safety
 /// `slots` points to [`Lane::WIDTH`] slots of the list.
 #[inline(always)]
-unsafe fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: *const u32) -> Body<N> {
-    // SAFETY: a list holds slots of particles, below their number; attitudes are there where a law needs them.
+unsafe fn load_body<F: Formulation, N: Lane>(work: &Work, slots: *const u32) -> Body<N> {
+    // SAFETY: a list holds slots of particles, below their number; orientations are there where a law needs them.
     unsafe {
         let position = N::load_rows(work.position.as_ptr(), slots);
         let velocity = N::load_rows(work.velocity.as_ptr(), slots);
         let spin = N::load_rows(work.angular_velocity.as_ptr(), slots);
-        let attitude = if L::NEEDS_ATTITUDES {
-            Quaternion::from_row(N::load_rows(work.attitude.as_ptr(), slots))
+        let orientation = if F::NEEDS_ORIENTATIONS {
+            Quaternion::from_row(N::load_rows(work.orientation.as_ptr(), slots))
         } else {
             Quaternion::identity()
         };
@@ -385,7 +462,7 @@ unsafe fn load_body<L: BondLaw, N: Lane>(work: &Work<L>, slots: *const u32) -> B
             position: vector(position),
             velocity: vector(velocity),
             spin: vector(spin),
-            attitude,
+            orientation,
             radius: position[3],
             mass: velocity[3],
             inertia: spin[3],

@@ -61,7 +61,7 @@ impl Done {
     }
 
     /// Adds what one bond did.
-    pub(crate) fn add(&mut self, bond: u32, reaction: &Reaction<f64>) {
+    pub(crate) fn add(&mut self, bond: u32, reaction: &Reaction) {
         self.relaxed += reaction.relaxed;
         self.damped += reaction.damped;
         if reaction.cause != 0.0 {

@@ -4,6 +4,7 @@
 //! order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
 //! through.
 
+mod after;
 mod batch;
 mod book;
 mod pipeline_buffer;
@@ -13,7 +14,7 @@ pub(crate) use book::{Done, book};
 use super::pass::{Link, Pass};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::{Creation, Moment, near_pair};
-use crate::bond::{Body, BondLaw, Carried, Law, Pair, Quaternion, Rows};
+use crate::bond::{Body, Carried, Law, OneBond, Pair, Quaternion, Rows};
 use crate::contact::Response;
 use crate::lanes::Shared;
 use crate::neighbours::PairCache;
@@ -24,48 +25,54 @@ use crate::quantity::SetIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
-use crate::state::{Particles, State};
+use crate::state::{BondList, Particles, Row, State};
 use crate::threads::Context;
-use batch::Work;
-use std::marker::PhantomData;
+use after::After;
+use batch::{SlabOf, TakeSlabs, Work};
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one bond law between particles.
-pub(crate) struct BondPass<L> {
+pub(crate) struct BondPass {
     /// Which list of the state is its own; also the law's index in the scene.
-    pub index: usize,
+    index: usize,
     /// The law in numbers.
-    pub numbers: Law,
+    law: Law,
+    /// Its formulation for one bond.
+    one_bond: OneBond,
+    /// Its formulation for a slab of bonds.
+    slab: SlabOf,
+    /// Its damping and breakage for several bonds at a time.
+    after: After,
     /// When bonds are made.
-    pub creation: Creation,
+    creation: Creation,
     /// Centres nearer than this are bonded \[m\].
-    pub create_distance: f64,
+    create_distance: f64,
     /// Set of each of the scene's particles.
-    pub sets: Vec<SetIndex>,
+    sets: Vec<SetIndex>,
     /// Between which sets.
-    pub between: [SetIndex; 2],
+    between: [SetIndex; 2],
     /// Listed pairs: indices into the scene's particles.
-    pub pairs: Vec<[u32; 2]>,
+    pairs: Vec<[u32; 2]>,
     /// Pairs that may be near, where bonds are made in every step.
-    pub near: Mutex<PairCache>,
-    /// The law.
-    pub law: PhantomData<fn() -> L>,
+    near: Mutex<PairCache>,
 }
 
-impl<L: BondLaw> BondPass<L> {
+impl BondPass {
     /// The pass of this bond of the scene.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
         let bond = &scene.bonds[index];
         Self {
             index,
-            numbers: bond.law,
+            one_bond: bond.law.one_bond(),
+            slab: bond.law.formulation.visit(bond.law.asked(), TakeSlabs),
+            after: After::of(&bond.law),
+            law: bond.law.clone(),
             creation: bond.create.clone(),
             create_distance: bond.create_distance.unwrap_or(0.0),
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
             between: bond.between,
             pairs: bond.pairs.clone(),
             near: Mutex::default(),
-            law: PhantomData,
         }
     }
 
@@ -83,7 +90,7 @@ impl<L: BondLaw> BondPass<L> {
             *row = column[bond];
         }
         let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
-        L::carried(&self.numbers, &pair_of(&state.particles, i, j), &rows)
+        self.law.carried(&pair_of(&state.particles, i, j), &rows)
     }
 
     /// Pairs without a bond that are to be bonded at this moment, as slots of i and j; i has the smaller id.
@@ -100,7 +107,7 @@ impl<L: BondLaw> BondPass<L> {
                 pairs.push([a, b]);
             }
         };
-        if self.creation == Creation::Always && moment.number > 0 {
+        if self.creation.is_continual() && self.creation.bonds_near_pairs(moment) {
             let mut near = self.near.lock().unwrap_or_else(PoisonError::into_inner);
             near.pairs(particles, self.create_distance, hand);
         } else if self.creation.bonds_near_pairs(moment) {
@@ -115,33 +122,34 @@ impl<L: BondLaw> BondPass<L> {
     }
 }
 
-impl<L: BondLaw> Pass for BondPass<L> {
+impl Pass for BondPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.bonds[self.index];
         let particles = &mut state.particles;
         let slabs = list.slabs.len().saturating_sub(1);
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
-        let work = Work::<L> {
-            numbers: &self.numbers,
+        let work = Work {
+            elasticity: &self.law.elasticity,
+            after: &self.after,
             first: &list.first,
             second: &list.second,
             rows: [column(), column(), column()],
+            damping: shared_damping(&mut list.damping),
             lost: Shared::new(&mut list.lost),
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
-            attitude: &particles.attitude,
+            orientation: &particles.attitude,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
             step: context.step,
-            law: PhantomData,
         };
         let ends = &list.slabs;
         let mut results = vec![Done::default(); slabs];
         let places = Shared::new(&mut results);
         context.slabs(slabs, |slab| {
-            let done = work.slab(ends[slab] as usize, ends[slab + 1] as usize, context.width);
+            let done = (self.slab)(&work, ends[slab] as usize, ends[slab + 1] as usize, context.width);
             // SAFETY: each slab is done once, and has a place of its own.
             unsafe { *places.at(slab) = done };
         });
@@ -153,17 +161,15 @@ impl<L: BondLaw> Pass for BondPass<L> {
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
         let wanted = self.wanted(state, moment);
-        let law = self.numbers.coefficients::<f64>(step);
+        let law = self.law.elasticity.at_step::<f64>(step);
         let list = &mut state.bonds[self.index];
-        list.rows.resize(L::ROWS, Vec::new());
+        list.rows.resize(self.one_bond.rows, Vec::new());
         for &[i, j] in &wanted {
             let pair = pair_of(&state.particles, i as usize, j as usize);
-            let rows = L::create(&law, &pair);
+            let rows = (self.one_bond.create)(&law, &pair);
             list.first.push(i);
             list.second.push(j);
-            if self.numbers.dissipates() {
-                list.lost.push(0.0);
-            }
+            begin_losses(list, &self.law);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
             }
@@ -179,7 +185,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
     }
 
     fn needs_attitudes(&self) -> bool {
-        L::NEEDS_ATTITUDES
+        self.one_bond.needs_orientations
     }
 
     fn source(&self) -> Source {
@@ -193,7 +199,7 @@ impl<L: BondLaw> Pass for BondPass<L> {
         for (&i, &j) in list.first.iter().zip(&list.second) {
             let pair = pair_of(&state.particles, i as usize, j as usize);
             let distance = pair.connection.length();
-            let [normal, shear, torsion, bending] = self.numbers.stiffness(pair.least_radius);
+            let [normal, shear, torsion, bending] = self.law.elasticity.stiffness(pair.least_radius);
             let response = Response {
                 normal_stiffness: normal,
                 tangential_stiffness: shear,
@@ -235,6 +241,25 @@ impl<L: BondLaw> Pass for BondPass<L> {
     }
 }
 
+/// The columns of the load of damping.
+pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; 3] {
+    let mut columns = columns.iter_mut();
+    [(); 3].map(|()| columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column)))
+}
+
+/// Adds to a list what is kept of a new bond where its law loses energy.
+pub(crate) fn begin_losses(list: &mut BondList, law: &Law) {
+    if law.dissipates() {
+        list.lost.push(0.0);
+    }
+    if law.damping.is_some() {
+        list.damping.resize(3, Vec::new());
+        for column in &mut list.damping {
+            column.push([0.0; 4]);
+        }
+    }
+}
+
 /// Two particles as bodies of a bond.
 pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
     Pair::of_spheres(&body_of(particles, i), &body_of(particles, j))
@@ -242,12 +267,12 @@ pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 
 /// A particle as a body of a bond.
 pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
-    let attitude = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let orientation = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
     Body {
         position: particles.position[slot].into(),
         velocity: particles.velocity[slot].into(),
         spin: particles.angular_velocity[slot].into(),
-        attitude: Quaternion::from_row(attitude),
+        orientation: Quaternion::from_row(orientation),
         radius: particles.position[slot][3],
         mass: particles.velocity[slot][3],
         inertia: particles.angular_velocity[slot][3],

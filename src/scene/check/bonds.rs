@@ -3,7 +3,7 @@
 use super::consistency::Finding;
 use super::particles::Born;
 use super::raw_tables::RawTables;
-use crate::bond::creation::Creation;
+use crate::bond::creation::{Listed, Moment};
 use crate::bond::keys::Keys;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::document::{Document, Faults};
@@ -130,10 +130,10 @@ fn listed(
     born: &Born,
     faults: &mut Faults,
 ) -> Option<Vec<[u32; 2]>> {
-    let (ids, key) = match &keys.create {
-        Creation::Pairs(pairs) => (pairs.clone(), "create.pairs"),
-        Creation::File(file) => (from_file(file, source, table, faults)?, "create.file"),
-        _ => return Some(Vec::new()),
+    let (ids, key) = match keys.create.listed() {
+        Some(Listed::Here(pairs)) => (pairs.to_vec(), "create.pairs"),
+        Some(Listed::InFile(file)) => (from_file(file, source, table, faults)?, "create.file"),
+        None => return Some(Vec::new()),
     };
     let before = faults.count();
     let mut pairs = Vec::with_capacity(ids.len());
@@ -212,15 +212,6 @@ impl Bond {
     fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
         self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
     }
-
-    /// Whether near pairs are bonded before they move.
-    fn bonds_at_start(&self) -> bool {
-        match self.create {
-            Creation::Start | Creation::Always => true,
-            Creation::Time(time) => time.get() <= 0.0,
-            _ => false,
-        }
-    }
 }
 
 /// Which pairs are bonded at the start, so that their overlap is no mistake.
@@ -245,7 +236,7 @@ impl<'a> Bonded<'a> {
         let sets = [a, b].map(|index| self.scene.particles[index].set);
         self.listed.binary_search(&[a as u32, b as u32]).is_ok()
             || self.scene.bonds.iter().any(|bond| {
-                bond.bonds_at_start()
+                bond.create.bonds_at_start()
                     && bond.joins(sets[0], sets[1])
                     && bond.create_distance.is_some_and(|most| distance < most)
             })
@@ -254,7 +245,7 @@ impl<'a> Bonded<'a> {
 
 /// Bond laws that bond nobody at the start, though that is when they bond.
 pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
-    let waiting = |bond: &&Bond| matches!(bond.create, Creation::Start);
+    let waiting = |bond: &&Bond| bond.create.bonds_near_pairs(&Moment::START);
     scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
 }
 

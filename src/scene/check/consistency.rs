@@ -142,7 +142,8 @@ fn numbers(scene: &Scene) -> Vec<Finding> {
     let mut findings = Vec::new();
     if let Some(particle) = scene.particles.iter().find(light) {
         let (id, radius, mass, density) = (particle.id.0, particle.radius, particle.mass(), particle.density);
-        let what = format!("particle {id} of radius {radius:?} m and density {density:?} kg/m³ has a mass of {mass:?} kg");
+        let what =
+            format!("particle {id} of radius {radius:?} m and density {density:?} kg/m³ has a mass of {mass:?} kg");
         let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308) are right".to_owned();
         findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
     }

@@ -206,7 +206,7 @@ fn overlap((from, a): ([f64; 3], f64), (to, b): ([f64; 3], f64)) -> Option<Overl
 }
 
 /// Of two places \[m²\].
-fn squared_distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+pub(super) fn squared_distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let way: [f64; 3] = std::array::from_fn(|axis| a[axis] - b[axis]);
     way[0] * way[0] + way[1] * way[1] + way[2] * way[2]
 }

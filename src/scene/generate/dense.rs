@@ -100,6 +100,7 @@ mod tests {
     use super::*;
     use crate::quantity::{Fraction, Positive};
     use crate::scene::file::{CylinderTable, PackingTable, Radii, Triple};
+    use crate::scene::generate::crowd::squared_distance;
     use crate::scene::generate::packing;
     use std::num::NonZeroU32;
 

@@ -1,35 +1,35 @@
 //! Two bodies in any placement, and a reproducible source of random ones.
 
-use crate::bond::{Body, Elastic, Formulation, Law, Motion, Pair, Quaternion, Rows};
-use crate::number::Vector;
+use cograin::bond::{Body, Elastic, Elasticity, Formulation, Pair, Quaternion, Rows};
+use cograin::number::Vector;
 
-/// Radii of the trial pair \[m\].
-pub(super) const RADII: [f64; 2] = [1.0, 0.6];
+/// Radii of the test pair \[m\].
+pub(crate) const RADII: [f64; 2] = [1.0, 0.6];
 
-/// A linear congruential generator (Knuth's constants): enough for trial placements.
-pub(super) struct Random(pub(super) u64);
+/// A linear congruential generator (Knuth's constants): enough for test placements.
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// A number in −1 … 1.
-    pub(super) fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
     /// A vector of the cube −1 … 1.
-    pub(super) fn vector(&mut self) -> Vector {
+    pub(crate) fn vector(&mut self) -> Vector {
         Vector::new(self.number(), self.number(), self.number())
     }
 
     /// A turn by up to this angle \[rad\].
-    pub(super) fn turn(&mut self, angle: f64) -> Quaternion {
+    pub(crate) fn turn(&mut self, angle: f64) -> Quaternion {
         let axis = self.vector();
         turn(axis * (angle * self.number() / axis.length()))
     }
 }
 
 /// The turn by this rotation vector \[rad\], independent of the program's own map.
-pub(super) fn turn(rotation: Vector) -> Quaternion {
+pub(crate) fn turn(rotation: Vector) -> Quaternion {
     let angle = rotation.length();
     let share = if angle > 0.0 { libm::sin(angle / 2.0) / angle } else { 0.5 };
     Quaternion { scalar: libm::cos(angle / 2.0), vector: rotation * share }
@@ -37,46 +37,46 @@ pub(super) fn turn(rotation: Vector) -> Quaternion {
 
 /// Where two bodies are.
 #[derive(Clone, Copy)]
-pub(super) struct Placement {
+pub(crate) struct Placement {
     /// Positions \[m\].
-    pub(super) position: [Vector; 2],
+    pub(crate) position: [Vector; 2],
     /// Attitudes.
-    pub(super) attitude: [Quaternion; 2],
+    pub(crate) orientation: [Quaternion; 2],
 }
 
 impl Placement {
     /// Two bodies at about the distance of touch.
-    pub(super) fn random(random: &mut Random) -> Self {
+    pub(crate) fn random(random: &mut Random) -> Self {
         let direction = random.vector();
         let connection = direction * (1.65 / direction.length());
         let position = random.vector();
-        Self { position: [position + connection, position], attitude: [random.turn(3.0), random.turn(3.0)] }
+        Self { position: [position + connection, position], orientation: [random.turn(3.0), random.turn(3.0)] }
     }
 
     /// The same with both bodies moved and turned on their own.
-    pub(super) fn disturbed(mut self, random: &mut Random, distance: f64, angle: f64) -> Self {
+    pub(crate) fn disturbed(mut self, random: &mut Random, distance: f64, angle: f64) -> Self {
         for body in 0..2 {
             self.position[body] += random.vector() * distance;
-            self.attitude[body] = random.turn(angle) * self.attitude[body];
+            self.orientation[body] = random.turn(angle) * self.orientation[body];
         }
         self
     }
 
     /// The same turned as a whole about the origin.
-    pub(super) fn turned(self, whole: Quaternion) -> Self {
+    pub(crate) fn turned(self, whole: Quaternion) -> Self {
         Self {
             position: self.position.map(|position| whole.turn(position)),
-            attitude: self.attitude.map(|attitude| whole * attitude),
+            orientation: self.orientation.map(|orientation| whole * orientation),
         }
     }
 
     /// The pair at rest in this placement.
-    pub(super) fn pair(&self) -> Pair {
+    pub(crate) fn pair(&self) -> Pair {
         let body = |index: usize| Body {
             position: self.position[index],
             velocity: Vector::zero(),
             spin: Vector::zero(),
-            attitude: self.attitude[index],
+            orientation: self.orientation[index],
             radius: RADII[index],
             mass: 1.0,
             inertia: 1.0,
@@ -86,18 +86,16 @@ impl Placement {
 }
 
 /// What a formulation answers to a placement, nothing moving.
-pub(super) fn answer<F: Formulation>(law: &Law, placement: &Placement, rows: &Rows) -> Elastic<f64> {
-    let (law, pair) = (law.coefficients(0.0), placement.pair());
-    let motion: Motion = F::motion(&law, &pair);
-    F::respond(&law, &pair, &motion, rows)
+pub(crate) fn answer<F: Formulation>(law: &Elasticity, placement: &Placement, rows: &Rows) -> Elastic<f64> {
+    F::respond(&law.at_step(0.0), &placement.pair(), rows).1
 }
 
 /// The state of a bond that is made in this placement.
-pub(super) fn created<F: Formulation>(law: &Law, placement: &Placement) -> Rows {
-    F::create(&law.coefficients(0.0), &placement.pair())
+pub(crate) fn created<F: Formulation>(law: &Elasticity, placement: &Placement) -> Rows {
+    F::create(&law.at_step(0.0), &placement.pair())
 }
 
 /// A law with four different stiffnesses of like size.
-pub(super) fn law() -> Law {
-    Law { torsion: 1.7, shear: 2.3, ..Law::elastic(0.9, 3.1, 2.0) }
+pub(crate) fn law() -> Elasticity {
+    Elasticity { torsion: 1.7, shear: 2.3, ..Elasticity::of(0.9, 3.1, 2.0) }
 }

@@ -1,9 +1,10 @@
 //! Closed loops, rigid rotation, relaxation: what is kept and what is booked.
 
-use super::placement::{Placement, Random, answer, created, law, turn};
-use crate::bond::finite_rotation::FiniteRotation;
-use crate::geometry::Quaternion;
-use crate::number::Vector;
+use crate::placement::{Placement, Random, answer, created, law, turn};
+use cograin::bond::Formulation;
+use cograin::bond::formulation::finite_rotation::FiniteRotation;
+use cograin::geometry::Quaternion;
+use cograin::number::Vector;
 
 /// The formulation under trial.
 type Finite = FiniteRotation<false>;
@@ -41,8 +42,8 @@ fn a_closed_loop_does_no_work() {
             let (angle_j, rate_j) = wave(6, 0.2);
             let spin_i = spin(angle_i, rate_i);
             let spin_j = spin(angle_j, rate_j);
-            placement.attitude[0] = turn(angle_i) * placement.attitude[0];
-            placement.attitude[1] = turn(angle_j) * placement.attitude[1];
+            placement.orientation[0] = turn(angle_i) * placement.orientation[0];
+            placement.orientation[1] = turn(angle_j) * placement.orientation[1];
             let found = answer::<Finite>(&law, &placement, &rows);
             rows = found.rows;
             let power =
@@ -84,7 +85,7 @@ fn a_loaded_pair_keeps_force_and_energy_through_a_thousand_turns() {
         let mut whole = Quaternion::identity();
         for _ in 0..steps {
             whole = one * whole;
-            placement.attitude = placement.attitude.map(|attitude| attitude.turned(axis, step));
+            placement.orientation = placement.orientation.map(|orientation| orientation.turned(axis, step));
             placement.position = loaded.position.map(|position| whole.turn(position));
             let found = answer::<Finite>(&law, &placement, &rows);
             rows = found.rows;
@@ -108,10 +109,7 @@ fn relaxation_takes_what_it_books_and_leaves_the_shares_it_should() {
         let start = Placement::random(&mut random);
         let rows = created::<FiniteRotation<true>>(&law, &start);
         let placement = start.disturbed(&mut random, 0.3 * size, size);
-        let (coefficients, pair) = (law.coefficients(1.0), placement.pair());
-        let motion = <FiniteRotation<true> as crate::bond::Formulation>::motion(&coefficients, &pair);
-        let relaxing =
-            <FiniteRotation<true> as crate::bond::Formulation>::respond(&coefficients, &pair, &motion, &rows);
+        let (_, relaxing) = <FiniteRotation<true> as Formulation>::respond(&law.at_step(1.0), &placement.pair(), &rows);
         let before = answer::<Finite>(&law, &placement, &rows);
         let after = answer::<Finite>(&law, &placement, &relaxing.rows);
         let scale = before.energy;

@@ -1,23 +1,30 @@
 //! Bonds under motion that is prescribed: what a turn does to a load, and how errors fall with the step.
 
-use super::placement::{RADII, law, turn};
-use crate::bond::engine_exact::EngineExact;
-use crate::bond::finite_rotation::FiniteRotation;
-use crate::bond::incremental::Incremental;
-use crate::bond::{Body, Elastic, Formulation, Law, Pair, Rows};
-use crate::number::Vector;
+use crate::placement::{RADII, law, turn};
+use cograin::bond::formulation::engine_exact::EngineExact;
+use cograin::bond::formulation::finite_rotation::FiniteRotation;
+use cograin::bond::formulation::incremental::Incremental;
+use cograin::bond::{Body, Elastic, Elasticity, Formulation, Pair, Rows};
+use cograin::number::Vector;
 
 /// Rotation vector and position of the two bodies at a time.
 type Path<'a> = &'a dyn Fn(f64) -> [(Vector, Vector); 2];
 
 /// Goes along a path in steps, with velocities and spins of mid-step, from this state (or a bond made at the start).
-fn along<F: Formulation>(law: &Law, path: Path, rows: Option<Rows>, from: f64, to: f64, steps: u32) -> Elastic<f64> {
+fn along<F: Formulation>(
+    law: &Elasticity,
+    path: Path,
+    rows: Option<Rows>,
+    from: f64,
+    to: f64,
+    steps: u32,
+) -> Elastic<f64> {
     let step = (to - from) / f64::from(steps);
     let pair = |now: f64, before: f64| {
         let (places, earlier) = (path(now), path(before));
         let body = |index: usize| {
-            let attitude = turn(places[index].0);
-            let turned = attitude * turn(earlier[index].0).conjugate();
+            let orientation = turn(places[index].0);
+            let turned = orientation * turn(earlier[index].0).conjugate();
             // Twice the arcus sine of the vector part: the turn of one step is small.
             let sine = turned.vector.length();
             let spin = turned.vector * if sine > 0.0 { 2.0 * libm::asin(sine) / (sine * step) } else { 0.0 };
@@ -25,7 +32,7 @@ fn along<F: Formulation>(law: &Law, path: Path, rows: Option<Rows>, from: f64, t
                 position: places[index].1,
                 velocity: (places[index].1 - earlier[index].1) * (1.0 / step),
                 spin: if turned.scalar < 0.0 { -spin } else { spin },
-                attitude,
+                orientation,
                 radius: RADII[index],
                 mass: 1.0,
                 inertia: 1.0,
@@ -33,15 +40,15 @@ fn along<F: Formulation>(law: &Law, path: Path, rows: Option<Rows>, from: f64, t
         };
         Pair::of_spheres(&body(0), &body(1))
     };
-    let still = law.coefficients(0.0);
-    let moving = law.coefficients(step);
+    let still = law.at_step(0.0);
+    let moving = law.at_step(step);
     let rows = rows.unwrap_or_else(|| F::create(&still, &pair(from, from)));
     let start = pair(from, from);
-    let mut answer = F::respond(&still, &start, &F::motion(&still, &start), &rows);
+    let mut answer = F::respond(&still, &start, &rows).1;
     for number in 1..=steps {
         let at = |number: u32| from + step * f64::from(number);
         let pair = pair(at(number), at(number - 1));
-        answer = F::respond(&moving, &pair, &F::motion(&moving, &pair), &answer.rows);
+        answer = F::respond(&moving, &pair, &answer.rows).1;
     }
     answer
 }
@@ -95,7 +102,7 @@ fn a_shear_force_does_not_turn_about_the_axis_in_the_engine_alone() {
         places[0].1 += turn(places[0].0).turn(Vector::new(0.0, 0.01, 0.0));
         places
     };
-    let rows = <FiniteRotation<false> as Formulation>::create(&law.coefficients(0.0), &pair_at_rest(&path(0.0)));
+    let rows = <FiniteRotation<false> as Formulation>::create(&law.at_step(0.0), &pair_at_rest(&path(0.0)));
     let before = along::<FiniteRotation<false>>(&law, &loading, Some(rows), 0.0, 1e-9, 1);
     let after = along::<FiniteRotation<false>>(&law, &loading, Some(rows), 0.0, quarter, 90);
     let expected = Vector::new(before.shear.x, -before.shear.z, before.shear.y);
@@ -109,7 +116,7 @@ fn pair_at_rest(places: &[(Vector, Vector); 2]) -> Pair {
         position: places[index].1,
         velocity: Vector::zero(),
         spin: Vector::zero(),
-        attitude: turn(places[index].0),
+        orientation: turn(places[index].0),
         radius: RADII[index],
         mass: 1.0,
         inertia: 1.0,

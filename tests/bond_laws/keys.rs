@@ -1,8 +1,10 @@
 //! The bond table as text.
 
-use crate::bond::creation::{ContactPolicy, Creation};
-use crate::bond::keys::{FormulationChoice, Keys, TakeLaw};
-use crate::bond::{BondLaw, Law};
+use cograin::bond::breakage::Rule;
+use cograin::bond::creation::{ContactPolicy, Creation};
+use cograin::bond::damping::{Damping, TakeDamping};
+use cograin::bond::keys::{FormulationChoice, Keys};
+use cograin::bond::{Elasticity, Law};
 
 /// The keys of a table, or the message that refuses it.
 fn read(text: &str) -> Result<Keys, String> {
@@ -30,15 +32,16 @@ fn the_least_table_is_a_conservative_bond() {
     let keys = with("");
     assert_eq!(keys.formulation, FormulationChoice::FiniteRotation);
     assert_eq!((keys.create.clone(), keys.contact), (Creation::Start, ContactPolicy::Parallel));
-    assert_eq!(keys.law().unwrap(), Law::elastic(1.0, 1e12, 4e11));
+    let elasticity = Elasticity::of(1.0, 1e12, 4e11);
+    assert_eq!(keys.law().unwrap(), Law::elastic(FormulationChoice::FiniteRotation, elasticity));
 }
 
 #[test]
 fn parts_that_a_bond_does_not_bear_have_no_stiffness() {
-    let law = law("tension = false\nshear = false\ntorsion = false\nbending = false");
+    let law = law("tension = false\nshear = false\ntorsion = false\nbending = false").elasticity;
     assert_eq!([law.tension, law.compression, law.shear, law.torsion, law.bending], [0.0, 1e12, 0.0, 0.0, 0.0]);
-    assert_eq!(law.coefficients::<f64>(0.0).normal_stiffness(-1e-6), 0.0);
-    assert_eq!(law.coefficients::<f64>(0.0).normal_stiffness(1e-6), 1e12);
+    assert_eq!(law.at_step::<f64>(0.0).normal_stiffness(-1e-6), 0.0);
+    assert_eq!(law.at_step::<f64>(0.0).normal_stiffness(1e-6), 1e12);
 }
 
 #[test]
@@ -52,26 +55,62 @@ fn every_creation_is_written_as_documented() {
     assert_eq!(create("{ file = \"bonds.csv\" }"), Creation::File("bonds.csv".to_owned()));
 }
 
+/// The limits on stresses that keys mean.
+fn by_stress(more: &str) -> cograin::bond::breakage::stress::ByStress {
+    match law(more).breakage[..] {
+        [Rule::ByStress(rule)] => rule,
+        ref others => panic!("{others:?}"),
+    }
+}
+
 #[test]
 fn breakage_means_the_documents_limits() {
-    let law =
-        law("[breakage]\nmax_normal_stress = 2e7\nmax_shear_stress = 3e7\ntension_ratio = 0.25\nfriction_angle = 0.5");
-    assert_eq!((law.compression_strength, law.tension_strength, law.shear_strength), (2e7, 5e6, 3e7));
-    assert!((law.friction - libm::tan(0.5)).abs() < 1e-15);
-    assert_eq!(law.compression_share, -1.0, "compression relieves by default");
-    assert_eq!(self::law("[breakage]\nmax_normal_stress = 2e7\ncompression_breaks = true").compression_share, 1.0);
-    let engine = self::law("formulation = \"engine_exact\"\n[breakage]\nmax_normal_stress = 2e7");
+    let rule = by_stress(
+        "[breakage]\nmax_normal_stress = 2e7\nmax_shear_stress = 3e7\ntension_ratio = 0.25\nfriction_angle = 0.5",
+    );
+    assert_eq!((rule.compression_strength, rule.tension_strength, rule.shear_strength), (2e7, 5e6, 3e7));
+    assert!((rule.friction - libm::tan(0.5)).abs() < 1e-15);
+    assert_eq!(rule.compression_share, -1.0, "compression relieves by default");
+    assert_eq!(by_stress("[breakage]\nmax_normal_stress = 2e7\ncompression_breaks = true").compression_share, 1.0);
+    let engine = by_stress("formulation = \"engine_exact\"\n[breakage]\nmax_normal_stress = 2e7");
     assert_eq!(engine.compression_share, 1.0, "and always breaks in engine_exact");
+    let names = law("[breakage]\nmax_distance = 1.0\nmax_shear_stress = 3e7").breakage;
+    assert!(matches!(names[..], [Rule::Distance(_), Rule::ByStress(_)]), "{names:?}");
+}
+
+#[test]
+fn a_strength_can_be_changed_by_its_name() {
+    let mut keys = with("[breakage]\nmax_distance = 3e-3\nmax_shear_stress = 3e7\nfriction_angle = 0.5");
+    let mut breakage = keys.breakage.unwrap();
+    let names: Vec<_> = breakage.strengths().iter().map(|strength| (strength.key, strength.unit)).collect();
+    assert_eq!(names, [("max_distance", "m"), ("max_shear_stress", "Pa")]);
+    for strength in breakage.strengths() {
+        *strength.value = cograin::quantity::Positive::new(2.0 * strength.value.get()).unwrap();
+    }
+    keys.breakage = Some(breakage);
+    let rules = keys.law().unwrap().breakage;
+    let [Rule::Distance(distance), Rule::ByStress(stress)] = rules[..] else { panic!("{rules:?}") };
+    assert_eq!((distance.most, stress.shear_strength), (6e-3, 6e7));
+}
+
+/// Whether a damping needs masses.
+struct NeedsMasses;
+
+impl TakeDamping for NeedsMasses {
+    type Output = bool;
+    fn take<D: Damping>(self, _: D) -> bool {
+        D::NEEDS_MASSES
+    }
 }
 
 #[test]
 fn damping_and_relaxation_reach_their_parts() {
     let law = law("[damping.viscous]\nnormal_force = 0.1\ntangential_torque = 1.5\n[relaxation]\nnormal_torque = 0.5");
-    assert_eq!(law.damping, [0.1, 0.0, 0.0, 1.5]);
-    assert_eq!(law.relaxation_rate, [0.0, 0.0, 2.0, 0.0]);
-    assert_eq!(law.coefficients::<f64>(0.1).relaxed, [0.0, 0.0, 0.2, 0.0]);
-    let smooth = self::law("[damping.smooth]\nnormal_force = 0.1");
-    assert_eq!((smooth.threshold, smooth.threshold_by_force), (1e-5, 0.01));
+    let damping = law.damping.unwrap();
+    let cograin::bond::keys::DampingChoice::Viscous(keys) = damping else { panic!("{damping:?}") };
+    assert_eq!(keys.parts(cograin::quantity::NonNegative::get), [0.1, 0.0, 0.0, 1.5]);
+    assert_eq!(law.elasticity.relaxation_rate, [0.0, 0.0, 2.0, 0.0]);
+    assert_eq!(law.elasticity.at_step::<f64>(0.1).relaxed, [0.0, 0.0, 0.2, 0.0]);
 }
 
 #[test]
@@ -118,19 +157,18 @@ fn laws_that_look_at_the_step_say_so() {
     assert_eq!(with("[relaxation]\nnormal_force = 2e-3\nnormal_torque = 1e-3").shortest_relaxation(), Some(1e-3));
 }
 
-/// Takes the constants of a law.
-struct Constants;
-
-impl TakeLaw for Constants {
-    type Output = (usize, usize, bool, bool);
-    fn take<L: BondLaw>(self) -> Self::Output {
-        (L::ROWS, L::FIXED_ROWS, L::NEEDS_ATTITUDES, L::NEEDS_MASSES)
-    }
-}
-
 #[test]
 fn a_bond_pays_for_what_it_names() {
-    let constants = |more: &str| with(more).visit(Constants);
+    let constants = |more: &str| {
+        let law = with(more).law().unwrap();
+        let one = law.one_bond();
+        (
+            one.rows,
+            one.fixed_rows,
+            one.needs_orientations,
+            law.damping.is_some_and(|damping| damping.visit(NeedsMasses)),
+        )
+    };
     assert_eq!(constants(""), (3, 2, true, false));
     assert_eq!(constants("[relaxation]\nnormal_force = 1.0"), (3, 0, true, false));
     assert_eq!(constants("formulation = \"incremental\""), (2, 0, false, false));

@@ -1,7 +1,7 @@
 //! The document's rate equations, with stored vectors that turn with the bond.
 
-use super::engine_exact::relaxation_loss;
-use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Rows};
+use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use crate::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Rows};
 use crate::number::{Number, Vector};
 
 /// Shear force, torsion and bending torque grow by increments and turn with the bond.
@@ -31,9 +31,17 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct Incremental<const RELAXING: bool>;
 
+/// Goes from what is asked to the type: it needs rates itself.
+pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
+    match asked.relaxation {
+        false => visitor.take::<Incremental<false>>(),
+        true => visitor.take::<Incremental<true>>(),
+    }
+}
+
 /// ½ over each stiffness, 0 where there is none: energies of springs by their forces. The three share a division.
 #[inline(always)]
-fn halves<N: Number>(shear: N, twist: N, bending: N) -> [N; 3] {
+fn halves<N: Number>([shear, twist, bending]: [N; 3]) -> [N; 3] {
     let (zero, one) = (N::zero(), N::splat(1.0));
     let (bears_shear, bears_twist, bears_bending) = (shear.greater(zero), twist.greater(zero), bending.greater(zero));
     let shear = N::select(bears_shear, shear, one);
@@ -47,12 +55,59 @@ fn halves<N: Number>(shear: N, twist: N, bending: N) -> [N; 3] {
     ]
 }
 
+/// What is stored of a bond and turns with it.
+#[derive(Clone, Copy)]
+struct Loads<N: Number> {
+    /// Shear force \[N\].
+    shear: Vector<N>,
+    /// Torsion along the axis \[N m\].
+    torsion: N,
+    /// Bending torque \[N m\].
+    bending: Vector<N>,
+}
+
+impl<N: Number> Loads<N> {
+    /// As the rows have it.
+    #[inline(always)]
+    fn of(rows: &Rows<N>) -> Self {
+        let [[fx, fy, fz, _], [tx, ty, tz, torsion], _] = *rows;
+        Self { shear: Vector::new(fx, fy, fz), torsion, bending: Vector::new(tx, ty, tz) }
+    }
+
+    /// These shares of it.
+    #[inline(always)]
+    fn times(self, [shear, torsion, bending]: [N; 3]) -> Self {
+        Self { shear: self.shear * shear, torsion: self.torsion * torsion, bending: self.bending * bending }
+    }
+
+    /// Turned with the bond, and the increments added that these stiffnesses times the step make of the rates.
+    #[inline(always)]
+    fn advanced(self, motion: &Motion<N>, [shear, torsion, bending]: [N; 3]) -> Self {
+        let (turn, axis) = (&motion.turn, motion.axis);
+        Self {
+            shear: turn.advance(self.shear, motion.slip * -shear, axis),
+            torsion: self.torsion - motion.twist_rate * torsion,
+            bending: turn.advance(self.bending, motion.bending_rate * -bending, axis),
+        }
+    }
+
+    /// Energies of springs, from ½ over their stiffnesses \[J\].
+    #[inline(always)]
+    fn energies(&self, [shear, torsion, bending]: [N; 3]) -> [N; 3] {
+        [
+            self.shear.dot(self.shear) * shear,
+            self.torsion * self.torsion * torsion,
+            self.bending.dot(self.bending) * bending,
+        ]
+    }
+}
+
 impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
     const ROWS: usize = 2;
     const FIXED_ROWS: usize = 0;
-    const NEEDS_ATTITUDES: bool = false;
+    const NEEDS_ORIENTATIONS: bool = false;
     const RELAXES: bool = RELAXING;
-    const NEEDS_RATES: bool = true;
+    const RATES: Rates = Rates::Midway;
 
     #[inline(always)]
     fn create<N: Number>(_law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
@@ -69,41 +124,29 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
         _halfway: &Halfway<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
-        let half = N::splat(0.5);
         let (axis, section) = (motion.axis, &motion.section);
-        let [[fx, fy, fz, reference], [tx, ty, tz, torsion], _] = *rows;
+        let reference = rows[0][3];
         let left = law.left();
-
         let compression = reference - motion.distance;
         let normal = law.normal_stiffness(compression) * section.area * compression;
-        let axial_before = half * normal * compression;
+        let axial_before = N::splat(0.5) * normal * compression;
 
-        let mut shear = Vector::new(fx, fy, fz);
-        let shear_stiffness = law.shear * section.area;
-        let shear_before = shear.dot(shear);
-        let mut bending = Vector::new(tx, ty, tz);
-        let bending_stiffness = law.bending * section.axial;
-        let bending_before = bending.dot(bending);
-        let mut torsion = torsion;
-        let twist_stiffness = law.torsion * section.polar;
-        let torsion_before = torsion * torsion;
-        if RELAXING {
-            shear = shear * left[1];
-            torsion = torsion * left[2];
-            bending = bending * left[3];
-        }
-        let turn = &motion.turn;
-        let shear = turn.advance(shear, motion.slip * -(shear_stiffness * law.step), axis);
-        let torsion = torsion - motion.twist_rate * (twist_stiffness * law.step);
-        let bending = turn.advance(bending, motion.bending_rate * -(bending_stiffness * law.step), axis);
+        let stored = Loads::of(rows);
+        let stiffness = [
+            law.elastic.shear * section.area,
+            law.elastic.torsion * section.polar,
+            law.elastic.bending * section.axial,
+        ];
+        let kept = if RELAXING { stored.times([left[1], left[2], left[3]]) } else { stored };
+        let loads = kept.advanced(motion, stiffness.map(|stiffness| stiffness * law.step));
+        let Loads { shear, torsion, bending } = loads;
 
         let shifted = if RELAXING { reference + (motion.distance - reference) * law.relaxed[0] } else { reference };
-        let [per_shear, per_twist, per_bending] = halves(shear_stiffness, twist_stiffness, bending_stiffness);
-        let energy = axial_before * left[0] * left[0]
-            + shear.dot(shear) * per_shear
-            + torsion * torsion * per_twist
-            + bending.dot(bending) * per_bending;
-        let before = [axial_before, shear_before * per_shear, torsion_before * per_twist, bending_before * per_bending];
+        let halves = halves(stiffness);
+        let [of_shear, of_torsion, of_bending] = loads.energies(halves);
+        let energy = axial_before * left[0] * left[0] + of_shear + of_torsion + of_bending;
+        let [shear_before, torsion_before, bending_before] = stored.energies(halves);
+        let before = [axial_before, shear_before, torsion_before, bending_before];
         let couple = shear.cross(pair.connection);
         let torque_i = couple * pair.share_i + axis * torsion + bending;
         Elastic {

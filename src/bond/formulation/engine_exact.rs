@@ -1,7 +1,7 @@
 //! LIGGGHTS-INL's bond, its errors included.
 
-use super::coefficients::Parts;
-use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Rates, Rows};
+use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use crate::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Rows};
 use crate::number::{Number, Vector};
 
 /// The bond of the engine, for comparison and for scenes that must repeat its numbers.
@@ -31,29 +31,47 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct EngineExact;
 
+/// Goes to the type: it always relaxes, if only by 0, and needs rates.
+pub(super) fn visit<V: TakeFormulation>(_asked: Asked, visitor: V) -> V::Output {
+    visitor.take::<EngineExact>()
+}
+
 /// Energy F²/(2 K) of a spring; 0 where there is none.
 #[inline(always)]
-pub(super) fn spring_energy<N: Number>(square: N, stiffness: N) -> N {
+fn spring_energy<N: Number>(square: N, stiffness: N) -> N {
     // Without stiffness the force is 0, and 0 over the smallest divisor is 0.
     N::splat(0.5) * square / stiffness.max(N::splat(f64::MIN_POSITIVE))
 }
 
-/// What relaxation takes from the energies of the four parts, of whose force these shares are left.
+/// The bending torque to store and the one that acts: without relative spin across the axis none does.
 #[inline(always)]
-pub(super) fn relaxation_loss<N: Number>(left: Parts<N>, before: Parts<N>) -> N {
-    let mut lost = N::zero();
-    for part in 0..4 {
-        lost = lost + before[part] * (N::splat(1.0) - left[part] * left[part]);
-    }
-    lost
+fn bend<N: Number>(stored: Vector<N>, rate: Vector<N>, left: N, stiffness: N, step: N) -> Bent<N> {
+    let one = N::splat(1.0);
+    let square = rate.dot(rate);
+    let moving = N::both(square.greater(N::zero()), step.greater(N::zero()));
+    let along = rate * (one / N::select(moving, square, one).sqrt());
+    let projected = along * stored.dot(along);
+    let before = spring_energy(projected.dot(projected), stiffness);
+    let advanced = projected * left - rate * (stiffness * step);
+    let kept = Vector::select(moving, advanced, stored);
+    Bent { kept, acting: Vector::select(moving, kept, Vector::zero()), before: N::select(moving, before, N::zero()) }
+}
+
+/// Bending in one step.
+struct Bent<N: Number> {
+    /// What is stored \[N m\].
+    kept: Vector<N>,
+    /// What acts \[N m\].
+    acting: Vector<N>,
+    /// Elastic energy before relaxation \[J\].
+    before: N,
 }
 
 impl Formulation for EngineExact {
     const ROWS: usize = 3;
     const FIXED_ROWS: usize = 0;
-    const NEEDS_ATTITUDES: bool = false;
+    const NEEDS_ORIENTATIONS: bool = false;
     const RELAXES: bool = true;
-    const NEEDS_RATES: bool = true;
     const RATES: Rates = Rates::AtEnd;
 
     #[inline(always)]
@@ -71,7 +89,6 @@ impl Formulation for EngineExact {
         _halfway: &Halfway<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
-        let one = N::splat(1.0);
         let (axis, section) = (motion.axis, &motion.section);
         let [[fx, fy, fz, reference], [nx, ny, nz, _], [tx, ty, tz, _]] = *rows;
         let compression = reference - motion.distance;
@@ -82,27 +99,18 @@ impl Formulation for EngineExact {
 
         let stored = Vector::new(fx, fy, fz);
         let shear = stored - axis * stored.dot(axis);
-        let shear_stiffness = law.shear * section.area;
+        let shear_stiffness = law.elastic.shear * section.area;
         let shear_before = spring_energy(shear.dot(shear), shear_stiffness);
         let shear = shear * left[1] - motion.slip * (shear_stiffness * law.step);
 
         let torsion = Vector::new(nx, ny, nz).dot(axis);
-        let twist_stiffness = law.torsion * section.polar;
+        let twist_stiffness = law.elastic.torsion * section.polar;
         let torsion_before = spring_energy(torsion * torsion, twist_stiffness);
         let torsion = torsion * left[2] - motion.twist_rate * (twist_stiffness * law.step);
 
-        let stored = Vector::new(tx, ty, tz);
-        let rate = motion.bending_rate;
-        let square = rate.dot(rate);
-        let moving = N::both(square.greater(N::zero()), law.step.greater(N::zero()));
-        let along = rate * (one / N::select(moving, square, one).sqrt());
-        let projected = along * stored.dot(along);
-        let bending_stiffness = law.bending * section.axial;
-        let bending_before = spring_energy(projected.dot(projected), bending_stiffness);
-        let bending_before = N::select(moving, bending_before, N::zero());
-        let advanced = projected * left[3] - rate * (bending_stiffness * law.step);
-        let bending = Vector::select(moving, advanced, stored);
-        let acting = Vector::select(moving, bending, Vector::zero());
+        let bending_stiffness = law.elastic.bending * section.axial;
+        let bent = bend(Vector::new(tx, ty, tz), motion.bending_rate, left[3], bending_stiffness, law.step);
+        let (bending, acting) = (bent.kept, bent.acting);
 
         let shifted = reference + (motion.distance - reference) * law.relaxed[0];
         let axial_before = N::splat(0.5) * normal * compression;
@@ -110,7 +118,7 @@ impl Formulation for EngineExact {
             + spring_energy(shear.dot(shear), shear_stiffness)
             + spring_energy(torsion * torsion, twist_stiffness)
             + spring_energy(bending.dot(bending), bending_stiffness);
-        let relaxed = relaxation_loss(left, [axial_before, shear_before, torsion_before, bending_before]);
+        let relaxed = relaxation_loss(left, [axial_before, shear_before, torsion_before, bent.before]);
 
         let twist = axis * torsion;
         let couple = shear.cross(axis) * motion.distance;

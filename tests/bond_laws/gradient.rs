@@ -1,8 +1,9 @@
 //! `finite_rotation`: force and moments against central differences of the energy.
 
-use super::placement::{Placement, Random, answer, created, law, turn};
-use crate::bond::finite_rotation::FiniteRotation;
-use crate::number::Vector;
+use crate::placement::{Placement, Random, answer, created, law, turn};
+use cograin::bond::Formulation;
+use cograin::bond::formulation::finite_rotation::FiniteRotation;
+use cograin::number::Vector;
 
 /// The formulation under trial.
 type Finite = FiniteRotation<false>;
@@ -13,7 +14,7 @@ fn nudged(placement: &Placement, body: usize, axis: usize, by: f64, turning: boo
     let mut vector = [0.0; 3];
     vector[axis] = by;
     if turning {
-        nudged.attitude[body] = turn(vector.into()) * nudged.attitude[body];
+        nudged.orientation[body] = turn(vector.into()) * nudged.orientation[body];
     } else {
         nudged.position[body] += Vector::from(vector);
     }
@@ -96,7 +97,7 @@ fn turning_the_pair_turns_force_and_moments() {
 fn exchanging_the_bodies_changes_nothing() {
     let mut random = Random(4);
     let law = law();
-    let radii = super::placement::RADII;
+    let radii = crate::placement::RADII;
     for _ in 0..100 {
         let start = Placement::random(&mut random);
         let placement = start.disturbed(&mut random, 0.3, 0.8);
@@ -104,17 +105,15 @@ fn exchanging_the_bodies_changes_nothing() {
         let swap = |placement: &Placement| {
             let mut pair = Placement {
                 position: [placement.position[1], placement.position[0]],
-                attitude: [placement.attitude[1], placement.attitude[0]],
+                orientation: [placement.orientation[1], placement.orientation[0]],
             }
             .pair();
             (pair.share_i, pair.share_j) = (radii[1] / (radii[0] + radii[1]), radii[0] / (radii[0] + radii[1]));
             pair
         };
-        let law = law.coefficients(0.0);
-        let rows = <Finite as crate::bond::Formulation>::create(&law, &swap(&start));
-        let pair = swap(&placement);
-        let motion = <Finite as crate::bond::Formulation>::motion(&law, &pair);
-        let other = <Finite as crate::bond::Formulation>::respond(&law, &pair, &motion, &rows);
+        let law = law.at_step(0.0);
+        let rows = <Finite as Formulation>::create(&law, &swap(&start));
+        let (_, other) = <Finite as Formulation>::respond(&law, &swap(&placement), &rows);
         assert!((other.energy - found.energy).abs() < 1e-13);
         assert!((other.force + found.force).length() < 1e-13);
         assert!((other.torque_i - found.torque_j).length() < 1e-13);
@@ -134,7 +133,7 @@ fn twist_is_counted_over_many_turns() {
     for step in 1..=200 {
         let angle = 0.1 * f64::from(step);
         let mut placement = start;
-        placement.attitude[1] = turn(axis * angle) * placement.attitude[1];
+        placement.orientation[1] = turn(axis * angle) * placement.orientation[1];
         let found = answer::<Finite>(&law, &placement, &rows);
         rows = found.rows;
         let expected = law.torsion * polar * angle;
@@ -160,8 +159,8 @@ fn bending_is_linear_in_the_angle_up_to_pi_and_an_error_beyond() {
     for (angle, over) in [(0.01, false), (0.5, false), (2.0, false), (3.1, false), (3.2, true), (4.0, true)] {
         let mut placement = start;
         // Each body takes half, so that none is turned by π against the axis.
-        placement.attitude[0] = turn(across * (0.5 * angle)) * placement.attitude[0];
-        placement.attitude[1] = turn(across * (-0.5 * angle)) * placement.attitude[1];
+        placement.orientation[0] = turn(across * (0.5 * angle)) * placement.orientation[0];
+        placement.orientation[1] = turn(across * (-0.5 * angle)) * placement.orientation[1];
         let found = answer::<Finite>(&law, &placement, &rows);
         assert_eq!(found.overbent, over, "{angle}");
         let expected = across * (-law.bending * section * angle);

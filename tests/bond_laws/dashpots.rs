@@ -1,13 +1,12 @@
 //! Dashpots in a bond that turns: their rates are those of mid-step, and so is the axis about which they are taken.
 
-use super::placement::{RADII, turn};
-use crate::bond::breakage::distance::Distance;
-use crate::bond::damping::viscous::Viscous;
-use crate::bond::engine_exact::EngineExact;
-use crate::bond::finite_rotation::FiniteRotation;
-use crate::bond::incremental::Incremental;
-use crate::bond::{Body, BondLaw, Composed, Formulation, Law, Pair};
-use crate::number::Vector;
+use crate::placement::{RADII, turn};
+use cograin::bond::damping::DampingLoad;
+use cograin::bond::formulation::FormulationChoice;
+use cograin::bond::keys::{DampingChoice, PartKeys};
+use cograin::bond::{Body, Elasticity, Law, Pair};
+use cograin::number::Vector;
+use cograin::quantity::NonNegative;
 
 /// Speed at which the bond is drawn \[m/s\].
 const DRAWN: f64 = 0.05;
@@ -23,7 +22,7 @@ fn pair(time: f64, step: f64) -> Pair {
         position,
         velocity,
         spin,
-        attitude: turn(spin * time),
+        orientation: turn(spin * time),
         radius: RADII[index],
         mass: 3.0,
         inertia: 2.0,
@@ -34,31 +33,34 @@ fn pair(time: f64, step: f64) -> Pair {
 
 /// By how much dashpots miss the force along the bond that its drawing alone gives, and by how much what is across the
 /// bond misses 0, with this step \[N\].
-fn error<F: Formulation>(step: f64) -> f64 {
-    type Damped<F> = Composed<F, Viscous, Distance>;
-    let law = Law { damping: [0.1, 0.2, 0.3, 0.4], ..Law::elastic(1.0, 10.0, 4.0) };
-    let rows = Damped::<F>::create(&law.coefficients(0.0), &pair(0.0, step));
+fn error(formulation: FormulationChoice, step: f64) -> f64 {
+    let [normal_force, tangential_force, normal_torque, tangential_torque] = [0.1, 0.2, 0.3, 0.4].map(NonNegative::new);
+    let ratios = PartKeys { normal_force, tangential_force, normal_torque, tangential_torque };
+    let elasticity = Elasticity::of(1.0, 10.0, 4.0);
+    let bare = Law::elastic(formulation, elasticity);
+    let damped = Law { damping: Some(DampingChoice::Viscous(ratios)), ..bare.clone() };
+    let rows = (damped.one_bond().create)(&elasticity.at_step(0.0), &pair(0.0, step));
     let now = pair(1.0, step);
-    let found = Damped::<F>::react(&law.coefficients(step), &now, &rows);
+    let force = |law: &Law| law.react(&elasticity.at_step(step), &now, &rows, &DampingLoad::none()).force;
     let axis = now.connection * (1.0 / now.connection.length());
     // 2 ζ √(k_n A M) with r_b = 0.6 and M = 3/2.
     let dashpot = 0.2 * (10.0 * 0.36 * std::f64::consts::PI * 1.5_f64).sqrt();
-    (found.damping_force + axis * (dashpot * DRAWN)).length()
+    (force(&damped) - force(&bare) + axis * (dashpot * DRAWN)).length()
 }
 
 /// Error of a step over that of half of it, and the former.
-fn falls<F: Formulation>() -> (f64, f64) {
-    (error::<F>(0.04) / error::<F>(0.02), error::<F>(0.04))
+fn falls(formulation: FormulationChoice) -> (f64, f64) {
+    (error(formulation, 0.04) / error(formulation, 0.02), error(formulation, 0.04))
 }
 
 #[test]
 fn dashpots_of_a_turning_bond_are_right_to_the_second_order() {
-    for (ratio, coarse) in [falls::<FiniteRotation<false>>(), falls::<Incremental<false>>()] {
+    for (ratio, coarse) in [falls(FormulationChoice::FiniteRotation), falls(FormulationChoice::Incremental)] {
         assert!((ratio - 4.0).abs() < 0.1, "{ratio} {coarse:e}");
         assert!(coarse < 1e-3, "{coarse:e}");
     }
     // On the axis of the step's end, as the engine takes its rates, the turn itself counts as a motion along the bond.
-    let (ratio, coarse) = falls::<EngineExact>();
+    let (ratio, coarse) = falls(FormulationChoice::EngineExact);
     assert!((ratio - 2.0).abs() < 0.1, "{ratio} {coarse:e}");
     assert!(coarse > 1e-2, "{coarse:e}");
 }

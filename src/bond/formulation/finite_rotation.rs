@@ -1,8 +1,9 @@
-//! Force and moments as the gradient of one stored energy of positions and attitudes.
+//! Force and moments as the gradient of one stored energy of positions and orientations.
 
-use super::angle::{arctangent_ratio, arctangent_series, continued, is_flat, tangent_ratio, twice_angle};
-use super::engine_exact::relaxation_loss;
-use super::{Coefficients, Elastic, Formulation, Halfway, Motion, Pair, Quaternion, Rows};
+use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use crate::bond::angle::{arctangent_ratio, arctangent_series, continued, is_flat, tangent_ratio, twice_angle};
+use crate::bond::elasticity::Parts;
+use crate::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Quaternion, Rates, Rows};
 use crate::number::{Number, Vector};
 
 /// A bond with one stored energy, exact for rotations of any size.
@@ -15,12 +16,12 @@ use crate::number::{Number, Vector};
 ///
 /// | symbol   | meaning                                                                  | unit | comes from   |
 /// |----------|--------------------------------------------------------------------------|------|--------------|
-/// | a_i, a_j | the axis at creation, carried by body i, by body j                       | 1    | state, attitudes |
+/// | a_i, a_j | the axis at creation, carried by body i, by body j                       | 1    | state, orientations |
 /// | φ        | rotation vector of the shortest turn from a to e; across e               | rad  | a, e         |
 /// | s        | R/(R_i + R_j): share of the arm                                          | 1    | the pair     |
 /// | γ        | mean turn of the axis against the bodies: shear is L γ                   | rad  | φ            |
 /// | κ        | bending                                                                  | rad  | φ            |
-/// | Ψ        | turn of j against i about e once both are brought to e by their shortest turns, followed over any number of turns | rad | attitudes |
+/// | Ψ        | turn of j against i about e once both are brought to e by their shortest turns, followed over any number of turns | rad | orientations |
 /// | L        | distance at creation                                                     | m    | state        |
 /// | d0, Ψ0   | length and twist without force (relaxation shifts them, and the a)       | m, rad | state      |
 ///
@@ -31,7 +32,7 @@ use crate::number::{Number, Vector};
 /// Against the rate form the shear differs in the second order of the strains (arm L, not the present r).
 ///
 /// With m = a × e/(1 + a·e) = tan(|φ|/2) φ/|φ|, φ = 2 arctan(|m|) m/|m|, f = arctan(|m|)/|m|, g = ∂U/∂φ, the torque on a
-/// body that follows from the variation of m and Ψ with its attitude is
+/// body that follows from the variation of m and Ψ with its orientation is
 /// f (1 − m²) g + [1 − f (1 − m²)] (m·g) m/m² − 2 f (a·g) e/(1 + a·e), and of the torsion M ± M (a + e)/(1 + a·e). The force across the
 /// axis follows from both torques, as U does not change when the pair is turned as a whole: it is e × (T_i + T_j)/r.
 /// The angle functions are polynomials that are right to rounding (`angle.rs`).
@@ -41,7 +42,17 @@ use crate::number::{Number, Vector};
 /// Source: own derivation; the decomposition follows the idea of Y. Wang, *Acta Geotech.* 4 (2009) 117–127, made
 /// symmetric in the two bodies.
 #[derive(Clone, Copy, Debug)]
-pub struct FiniteRotation<const RELAXING: bool>;
+pub struct FiniteRotation<const RELAXING: bool, const RATES: bool = false>;
+
+/// Goes from what is asked to the type: it needs no rates itself.
+pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
+    match (asked.relaxation, asked.rates) {
+        (false, false) => visitor.take::<FiniteRotation<false, false>>(),
+        (false, true) => visitor.take::<FiniteRotation<false, true>>(),
+        (true, false) => visitor.take::<FiniteRotation<true, false>>(),
+        (true, true) => visitor.take::<FiniteRotation<true, true>>(),
+    }
+}
 
 /// Largest square of tan(|φ|/2) that is followed: |φ| up to π − 2e-4.
 const STEEPEST: f64 = 1e8;
@@ -134,8 +145,8 @@ impl<N: Number> Ends<N> {
         let [[ox, oy, oz, _], other, _] = *rows;
         let own = Vector::new(ox, oy, oz);
         let connection = pair.connection;
-        let frame_j = pair.attitude_j * Quaternion::from_row(other);
-        let [carried_i, carried_j] = [pair.attitude_i.turn(own), frame_j.turn(own)];
+        let frame_j = pair.orientation_j * Quaternion::from_row(other);
+        let [carried_i, carried_j] = [pair.orientation_i.turn(own), frame_j.turn(own)];
         let [ahead_i, ahead_j] = [carried_i.dot(connection), carried_j.dot(connection)];
         let [sum_i, sum_j] = [distance + ahead_i, distance + ahead_j];
         let [beside_i, beside_j] = [carried_i.cross(connection), carried_j.cross(connection)];
@@ -143,7 +154,7 @@ impl<N: Number> Ends<N> {
         // The turn that remains between the bodies once each is brought to e: (1, m_j) p (1, −m_i), with m = a × d/(r + a·d).
         // It is about e; here its scalar part and that along e, both times the two sums. The latter is (w·(d + r a_i)) with
         // w, the vector part of (1, m_j) p times the sum of j, since e·(w × m_i) is a sum of products of two of d, a_i, w.
-        let relative = frame_j * pair.attitude_i.conjugate();
+        let relative = frame_j * pair.orientation_i.conjugate();
         let vector = relative.vector * sum_j + beside_j * relative.scalar + beside_j.cross(relative.vector);
         let scalar = relative.scalar * sum_j - beside_j.dot(relative.vector);
         let along = scalar * sum_i + vector.dot(beside_i);
@@ -195,12 +206,97 @@ impl<N: Number> Ends<N> {
     }
 }
 
-impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
+/// Strains of a bond.
+struct Strains<N: Number> {
+    /// Both ends.
+    ends: [End<N>; 2],
+    /// Ψ \[rad\].
+    twist: N,
+    /// ψ \[rad\].
+    twisted: N,
+    /// γ \[rad\].
+    sheared: Vector<N>,
+    /// κ \[rad\].
+    bent: Vector<N>,
+}
+
+impl<N: Number> Strains<N> {
+    /// Of a bond that is twisted by this without force, and was by that at the last step \[rad\].
+    #[inline(always)]
+    fn of(pair: &Pair<N>, motion: &Motion<N>, ends: &Ends<N>, [last_twist, free_twist]: [N; 2]) -> Self {
+        let ([i, j], tangent) = ends.divided(motion.distance);
+        let flat = is_flat(ends.along, ends.across);
+        let twist = continued(twice_angle(ends.along, ends.across, flat, tangent), last_twist);
+        let (rotation_i, rotation_j) = (i.rotation(), j.rotation());
+        Self {
+            ends: [i, j],
+            twist,
+            twisted: twist - free_twist,
+            sheared: rotation_i * pair.share_i + rotation_j * pair.share_j,
+            bent: rotation_i - rotation_j,
+        }
+    }
+
+    /// Where it is bent further than can be followed. Who goes past π within one step, too fast to be met near it, leaves
+    /// the twist a whole turn off.
+    #[inline(always)]
+    fn overbent(&self, last_twist: N) -> N::Mask {
+        let half_turn = N::splat(std::f64::consts::PI);
+        let [i, j] = &self.ends;
+        let shallow = N::both(
+            N::splat(STEEPEST).greater(i.square.abs().max(j.square.abs())),
+            (half_turn * half_turn).greater(self.bent.dot(self.bent)),
+        );
+        let shallow = N::both(shallow, half_turn.greater((self.twist - last_twist).abs()));
+        N::select(shallow, N::zero(), N::splat(1.0)).greater(N::zero())
+    }
+}
+
+/// The state of a bond of which relaxation leaves these shares of the strains.
+#[inline(always)]
+fn relaxed<N: Number>(
+    law: &Coefficients<N>,
+    pair: &Pair<N>,
+    motion: &Motion<N>,
+    ends: &Ends<N>,
+    strains: &Strains<N>,
+    rows: &Rows<N>,
+) -> Rows<N> {
+    let (one, axis, left) = (N::splat(1.0), motion.axis, law.left());
+    let [[_, _, _, reference], _, [_, free_twist, length, spare]] = *rows;
+    let sheared = strains.sheared * left[1];
+    let bent = strains.bent * left[3];
+    let (carried_i, tangent_i) = End::at(sheared + bent * pair.share_j, axis);
+    let (_, tangent_j) = End::at(sheared - bent * pair.share_i, axis);
+    let own = pair.orientation_i.conjugate().turn(carried_i);
+    let about = Quaternion { scalar: ends.along, vector: axis * ends.across };
+    let frame = Quaternion { scalar: one, vector: -tangent_j } * about;
+    let relative = frame * Quaternion { scalar: one, vector: tangent_i };
+    let other = (pair.orientation_j.conjugate() * relative * pair.orientation_i).normalised();
+    let shifted = reference + (motion.distance - reference) * law.relaxed[0];
+    [
+        [own.x, own.y, own.z, shifted],
+        other.to_row(),
+        [strains.twist, free_twist + strains.twisted * law.relaxed[2], length, spare],
+    ]
+}
+
+/// The energy of which these shares of the forces are left, from that of the parts \[J\].
+#[inline(always)]
+fn energy_left<N: Number>(parts: Parts<N>, left: Parts<N>) -> N {
+    let mut energy = N::zero();
+    for part in 0..4 {
+        energy = energy + parts[part] * left[part] * left[part];
+    }
+    energy
+}
+
+impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotation<RELAXING, WITH_RATES> {
     const ROWS: usize = 3;
     const FIXED_ROWS: usize = if RELAXING { 0 } else { 2 };
-    const NEEDS_ATTITUDES: bool = true;
+    const NEEDS_ORIENTATIONS: bool = true;
     const RELAXES: bool = RELAXING;
-    const NEEDS_RATES: bool = false;
+    const RATES: Rates = if WITH_RATES { Rates::Midway } else { Rates::Unseen };
 
     /// The reference is that of the beginning of the time step, but for the distance: the step's shear, twist and
     /// bending count, as in the other formulations.
@@ -208,11 +304,11 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N> {
         let before = pair.connection - pair.velocity * law.step;
         let axis = before * (N::splat(1.0) / before.length());
-        let attitude_i = pair.attitude_i.turned(pair.spin_i, -law.step);
-        let attitude_j = pair.attitude_j.turned(pair.spin_j, -law.step);
+        let orientation_i = pair.orientation_i.turned(pair.spin_i, -law.step);
+        let orientation_j = pair.orientation_j.turned(pair.spin_j, -law.step);
         let length = pair.connection.length();
-        let own = attitude_i.conjugate().turn(axis);
-        let other = (attitude_j.conjugate() * attitude_i).normalised();
+        let own = orientation_i.conjugate().turn(axis);
+        let other = (orientation_j.conjugate() * orientation_i).normalised();
         [[own.x, own.y, own.z, length], other.to_row(), [N::zero(), N::zero(), length, N::zero()]]
     }
 
@@ -231,27 +327,20 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
         halfway: &Halfway<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
-        let (half, one) = (N::splat(0.5), N::splat(1.0));
+        let half = N::splat(0.5);
         let (axis, section) = (motion.axis, &motion.section);
         let [[_, _, _, reference], _, [last_twist, free_twist, length, spare]] = *rows;
-
         let ends = Ends::from_numbers(halfway);
-        let Ends { along, across, .. } = ends;
-        let ([i, j], tangent) = ends.divided(motion.distance);
-        let flat = is_flat(along, across);
-        let whole_twist = continued(twice_angle(along, across, flat, tangent), last_twist);
-        let twisted = whole_twist - free_twist;
-        let (rotation_i, rotation_j) = (i.rotation(), j.rotation());
-        let sheared = rotation_i * pair.share_i + rotation_j * pair.share_j;
-        let bent = rotation_i - rotation_j;
+        let strains = Strains::of(pair, motion, &ends, [last_twist, free_twist]);
+        let Strains { ends: [i, j], twisted, sheared, bent, .. } = &strains;
 
         let compression = reference - motion.distance;
         let normal = law.normal_stiffness(compression) * section.area * compression;
-        let shear_stiffness = law.shear * section.area * length * length;
-        let bending_stiffness = law.bending * section.axial;
-        let torsion = law.torsion * section.polar * twisted;
-        let bending = bent * bending_stiffness;
-        let shearing = sheared * shear_stiffness;
+        let shear_stiffness = law.elastic.shear * section.area * length * length;
+        let bending_stiffness = law.elastic.bending * section.axial;
+        let torsion = law.elastic.torsion * section.polar * *twisted;
+        let bending = *bent * bending_stiffness;
+        let shearing = *sheared * shear_stiffness;
 
         let torque_i = i.torque(shearing * pair.share_i + bending, torsion, axis);
         let torque_j = j.torque(shearing * pair.share_j - bending, -torsion, axis);
@@ -261,54 +350,27 @@ impl<const RELAXING: bool> Formulation for FiniteRotation<RELAXING> {
         let left = law.left();
         let parts = [
             half * normal * compression,
-            half * shearing.dot(sheared),
-            half * torsion * twisted,
-            half * bending.dot(bent),
+            half * shearing.dot(*sheared),
+            half * torsion * *twisted,
+            half * bending.dot(*bent),
         ];
-        let mut energy = N::zero();
-        for part in 0..4 {
-            energy = energy + parts[part] * left[part] * left[part];
-        }
-        let mut state = [rows[0], rows[1], [whole_twist, free_twist, length, spare]];
-        if RELAXING {
-            let sheared = sheared * left[1];
-            let bent = bent * left[3];
-            let (carried_i, tangent_i) = End::at(sheared + bent * pair.share_j, axis);
-            let (_, tangent_j) = End::at(sheared - bent * pair.share_i, axis);
-            let own = pair.attitude_i.conjugate().turn(carried_i);
-            let about = Quaternion { scalar: along, vector: axis * across };
-            let frame = Quaternion { scalar: one, vector: -tangent_j } * about;
-            let relative = frame * Quaternion { scalar: one, vector: tangent_i };
-            let other = (pair.attitude_j.conjugate() * relative * pair.attitude_i).normalised();
-            let shifted = reference + (motion.distance - reference) * law.relaxed[0];
-            state = [
-                [own.x, own.y, own.z, shifted],
-                other.to_row(),
-                [whole_twist, free_twist + twisted * law.relaxed[2], length, spare],
-            ];
-        }
-
-        let half_turn = N::splat(std::f64::consts::PI);
-        let shallow = N::both(
-            N::splat(STEEPEST).greater(i.square.abs().max(j.square.abs())),
-            (half_turn * half_turn).greater(bent.dot(bent)),
-        );
-        // Who goes past π within one step, too fast to be met near it, leaves the twist a whole turn off.
-        let shallow = N::both(shallow, half_turn.greater((whole_twist - last_twist).abs()));
-        let overbent = N::select(shallow, N::zero(), one).greater(N::zero());
         Elastic {
             compression,
             normal,
-            shear: axis.cross(sheared) * (law.shear * section.area * length),
+            shear: axis.cross(*sheared) * (law.elastic.shear * section.area * length),
             torsion,
             bending,
             force,
             torque_i,
             torque_j,
-            energy,
+            energy: energy_left(parts, left),
             relaxed: if RELAXING { relaxation_loss(left, parts) } else { N::zero() },
-            overbent,
-            rows: state,
+            overbent: strains.overbent(last_twist),
+            rows: if RELAXING {
+                relaxed(law, pair, motion, &ends, &strains, rows)
+            } else {
+                [rows[0], rows[1], [strains.twist, free_twist, length, spare]]
+            },
         }
     }
 }

@@ -1,0 +1,22 @@
+//! In the time step of a number; the first is 1.
+
+use super::{CreationWay, Moment};
+
+/// `step`
+pub(super) struct Way;
+
+impl CreationWay for Way {
+    type Value<'a> = (&'a u64,);
+
+    fn needs_given_step(_: (&u64,)) -> Option<&'static str> {
+        Some("bonds are made at a step number")
+    }
+
+    fn contradiction((number,): (&u64,)) -> Option<&'static str> {
+        (*number == 0).then_some("step 0 found; the first step that can bond is 1, and \"start\" bonds before it")
+    }
+
+    fn bonds_near_pairs((number,): (&u64,), moment: &Moment) -> bool {
+        moment.number == *number
+    }
+}

@@ -1,0 +1,210 @@
+//! A bond law, whole, and what it does to one bond.
+
+use super::breakage::{Breakage, Loaded, Rule, Stress, TakeRule};
+use super::damping::{Damping, DampingChoice, DampingLoad, TakeDamping};
+use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
+use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
+use crate::number::Vector;
+
+/// The law of a `[bond.<name>]` table in numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// How force and moments follow from the motion.
+    pub formulation: FormulationChoice,
+    /// Section, stiffnesses, relaxation.
+    pub elasticity: Elasticity,
+    /// Damping, if there is any.
+    pub damping: Option<DampingChoice>,
+    /// Rules of breakage, in the order of their list.
+    pub breakage: Vec<Rule>,
+    /// What compression adds to the normal stress that is told of a bond, over |N|/A: 1 where compression breaks, −1 where
+    /// it relieves.
+    pub compression_share: f64,
+}
+
+/// What one bond does to its two bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction {
+    /// Force on i; j gets the opposite. 0 where the bond broke \[N\].
+    pub force: Vector,
+    /// Torque on i \[N m\].
+    pub torque_i: Vector,
+    /// Torque on j \[N m\].
+    pub torque_j: Vector,
+    /// Elastic energy that relaxation took in this evaluation \[J\].
+    pub relaxed: f64,
+    /// What damping does, as part of that.
+    pub damping: DampingLoad,
+    /// Energy that damping took since the last evaluation \[J\].
+    pub damped: f64,
+    /// 0, or why the bond broke: the code of [`super::breakage::cause_name`].
+    pub cause: f64,
+    /// Whether the bond is bent beyond what can be followed.
+    pub overbent: bool,
+    /// The state to remember.
+    pub rows: Rows,
+}
+
+/// What a bond carries, for outputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried {
+    /// Distance of the centres at which it bears no normal force \[m\].
+    pub rest: f64,
+    /// Unit vector from j to i.
+    pub axis: [f64; 3],
+    /// Normal force, above 0 when it pushes \[N\].
+    pub normal: f64,
+    /// Shear force on i \[N\].
+    pub shear: [f64; 3],
+    /// Torsion on i along the axis \[N m\].
+    pub torsion: f64,
+    /// Bending torque on i \[N m\].
+    pub bending: [f64; 3],
+    /// Normal stress with the law's rule for compression \[Pa\].
+    pub normal_stress: f64,
+    /// Shear stress \[Pa\].
+    pub shear_stress: f64,
+    /// Elastic energy \[J\].
+    pub energy: f64,
+    /// Rate at which its elastic force and torques work on the bodies \[W\].
+    pub power: f64,
+}
+
+/// A formulation for one bond at a time, its type forgotten.
+#[derive(Clone, Copy, Debug)]
+pub struct OneBond {
+    /// [`Formulation::ROWS`]
+    pub rows: usize,
+    /// [`Formulation::FIXED_ROWS`]
+    pub fixed_rows: usize,
+    /// [`Formulation::NEEDS_ORIENTATIONS`]
+    pub needs_orientations: bool,
+    /// [`Formulation::create`]
+    pub create: fn(&Coefficients, &Pair) -> Rows,
+    /// [`Formulation::respond`]
+    pub respond: fn(&Coefficients, &Pair, &Rows) -> (Motion, Elastic<f64>),
+}
+
+/// Takes the functions of a formulation.
+struct TakeFunctions;
+
+impl TakeFormulation for TakeFunctions {
+    type Output = OneBond;
+    fn take<F: Formulation>(self) -> OneBond {
+        OneBond {
+            rows: F::ROWS,
+            fixed_rows: F::FIXED_ROWS,
+            needs_orientations: F::NEEDS_ORIENTATIONS,
+            create: F::create::<f64>,
+            respond: F::respond::<f64>,
+        }
+    }
+}
+
+impl Law {
+    /// A conservative bond that does not break.
+    pub fn elastic(formulation: FormulationChoice, elasticity: Elasticity) -> Self {
+        let compression_share = if formulation.is_engine() { 1.0 } else { -1.0 };
+        Self { formulation, elasticity, damping: None, breakage: Vec::new(), compression_share }
+    }
+
+    /// What it asks of its formulation.
+    pub fn asked(&self) -> Asked {
+        Asked { relaxation: self.elasticity.relaxation_rate != [0.0; 4], rates: self.damping.is_some() }
+    }
+
+    /// Whether a living bond loses energy.
+    pub fn dissipates(&self) -> bool {
+        self.damping.is_some() || self.asked().relaxation
+    }
+
+    /// Its formulation for one bond.
+    pub fn one_bond(&self) -> OneBond {
+        self.formulation.visit(self.asked(), TakeFunctions)
+    }
+
+    /// Force, torque, breakage and new state of one bond, on which damping had this load in the last evaluation.
+    pub fn react(&self, law: &Coefficients, pair: &Pair, rows: &Rows, last: &DampingLoad) -> Reaction {
+        let (motion, elastic) = (self.one_bond().respond)(law, pair, rows);
+        let mut reaction = Reaction {
+            force: elastic.force,
+            torque_i: elastic.torque_i,
+            torque_j: elastic.torque_j,
+            relaxed: elastic.relaxed,
+            damping: DampingLoad::none(),
+            damped: last.taken(pair, law.step),
+            cause: self.judge(&elastic.loaded(&motion)),
+            overbent: elastic.overbent,
+            rows: elastic.rows,
+        };
+        if reaction.cause != 0.0 {
+            [reaction.force, reaction.torque_i, reaction.torque_j] = [Vector::zero(); 3];
+        } else if let Some(damping) = &self.damping {
+            let load = damping.visit(DampOne { law, pair, motion: &motion.settled(), elastic: &elastic });
+            reaction.force += load.force;
+            reaction.torque_i += load.torque_i;
+            reaction.torque_j += load.torque_j;
+            reaction.damped += load.taken(pair, law.step);
+            reaction.damping = load;
+        }
+        reaction
+    }
+
+    /// 0, or the code of the first cause for which a bond under this load breaks.
+    pub fn judge(&self, loaded: &Loaded) -> f64 {
+        self.breakage.iter().map(|rule| rule.visit(JudgeOne(loaded))).find(|cause| *cause != 0.0).unwrap_or(0.0)
+    }
+
+    /// What a bond carries at this moment, for outputs: nothing advances, nothing breaks.
+    pub fn carried(&self, pair: &Pair, rows: &Rows) -> Carried {
+        let law = self.elasticity.at_step::<f64>(0.0);
+        let functions = self.formulation.visit(Asked { rates: true, ..self.asked() }, TakeFunctions);
+        let (motion, elastic) = (functions.respond)(&law, pair, rows);
+        let loaded = elastic.loaded(&motion);
+        let stress: Stress = loaded.stress();
+        Carried {
+            rest: elastic.compression + motion.distance,
+            axis: motion.axis.to_array(),
+            normal: elastic.normal,
+            shear: elastic.shear.to_array(),
+            torsion: elastic.torsion,
+            bending: elastic.bending.to_array(),
+            normal_stress: loaded.normal_stress(&stress, self.compression_share),
+            shear_stress: stress.shear,
+            energy: elastic.energy,
+            power: elastic.force.dot(pair.velocity)
+                + elastic.torque_i.dot(pair.spin_i)
+                + elastic.torque_j.dot(pair.spin_j),
+        }
+    }
+}
+
+/// One bond to be damped.
+struct DampOne<'a> {
+    /// The law at this step.
+    law: &'a Coefficients,
+    /// Its bodies.
+    pair: &'a Pair,
+    /// How they move.
+    motion: &'a Motion,
+    /// What the formulation answers.
+    elastic: &'a Elastic<f64>,
+}
+
+impl TakeDamping for DampOne<'_> {
+    type Output = DampingLoad;
+    fn take<D: Damping>(self, damping: D) -> DampingLoad {
+        damping.damp(self.law, self.pair, self.motion, self.elastic).load(self.pair, self.motion)
+    }
+}
+
+/// One bond that a rule looks at.
+struct JudgeOne<'a>(&'a Loaded);
+
+impl TakeRule for JudgeOne<'_> {
+    type Output = f64;
+    fn take<B: Breakage>(self, rule: B, before: f64) -> f64 {
+        let cause = rule.judge(self.0);
+        if cause > 0.0 { cause + before } else { 0.0 }
+    }
+}
