@@ -138,7 +138,7 @@ fn sheet(rng: &mut ChaCha8Rng, height: f64) -> Vec<Triangle> {
     for i in 0..CELLS {
         for j in 0..CELLS {
             let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-            triangles.extend(if rng.next_u32() % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+            triangles.extend(if rng.next_u32().is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
         }
     }
     triangles
