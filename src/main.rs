@@ -3,7 +3,9 @@
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
-use cograin::output::{self, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start};
+use cograin::output::{
+    self, Checkpoint, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start,
+};
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin::verify;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -72,6 +74,9 @@ struct CheckArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
 }
 
 /// `cograin run`
@@ -80,6 +85,9 @@ struct RunArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    #[arg(long, value_name = "CHECKPOINT", conflicts_with = "resume")]
+    from: Option<PathBuf>,
     /// Folder of the results
     #[arg(short, long, value_name = "DIR", default_value = "output")]
     output: PathBuf,
@@ -100,6 +108,9 @@ struct SettleArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
     /// File of the settled state
     #[arg(short, long, value_name = "CHECKPOINT")]
     output: PathBuf,
@@ -114,7 +125,7 @@ struct ExportArguments {
     /// The scene.
     #[command(flatten)]
     scene: SceneArguments,
-    /// Begin with this state instead of the scene's
+    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
     /// The unit's file
@@ -244,7 +255,7 @@ fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), End
 /// `cograin check`
 fn check(arguments: &CheckArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(&arguments.scene)?;
-    let report = output::check(&scene, &source.name).map_err(Ending::refused)?;
+    let report = output::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
     say(report);
     Ok(())
 }
@@ -253,7 +264,7 @@ fn check(arguments: &CheckArguments) -> Result<(), Ending> {
 fn run(arguments: &RunArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(&arguments.scene)?;
     let start = match &arguments.resume {
-        None => Start::Scene,
+        None => arguments.from.clone().map_or(Start::Scene, Start::From),
         Some(None) => Start::LastCheckpoint,
         Some(Some(path)) => Start::Checkpoint(path.clone()),
     };
@@ -293,6 +304,7 @@ fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
     let order = SettleOrder {
         scene: &scene,
         scene_name: &source.name,
+        from: arguments.from.as_deref(),
         checkpoint: &arguments.output,
         most_steps: arguments.steps,
         stop: &STOP,
@@ -313,22 +325,37 @@ fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
          kinetic energy {:.3e} J",
         settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
     ));
+    say_left_behind(&settled.left_behind);
     Ok(())
 }
 
 /// `cograin export`
 fn package(arguments: &ExportArguments) -> Result<(), Ending> {
     let (scene, source) = read(&arguments.scene)?;
-    let state = match &arguments.from {
-        Some(path) => Some(output::read_checkpoint(path, scene.fingerprint).map_err(Ending::refused)?),
+    let scene = Arc::new(scene);
+    let begun = match &arguments.from {
+        Some(path) => {
+            let checkpoint = Checkpoint::read(path).map_err(Ending::refused)?;
+            Some(checkpoint.taken_over(&scene).map_err(Ending::refused)?)
+        }
         None => None,
     };
+    let state = begun.as_ref().map(|begun| begun.simulation.state());
     let library = find_library(arguments.library.as_deref()).map_err(Ending::failed)?;
-    let exported = export(&source, &scene, state.as_ref(), &library, &arguments.output);
+    let exported = export(&source, &scene, state, &library, &arguments.output);
     exported.map_err(|error| match error {
         PackageError::Library(error) => Ending::refused(error),
         error => Ending::failed(error),
-    })
+    })?;
+    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind));
+    Ok(())
+}
+
+/// Tells what could not be taken along from the checkpoint of another scene.
+fn say_left_behind(left_behind: &[String]) {
+    for left in left_behind {
+        say(format_args!("not taken along: {left}"));
+    }
 }
 
 /// `cograin verify`

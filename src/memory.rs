@@ -1,4 +1,4 @@
-//! Where large arrays begin in memory.
+//! How much memory there is, and where large arrays begin in it.
 //!
 //! An allocator gives large arrays whole pages, so all of them begin at the same place of a page. A loop that goes
 //! through several of them side by side then reads from places that differ from those it has just written to in the
@@ -94,6 +94,26 @@ unsafe impl GlobalAlloc for Staggered {
             None => unsafe { System.dealloc(start, array) },
         }
     }
+}
+
+/// Memory that this process may still ask for \[bytes\], where the system tells: what is free, less where a limit of the
+/// process or of its group is nearer.
+pub fn available() -> Option<u64> {
+    /// Bytes in the unit of these files.
+    const KIBIBYTE: u64 = 1024;
+    let field = |file: &str, name: &str| {
+        let text = std::fs::read_to_string(file).ok()?;
+        let rest = text.lines().find_map(|line| line.strip_prefix(name))?.to_owned();
+        rest.split_whitespace().next()?.parse::<u64>().ok()
+    };
+    let whole = |file: &str| std::fs::read_to_string(file).ok()?.trim().parse::<u64>().ok();
+    let free = field("/proc/meminfo", "MemAvailable:").map(|free| free * KIBIBYTE);
+    let own = field("/proc/self/limits", "Max address space").map(|limit| {
+        limit.saturating_sub(field("/proc/self/status", "VmSize:").unwrap_or(0) * KIBIBYTE)
+    });
+    let group = whole("/sys/fs/cgroup/memory.max")
+        .map(|limit| limit.saturating_sub(whole("/sys/fs/cgroup/memory.current").unwrap_or(0)));
+    [free, own, group].into_iter().flatten().min()
 }
 
 #[cfg(test)]

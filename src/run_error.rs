@@ -103,6 +103,34 @@ pub enum RunError {
         /// The plane.
         boundary: String,
     },
+    /// Lists that have no room.
+    #[error(
+        "{pairs:.2e} {why} need about {:.1} GB of memory, and {:.1} GB are free; a shorter one or fewer particles are right",
+        needed / 1e9, *free as f64 / 1e9
+    )]
+    Memory {
+        /// How many pairs.
+        pairs: f64,
+        /// Bytes they need.
+        needed: f64,
+        /// Bytes that are free.
+        free: u64,
+        /// Which pairs, and why so many.
+        why: String,
+    },
+    /// A group of a scene that takes over another one's state would have to jump.
+    #[error(
+        "[boundary.{boundary}] has particle {id} {way:.3e} m from where it has come to; a group of the checkpoint's scene, of the \
+         same name and particles, or particles that have not moved are right"
+    )]
+    GroupElsewhere {
+        /// The group.
+        boundary: String,
+        /// One of its particles.
+        id: u32,
+        /// How far it would jump \[m\].
+        way: f64,
+    },
     /// An interval that is no interval.
     #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
     Interval {

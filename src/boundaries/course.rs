@@ -122,7 +122,7 @@ fn turn(boundary: &Boundary, body: &RigidBody, moved: &mut BoundaryState, progre
     match body.turning {
         Turning::Still => Vector::zero(),
         Turning::About(_) | Turning::Freely => body.drift(moved, progress.step),
-        Turning::Led => match prescribed_turn(boundary, progress.time) {
+        Turning::Led => match prescribed_turn(boundary, &moved.target, progress.time) {
             Some([rotation, spin]) => {
                 let before = Vector::from(moved.rotation);
                 moved.angular_velocity = spin.to_array();
@@ -136,9 +136,11 @@ fn turn(boundary: &Boundary, body: &RigidBody, moved: &mut BoundaryState, progre
     }
 }
 
-/// Rotation vector \[rad\] and angular velocity \[rad/s\] at a time of a boundary that the scene turns.
-fn prescribed_turn(boundary: &Boundary, time: f64) -> Option<[Vector; 2]> {
-    let turn = [3, 4, 5].map(|axis| boundary.axes[axis].at(time));
+/// Rotation vector \[rad\] and angular velocity \[rad/s\] at a time of a boundary that the scene turns, from where it stood
+/// at time 0.
+fn prescribed_turn(boundary: &Boundary, target: &[f64; 6], time: f64) -> Option<[Vector; 2]> {
+    let at = |axis: usize| boundary.axes[axis].at(time).map(|[turned, spin]| [target[axis] + turned, spin]);
+    let turn = [3, 4, 5].map(at);
     let part = |part: usize| Vector::from(turn.map(|about| about.map_or(0.0, |about| about[part])));
     turn.iter().any(Option::is_some).then(|| [part(0), part(1)])
 }
@@ -178,12 +180,22 @@ pub(crate) fn put(moved: &mut BoundaryState, axis: usize, value: f64) {
     }
 }
 
+/// Lets prescribed axes go on from where they stand at this time \[s\]: their target is where they would have stood at time 0.
+pub(crate) fn begin_prescribed(boundary: &Boundary, moved: &mut BoundaryState, time: f64) {
+    for (axis, motion) in boundary.axes.iter().enumerate() {
+        if let Some([place, _]) = motion.at(time) {
+            moved.target[axis] = six(moved.displacement, moved.rotation)[axis] - place;
+        }
+    }
+}
+
 /// Puts prescribed axes where they are at this time \[s\].
 pub(crate) fn put_prescribed(scene: &Scene, state: &mut State, time: f64) {
     for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
         for (axis, motion) in boundary.axes.iter().enumerate() {
             if let Some([place, _]) = motion.at(time) {
                 put(moved, axis, place);
+                moved.target[axis] = 0.0;
             }
         }
     }

@@ -50,8 +50,8 @@ trait Motion {
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, where it is led through it.
-    fn lead(&self, _way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        self.at(progress.time)
+    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
+        self.at(progress.time).map(|[place, rate]| [way.target + place, rate])
     }
 }
 
@@ -60,7 +60,7 @@ trait Motion {
 pub(crate) struct Way {
     /// Where it began \[m, rad\].
     pub start: f64,
-    /// Where it is to end \[m, rad\].
+    /// Where it is to end; of a prescribed axis where it stood at time 0 \[m, rad\].
     pub target: f64,
     /// Where it stands before the present time step \[m, rad\].
     pub before: f64,

@@ -12,6 +12,7 @@ mod order;
 mod pair_cache;
 mod pairs;
 mod planes;
+pub(crate) mod room;
 mod sizes;
 mod skin;
 mod surfaces;

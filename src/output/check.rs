@@ -1,22 +1,17 @@
 //! What is to be known of a scene before it runs.
 
 use super::error::Refusal;
+use super::files::Checkpoint;
+use super::forecast;
 use super::remarks::remarks;
 use super::schedule::Schedule;
+use super::trial::{self, Trial};
+use crate::interface::Interface;
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
 use crate::step::Simulation;
 use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-/// Wall time after which the cost of a step is known well enough.
-const PATIENCE: Duration = Duration::from_millis(300);
-
-/// Time steps made at once while the cost is measured.
-const STEPS_AT_ONCE: f64 = 10.0;
-
-/// Looks at the cost, at most.
-const LOOKS: usize = 20;
 
 /// What is to be known of a scene before it runs. Displays as text for a person.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,25 +20,53 @@ pub struct Report {
     pub uses: Vec<String>,
     /// The time step, the stable one and what limits it.
     pub time_step: String,
+    /// What a run writes, a line each; nothing where the scene does not say when it ends.
+    pub outputs: Vec<String>,
+    /// How many steps a run makes.
+    pub steps: Option<String>,
     /// Size of the state and of the whole process.
     pub memory: String,
     /// Wall time of a step, measured.
     pub cost: String,
+    /// Wall time of a run.
+    pub time: Option<String>,
     /// What is legal but risky.
     pub remarks: Vec<String>,
 }
 
 /// Takes a scene to its start and a few steps further, writes nothing, and tells what was seen.
-pub fn check(scene: &Arc<Scene>, scene_name: &str) -> Result<Report, Refusal> {
+pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
-    let _schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
-    let mut simulation = Simulation::new(Arc::clone(scene)).map_err(start)?;
+    let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
+    let (mut simulation, left_behind) = match from {
+        None => (Simulation::new(Arc::clone(scene)).map_err(start)?, Vec::new()),
+        Some(path) => {
+            let not = |error| Refusal::not_taken_over(scene_name, error);
+            let taken = Checkpoint::read(path)?.taken_over(scene).map_err(not)?;
+            (taken.simulation, taken.left_behind)
+        }
+    };
+    let begins = schedule.as_ref().map_or(0.0, |schedule| {
+        let time = simulation.time();
+        schedule.point_of(time).unwrap_or(time)
+    });
     let mut remarks = remarks(scene, &simulation);
+    remarks.extend(left_behind.into_iter().map(|left| format!("not taken along: {left}")));
     let uses = uses(scene, &simulation);
     let time_step = time_step(scene, &simulation);
-    let cost = cost(&mut simulation, &mut remarks);
+    let present = simulation.state().clone();
+    let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
+    let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&simulation);
-    Ok(Report { uses, time_step, memory, cost, remarks })
+    simulation.restore(&present);
+    let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
+    let cost = cost(&simulation, &trial);
+    remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));
+    let (outputs, steps, time) = match forecast {
+        Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
+        None => (Vec::new(), None, None),
+    };
+    Ok(Report { uses, time_step, outputs, steps, memory, cost, time, remarks })
 }
 
 impl fmt::Display for Report {
@@ -52,8 +75,17 @@ impl fmt::Display for Report {
             writeln!(formatter, "uses       {line}")?;
         }
         writeln!(formatter, "time step  {}", self.time_step)?;
+        for line in &self.outputs {
+            writeln!(formatter, "writes     {line}")?;
+        }
+        if let Some(steps) = &self.steps {
+            writeln!(formatter, "steps      {steps}")?;
+        }
         writeln!(formatter, "memory     {}", self.memory)?;
         write!(formatter, "cost       {}", self.cost)?;
+        if let Some(time) = &self.time {
+            write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
+        }
         for remark in &self.remarks {
             write!(formatter, "\nremark     {remark}")?;
         }
@@ -135,31 +167,20 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> String {
     format!("{step:.4e} s ({chosen}), {:.3} of the stable one, {:.4e} s{by}", step / limit.safe, limit.safe)
 }
 
-/// Wall time of a step, measured over a few; a step that fails becomes a remark.
-fn cost(simulation: &mut Simulation, remarks: &mut Vec<String>) -> String {
-    let (begun, first) = (Instant::now(), simulation.state().clock.steps);
-    for _ in 0..LOOKS {
-        let interval = STEPS_AT_ONCE * simulation.state().clock.step;
-        if let Err(error) = simulation.advance(interval) {
-            remarks.push(format!("it stops at once: {error}"));
-            break;
-        }
-        if begun.elapsed() > PATIENCE {
-            break;
-        }
-    }
-    let steps = simulation.state().clock.steps - first;
-    if steps == 0 {
+/// Wall time of a step.
+fn cost(simulation: &Simulation, trial: &Trial) -> String {
+    if trial.steps == 0 {
         return "unknown".to_owned();
     }
-    let step = begun.elapsed().as_secs_f64() / steps as f64;
-    let end = simulation.scene().run.end.map_or_else(String::new, |end| {
-        format!("; the run of {end} s about {:.3e} s", end / simulation.state().clock.step * step)
-    });
     let contacts = simulation.contact_count();
-    let share =
-        if contacts > 0 { format!(", {:.1} ns for each contact", step * 1e9 / contacts as f64) } else { String::new() };
-    format!("{step:.3e} s wall for each step (measured over {steps}){share}{end}")
+    let share = match contacts {
+        0 => String::new(),
+        contacts => format!(", {:.1} ns for each contact", trial.step * 1e9 / contacts as f64),
+    };
+    format!(
+        "{:.3e} s wall for each step{share} (measured over {} steps; the trial took {:.2} s)",
+        trial.step, trial.steps, trial.cost
+    )
 }
 
 /// Size of the state and of the whole process.

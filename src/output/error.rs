@@ -65,6 +65,36 @@ pub enum ResumeError {
         /// What is wrong with it.
         source: SnapshotError,
     },
+    /// It is no checkpoint.
+    #[error("{}: is no checkpoint; a file that run or settle has written is right", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is one of another program.
+    #[error(
+        "{}: is a checkpoint in the format of another version of the program; this one reads format 1: go on with the program that wrote it",
+        path.display()
+    )]
+    Format {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is of another scene.
+    #[error(
+        "{}: is a checkpoint of {scene} at t = {time} s, written by {program}, and that scene differs from this one in text, files, \
+         settings or program; --from takes it along into another scene", path.display()
+    )]
+    OtherScene {
+        /// The file.
+        path: PathBuf,
+        /// File name of its scene.
+        scene: String,
+        /// The program that wrote it.
+        program: String,
+        /// Its time \[s\].
+        time: f64,
+    },
     /// Its time is none that a run of this scene comes by.
     #[error("the checkpoint is at t = {time} s, where a run of this scene writes nothing; {nearest} s would be right")]
     Between {
@@ -94,6 +124,17 @@ pub enum ResumeError {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// Why a scene cannot begin with the state of another one.
+#[derive(Debug, thiserror::Error)]
+pub enum TakeOverError {
+    /// The checkpoint cannot be read.
+    #[error(transparent)]
+    Checkpoint(#[from] ResumeError),
+    /// The scene cannot go on from there.
+    #[error(transparent)]
+    Start(#[from] RunError),
 }
 
 /// Why a table of inputs is refused.
@@ -157,6 +198,14 @@ pub enum Refusal {
         scene: String,
         /// Why not.
         source: RunError,
+    },
+    /// A frame cannot be made.
+    #[error("{scene}: {source}")]
+    Frame {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: EncodeError,
     },
     /// The results have no place there.
     #[error("{}: is a file; a folder, or a name that is not there yet, is right", folder.display())]
@@ -222,6 +271,18 @@ pub enum Refusal {
     /// The checkpoint does not fit.
     #[error(transparent)]
     Resume(#[from] ResumeError),
+    /// The run ends before it begins.
+    #[error(
+        "{scene}, [run] end: {end} s is not behind t = {time} s, where the checkpoint stands; a later end is right"
+    )]
+    Ended {
+        /// File name of the scene.
+        scene: String,
+        /// End of the run \[s\].
+        end: f64,
+        /// Time of the checkpoint \[s\].
+        time: f64,
+    },
     /// The table of inputs does not fit.
     #[error(transparent)]
     Inputs(#[from] InputsError),
@@ -267,6 +328,16 @@ pub enum Failure {
         /// What was asked for.
         tolerance: f64,
     },
+}
+
+impl Refusal {
+    /// Why a scene with this file name cannot begin with a checkpoint.
+    pub(super) fn not_taken_over(scene: &str, error: TakeOverError) -> Self {
+        match error {
+            TakeOverError::Checkpoint(error) => Self::Resume(error),
+            TakeOverError::Start(source) => Self::Start { scene: scene.to_owned(), source },
+        }
+    }
 }
 
 impl From<ResumeError> for Failure {

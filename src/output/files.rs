@@ -1,12 +1,17 @@
 //! Files that are whole at any time, also for one who looks after a crash.
 
 use super::UNFINISHED;
-use super::error::{OutputError, ResumeError};
+use super::error::{OutputError, ResumeError, TakeOverError};
+use crate::scene::Scene;
 use crate::state::State;
+use crate::state::snapshot::SnapshotError;
+use crate::step::{Description, Simulation};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use xxhash_rust::xxh3::xxh3_64;
 
 /// Whether a file must be on the disk, or may still be in the system's memory, when it has its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,18 +70,95 @@ pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
-/// Writes a state to a file that is whole at any time.
-pub fn write_checkpoint(path: &Path, state: &State, scene_fingerprint: u64) -> Result<(), OutputError> {
+/// What a checkpoint begins with; the number is that of its format.
+const HEAD: &str = "cograin checkpoint 1\n";
+
+/// What every checkpoint begins with, whatever its format.
+const KIND: &[u8] = b"cograin checkpoint ";
+
+/// A state and the scene that it is of.
+#[derive(Clone, Debug)]
+pub struct Checkpoint {
+    /// Where it stands.
+    path: PathBuf,
+    /// The scene.
+    pub scene: Description,
+    /// The state as bytes.
+    bytes: Vec<u8>,
+}
+
+/// Writes a state to a file that is whole at any time: a line that says what it is, the scene as a line of JSON after its
+/// checksum, the state.
+pub fn write_checkpoint(path: &Path, state: &State, scene: &Scene, scene_name: &str) -> Result<(), OutputError> {
+    let description = Description::of(scene, scene_name, state.clock.time);
+    // Plain numbers and strings: writing them to memory has no way to fail.
+    let description = serde_json::to_string(&description).unwrap_or_default();
+    let checksum = xxh3_64(description.as_bytes());
     write_whole_by(path, Durability::Machine, |file| {
         let mut buffered = BufWriter::new(file);
-        state.write_to(scene_fingerprint, &mut buffered)?;
+        write!(buffered, "{HEAD}{checksum:016x} {description}\n")?;
+        state.write_to(scene.fingerprint, &mut buffered)?;
         buffered.flush()
     })
 }
 
+impl Checkpoint {
+    /// Reads a checkpoint of any scene.
+    pub fn read(path: &Path) -> Result<Self, ResumeError> {
+        let at = path.to_owned();
+        let bytes = fs::read(path).map_err(|source| ResumeError::Read { path: at.clone(), source })?;
+        let Some(rest) = bytes.strip_prefix(HEAD.as_bytes()) else {
+            let older = bytes.starts_with(b"cograin\0") || bytes.starts_with(KIND);
+            return Err(if older { ResumeError::Format { path: at } } else { ResumeError::Foreign { path: at } });
+        };
+        let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let text = std::str::from_utf8(line).ok().and_then(|line| line.split_once(' '));
+        let whole = text.filter(|(sum, text)| u64::from_str_radix(sum, 16) == Ok(xxh3_64(text.as_bytes())));
+        let scene = whole.and_then(|(_, text)| serde_json::from_str(text).ok());
+        let Some(scene) = scene else {
+            return Err(ResumeError::Snapshot { path: at, source: SnapshotError::Damaged });
+        };
+        let bytes = rest.get(line.len() + 1..).unwrap_or_default().to_vec();
+        Ok(Self { path: at, scene, bytes })
+    }
+
+    /// The state, if it is of this very scene.
+    pub fn state_of(&self, scene: &Scene) -> Result<State, ResumeError> {
+        State::from_bytes(&self.bytes, scene.fingerprint).map_err(|source| match source {
+            SnapshotError::Scene { .. } => ResumeError::OtherScene {
+                path: self.path.clone(),
+                scene: self.scene.scene.clone(),
+                program: self.scene.program.clone(),
+                time: self.scene.time,
+            },
+            source => ResumeError::Snapshot { path: self.path.clone(), source },
+        })
+    }
+
+    /// A scene in this state, which need not be that of the checkpoint.
+    pub fn taken_over(&self, scene: &Arc<Scene>) -> Result<TakenOver, TakeOverError> {
+        let state = State::from_bytes(&self.bytes, self.scene.fingerprint)
+            .map_err(|source| ResumeError::Snapshot { path: self.path.clone(), source })?;
+        if self.scene.goes_on_as(scene) {
+            let simulation = Simulation::resume(Arc::clone(scene), state);
+            return Ok(TakenOver { simulation, left_behind: Vec::new(), goes_on: true });
+        }
+        let (simulation, left_behind) = Simulation::taken_over(Arc::clone(scene), &state, &self.scene)?;
+        Ok(TakenOver { simulation, left_behind, goes_on: false })
+    }
+}
+
+/// A scene in the state of a checkpoint.
+pub struct TakenOver {
+    /// The scene in motion.
+    pub simulation: Simulation,
+    /// What could not be taken along, in words.
+    pub left_behind: Vec<String>,
+    /// Whether the scene differs from that of the checkpoint in its end and its outputs at most: it goes on bit for bit.
+    pub goes_on: bool,
+}
+
 /// Reads a state that was written for the same scene.
-pub fn read_checkpoint(path: &Path, scene_fingerprint: u64) -> Result<State, ResumeError> {
-    let bytes = fs::read(path).map_err(|source| ResumeError::Read { path: path.to_owned(), source })?;
-    State::from_bytes(&bytes, scene_fingerprint)
-        .map_err(|source| ResumeError::Snapshot { path: path.to_owned(), source })
+pub fn read_checkpoint(path: &Path, scene: &Scene) -> Result<State, ResumeError> {
+    Checkpoint::read(path)?.state_of(scene)
 }

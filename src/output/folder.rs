@@ -51,6 +51,21 @@ pub(super) enum Job {
     Tell(SyncSender<()>),
 }
 
+impl Job {
+    /// The text of a row; nothing for other jobs.
+    pub(super) fn text(&self) -> String {
+        match self {
+            Self::Row { time, values } => cells(*time, values).join(","),
+            _ => String::new(),
+        }
+    }
+}
+
+/// The cells of a row.
+fn cells(time: f64, values: &[Value]) -> Vec<String> {
+    std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect()
+}
+
 /// A frame's `.pvd` and what has been added.
 struct Series {
     /// Beginning of the file names.
@@ -65,6 +80,8 @@ struct Series {
 pub(super) struct Folder {
     /// What is simulated.
     scene: Arc<Scene>,
+    /// Its file name.
+    scene_name: String,
     /// Where it is.
     path: PathBuf,
     /// `history.csv`.
@@ -140,7 +157,12 @@ impl Kept {
 
 impl Folder {
     /// Makes the folder ready for the next row, keeping what is kept and nothing else.
-    pub(super) fn open(path: &Path, scene: Arc<Scene>, names: &[String], kept: &Kept) -> Result<Self, OutputError> {
+    pub(super) fn open(
+        path: &Path,
+        (scene, scene_name): (Arc<Scene>, &str),
+        names: &[String],
+        kept: &Kept,
+    ) -> Result<Self, OutputError> {
         for stale in results(path)?.iter().filter(|file| is_stale(file, kept)) {
             fs::remove_file(stale).map_err(OutputError::at(stale))?;
         }
@@ -157,7 +179,15 @@ impl Folder {
             .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
             .map(|(name, _)| Series::open(path, name, kept))
             .collect::<Result<_, _>>()?;
-        Ok(Self { scene, path: path.to_owned(), history, breakage, series, unsynced: Vec::new() })
+        Ok(Self {
+            scene,
+            scene_name: scene_name.to_owned(),
+            path: path.to_owned(),
+            history,
+            breakage,
+            series,
+            unsynced: Vec::new(),
+        })
     }
 
     /// Where it is.
@@ -168,18 +198,10 @@ impl Folder {
     /// Does one job.
     pub(super) fn write(&mut self, job: Job) -> Result<(), OutputError> {
         match job {
-            Job::Row { time, values } => {
-                let row: Vec<_> =
-                    std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect();
-                self.history.add(&row)
-            }
+            Job::Row { time, values } => self.history.add(&cells(time, &values)),
             Job::Breaks(breaks) => self.breaks(&breaks),
-            Job::Frame { time, particles, contacts, bonds } => {
-                let clouds = [
-                    Some(frames::particles(&self.scene, &particles)),
-                    contacts.map(|contacts| frames::contacts(&self.scene, &contacts)),
-                    bonds.map(|bonds| frames::bonds(&self.scene, &particles, &bonds)),
-                ];
+            Job::Frame { time, .. } => {
+                let clouds = frames::clouds(&self.scene, job);
                 self.frame(time, clouds.into_iter().flatten())
             }
             Job::Checkpoint(state) => self.checkpoint(&state),
@@ -198,7 +220,7 @@ impl Folder {
         for path in self.unsynced.drain(..) {
             sync(&path)?;
         }
-        write_checkpoint(&self.path.join(CHECKPOINT), state, self.scene.fingerprint)
+        write_checkpoint(&self.path.join(CHECKPOINT), state, &self.scene, &self.scene_name)
     }
 
     /// Writes a row for each bond that broke.

@@ -1,9 +1,22 @@
 //! The clouds of a frame: particles by ascending id, the contacts between them, their bonds.
 
+use super::folder::Job;
 use super::vtk::{Cloud, Kind, Values};
 use crate::scene::Scene;
 use crate::state::Particles;
 use crate::step::{BondRecord, ContactRecord};
+
+/// The clouds of a frame, in the order of their kinds; none for other jobs.
+pub(super) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 3] {
+    let Job::Frame { particles: bodies, contacts: touching, bonds: living, .. } = job else {
+        return [None, None, None];
+    };
+    [
+        Some(particles(scene, &bodies)),
+        touching.map(|touching| contacts(scene, &touching)),
+        living.map(|living| bonds(scene, &bodies, &living)),
+    ]
+}
 
 /// All particles, in the order of the scene whatever their order in memory.
 pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {

@@ -1,7 +1,7 @@
 //! A scene that runs by itself, from one communication point to the next, and what it writes there.
 
 use super::error::{Failure, OutputError, Refusal, ResumeError};
-use super::files::{Durability, read_checkpoint, write_whole};
+use super::files::{Checkpoint, Durability, read_checkpoint, write_whole};
 use super::folder::{Folder, Job, Kept, Place};
 use super::inputs::Inputs;
 use super::lock::FolderLock;
@@ -30,8 +30,10 @@ pub enum Start {
     Scene,
     /// With the checkpoint in the folder of the results.
     LastCheckpoint,
-    /// With this checkpoint.
+    /// With this checkpoint of the same scene.
     Checkpoint(PathBuf),
+    /// With this checkpoint, which may be of another scene.
+    From(PathBuf),
 }
 
 /// What becomes of the results of an earlier run in the folder, where another run begins.
@@ -75,7 +77,7 @@ pub struct Progress {
 
 /// Where a checkpoint is written from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Checkpoint {
+enum WrittenFrom {
     /// From a copy, while the simulation goes on.
     Copied,
     /// From the state itself, where nothing goes on meanwhile: a copy would be what the process needs most memory for.
@@ -117,6 +119,8 @@ struct Session<'a> {
     meter: Meter,
     /// When the last checkpoint was handed over.
     last_checkpoint: Instant,
+    /// What could not be taken along from another scene, in words.
+    left_behind: Vec<String>,
     /// What keeps others out of the folder.
     _lock: FolderLock,
 }
@@ -131,9 +135,22 @@ impl<'a> Session<'a> {
         let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
         let schedule = Schedule::new(order.scene, order.scene_name, end)?;
         let early_lock = if order.folder.exists() { Some(claim(&order)?) } else { None };
+        let mut left_behind = Vec::new();
         let (simulation, time, origin) = match checkpoint(&order)? {
+            Some((path, Origin::TakenOver { .. })) => {
+                let not = |error| Refusal::not_taken_over(order.scene_name, error);
+                let taken = Checkpoint::read(&path)?.taken_over(order.scene).map_err(not)?;
+                left_behind = taken.left_behind;
+                let saved = taken.simulation.time();
+                if saved >= end * (1.0 - f64::EPSILON) {
+                    return Err(Refusal::Ended { scene: scene_name(), end, time: saved }.into());
+                }
+                let time = schedule.point_of(saved).unwrap_or(saved);
+                let goes_on = taken.goes_on;
+                (taken.simulation, time, if time > 0.0 { Origin::TakenOver { goes_on } } else { Origin::Anew })
+            }
             Some((path, origin)) => {
-                let state = read_checkpoint(&path, order.scene.fingerprint)?;
+                let state = read_checkpoint(&path, order.scene)?;
                 let saved = state.clock.time;
                 let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
                 let origin = if time > 0.0 { origin } else { Origin::Anew };
@@ -153,7 +170,7 @@ impl<'a> Session<'a> {
         }
         let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
         let kept = Kept::look(order.folder, &place)?;
-        let folder = Folder::open(order.folder, Arc::clone(order.scene), &names, &kept)?;
+        let folder = Folder::open(order.folder, (Arc::clone(order.scene), order.scene_name), &names, &kept)?;
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
@@ -172,6 +189,7 @@ impl<'a> Session<'a> {
             momentum,
             meter,
             last_checkpoint: Instant::now(),
+            left_behind,
             _lock: lock,
         })
     }
@@ -192,7 +210,7 @@ impl<'a> Session<'a> {
             let stopped = stop.load(Ordering::Relaxed);
             let last = stopped || point.time >= self.end;
             let due = Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due };
-            self.write(due, if last { Checkpoint::InPlace } else { Checkpoint::Copied })?;
+            self.write(due, if last { WrittenFrom::InPlace } else { WrittenFrom::Copied })?;
             watch(tell(point.time));
             if stopped && point.time < self.end {
                 return Err(self.interrupted());
@@ -214,7 +232,7 @@ impl<'a> Session<'a> {
     }
 
     /// Hands what is due of the present state to the writer.
-    fn write(&mut self, due: Due, checkpoint: Checkpoint) -> Result<(), OutputError> {
+    fn write(&mut self, due: Due, checkpoint: WrittenFrom) -> Result<(), OutputError> {
         let time = self.time;
         if due.history {
             self.writer.send(row(&self.interface, &self.simulation, time))?;
@@ -226,8 +244,8 @@ impl<'a> Session<'a> {
             self.last_checkpoint = Instant::now();
             let state = self.simulation.state();
             match checkpoint {
-                Checkpoint::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
-                Checkpoint::InPlace => {
+                WrittenFrom::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
+                WrittenFrom::InPlace => {
                     self.writer.wait()?;
                     opened(&self.folder).checkpoint(state)?;
                 }
@@ -246,8 +264,9 @@ impl<'a> Session<'a> {
         let result = result.and(self.writer.finish().map_err(Failure::from));
         let momentum = self.momentum.balance(&self.simulation);
         self.meter.look(&self.simulation);
-        let summary =
+        let mut summary =
             Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
+        summary.left_behind = self.left_behind;
         let path = self.order.folder.join(SUMMARY);
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
         result.and(written.map_err(Failure::from)).map(|()| summary)
@@ -263,6 +282,11 @@ enum Origin {
     Here,
     /// At a later time, from a checkpoint of another folder: what was written up to then stays there.
     Elsewhere,
+    /// At a later time, from a checkpoint that may be another scene's: a run of its own, with a row where it begins.
+    TakenOver {
+        /// Whether it goes on bit for bit.
+        goes_on: bool,
+    },
 }
 
 /// What a run writes before its first step.
@@ -282,15 +306,19 @@ impl First<'_> {
     fn write(&self, simulation: &Simulation, time: f64, origin: Origin) -> Result<(), OutputError> {
         let path = self.order.folder;
         let new = replacement::begin(path)?;
-        let earlier_frames = if origin == Origin::Anew { 0 } else { self.schedule.frames_until(time).len() };
-        let kept = Kept::nothing(earlier_frames);
-        let mut folder = Folder::open(&new, Arc::clone(self.order.scene), self.names, &kept)?;
-        if origin == Origin::Anew {
+        let frames = self.schedule.frames_until(time);
+        let frame_is_due = origin != Origin::Elsewhere && frames.last() == Some(&time);
+        let kept = Kept::nothing(frames.len() - usize::from(frame_is_due));
+        let named = (Arc::clone(self.order.scene), self.order.scene_name);
+        let mut folder = Folder::open(&new, named, self.names, &kept)?;
+        if matches!(origin, Origin::Anew | Origin::TakenOver { goes_on: false }) {
             folder.write(Job::Breaks(simulation.state().breaks.clone()))?;
+        }
+        if origin != Origin::Elsewhere {
             folder.write(row(self.interface, simulation, time))?;
-            if self.schedule.at_start().frame {
-                folder.write(frame(simulation, time))?;
-            }
+        }
+        if frame_is_due {
+            folder.write(frame(simulation, time))?;
         }
         folder.checkpoint(simulation.state())?;
         drop(folder);
@@ -299,13 +327,13 @@ impl First<'_> {
 }
 
 /// The row of the history at the present time.
-fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
+pub(super) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
     let values = interface.outputs().map(|(index, _)| interface.value(simulation, index)).collect();
     Job::Row { time, values }
 }
 
 /// The frame at the present time.
-fn frame(simulation: &Simulation, time: f64) -> Job {
+pub(super) fn frame(simulation: &Simulation, time: f64) -> Job {
     let scene = simulation.scene();
     let particles = Box::new(simulation.state().particles.clone());
     let contacts = scene.output.contacts.then(|| simulation.contacts());
@@ -335,6 +363,7 @@ fn checkpoint(order: &RunOrder<'_>) -> Result<Option<(PathBuf, Origin)>, ResumeE
     let own = order.folder.join(CHECKPOINT);
     match order.start {
         Start::Scene => Ok(None),
+        Start::From(path) => Ok(Some((path.clone(), Origin::TakenOver { goes_on: false }))),
         Start::LastCheckpoint if own.exists() => Ok(Some((own, Origin::Here))),
         Start::LastCheckpoint => Err(ResumeError::None { folder: order.folder.to_owned() }),
         Start::Checkpoint(path) => {

@@ -9,6 +9,7 @@
 
 use super::error::Refusal;
 use crate::scene::{Scene, Step};
+use crate::step::divide;
 
 /// Communication steps of a run whose scene names no interval.
 const DEFAULT_STEPS: f64 = 100.0;
@@ -82,6 +83,15 @@ pub(super) struct Point {
     pub due: Due,
 }
 
+/// Time steps of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counted {
+    /// All of them.
+    pub all: u64,
+    /// Those that are shorter, so that an output is met.
+    pub shortened: u64,
+}
+
 /// All communication points of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Schedule {
@@ -148,9 +158,27 @@ impl Schedule {
         Some(Point { time: next, interval: next - time, due })
     }
 
-    /// What is to be written at time 0.
-    pub(super) fn at_start(&self) -> Due {
-        Due { history: true, frame: self.frames.is_some(), checkpoint: true }
+    /// The end of the run \[s\].
+    pub(super) fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// Time steps of a run from `time` on \[s\] whose step has this length \[s\].
+    pub(super) fn steps(&self, mut time: f64, step: f64) -> Counted {
+        let mut counted = Counted::default();
+        while let Some(point) = self.after(time) {
+            let (count, length) = divide(point.interval, step);
+            counted.all += count;
+            counted.shortened += if length == step { 0 } else { count };
+            time = point.time;
+        }
+        counted
+    }
+
+    /// Checkpoints of a run from `time` on \[s\], if the scene says when they are written.
+    pub(super) fn checkpoints(&self, time: f64) -> Option<u64> {
+        let count = |series| self.regular_until(series, self.end) + 2 - self.regular_until(series, time);
+        self.checkpoints.map(count)
     }
 
     /// The communication point that a saved time stands for, or the nearest one if it stands for none \[s\].
@@ -271,6 +299,16 @@ mod tests {
         let run = crate::scene::Run { step: Step::Given(1e-30), ..Default::default() };
         let told = Schedule::new(&Scene { run, ..Scene::default() }, "scene.toml", 1.0).unwrap_err().to_string();
         assert!(told.starts_with("scene.toml, [run] step: 1e-30 s gives 1.000e30 time steps"), "{told}");
+    }
+
+    #[test]
+    fn steps_that_outputs_shorten_are_counted() {
+        let even = schedule(1e-3, None, 0.01).steps(0.0, 1e-4);
+        assert_eq!(even, Counted { all: 100, shortened: 0 });
+        // Between 3 ms and 4 ms, 6 ms and so on there is 1 ms: 2 steps of 0.5 ms instead of 0.6 ms; 2 ms has 4 of 0.5 ms.
+        let uneven = schedule(2e-3, Some(3e-3), 6e-3).steps(0.0, 6e-4);
+        assert_eq!(uneven, Counted { all: 12, shortened: 12 });
+        assert_eq!(schedule(1e-3, None, 0.01).checkpoints(0.0), None);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! A scene brought to rest, as a start for others.
 
 use super::error::{Failure, Refusal};
-use super::files::write_checkpoint;
+use super::files::{Checkpoint, write_checkpoint};
 use crate::scene::{AxisMotion, Boundary, Scene};
-use crate::step::Simulation;
+use crate::step::{Description, Simulation};
 use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
@@ -23,6 +23,8 @@ pub struct SettleOrder<'a> {
     pub scene: &'a Arc<Scene>,
     /// Its file name, for messages.
     pub scene_name: &'a str,
+    /// The checkpoint that it begins with, which may be another scene's; none: the scene as its file has it.
+    pub from: Option<&'a Path>,
     /// The file that gets the state.
     pub checkpoint: &'a Path,
     /// Time steps after which the attempt is given up.
@@ -43,7 +45,7 @@ pub struct SettleProgress {
 }
 
 /// A packing at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
     /// Time steps made.
     pub steps: u64,
@@ -59,6 +61,8 @@ pub struct Settled {
     pub kinetic_energy: f64,
     /// Wall time \[s\].
     pub wall_time: f64,
+    /// What could not be taken along from the checkpoint of another scene.
+    pub left_behind: Vec<String>,
 }
 
 /// Runs a scene with damping, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
@@ -66,12 +70,28 @@ pub struct Settled {
 pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> Result<Settled, Failure> {
     let begun = Instant::now();
     let refused = |source| Refusal::Start { scene: order.scene_name.to_owned(), source };
-    let mut simulation = Simulation::new(standing_still(order.scene)).map_err(refused)?;
+    let still = standing_still(order.scene);
+    let (mut simulation, left_behind) = match order.from {
+        None => (Simulation::new(Arc::clone(&still)).map_err(refused)?, Vec::new()),
+        Some(path) => {
+            let not = |error| Refusal::not_taken_over(order.scene_name, error);
+            let taken = Checkpoint::read(path)?.taken_over(&still).map_err(not)?;
+            (taken.simulation, taken.left_behind)
+        }
+    };
+    let steps_before = simulation.state().clock.steps;
     simulation.damp_rest(order.scene.run.settle_damping);
     let ratio = come_to_rest(&mut simulation, &order, watch)?;
-    let (steps, time) = (simulation.state().clock.steps, simulation.time());
-    let simulation = Simulation::settled(Arc::clone(order.scene), simulation.state().clone())?;
-    write_checkpoint(order.checkpoint, simulation.state(), order.scene.fingerprint)?;
+    let (steps, time) = (simulation.state().clock.steps - steps_before, simulation.time());
+    let reached = simulation.state().clone();
+    let simulation = match order.from {
+        None => Simulation::settled(Arc::clone(order.scene), reached)?,
+        Some(_) => {
+            let from = Description::of(&still, order.scene_name, time);
+            Simulation::taken_over(Arc::clone(order.scene), &reached, &from)?.0
+        }
+    };
+    write_checkpoint(order.checkpoint, simulation.state(), order.scene, order.scene_name)?;
     Ok(Settled {
         steps,
         time,
@@ -80,6 +100,7 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         contacts: simulation.contact_count(),
         kinetic_energy: simulation.kinetic_energy(),
         wall_time: begun.elapsed().as_secs_f64(),
+        left_behind,
     })
 }
 
@@ -90,11 +111,12 @@ fn come_to_rest(
     watch: &mut dyn FnMut(SettleProgress),
 ) -> Result<f64, Failure> {
     let tolerance = order.scene.run.settle_tolerance;
+    let before = simulation.state().clock.steps;
     let mut looks = VecDeque::from(vec![f64::INFINITY; LOOKS]);
     loop {
         let clock = simulation.state().clock;
         let ratio = looks.iter().copied().fold(0.0, f64::max);
-        let steps = clock.steps;
+        let steps = clock.steps - before;
         watch(SettleProgress { steps, ratio, tolerance });
         if ratio < tolerance {
             return Ok(ratio);

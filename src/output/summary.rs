@@ -169,6 +169,8 @@ pub struct Summary {
     pub momentum: MomentumBalance,
     /// What is legal but risky in the scene.
     pub remarks: Vec<String>,
+    /// What could not be taken along from the checkpoint of another scene.
+    pub left_behind: Vec<String>,
 }
 
 impl Summary {
@@ -227,6 +229,7 @@ impl Summary {
             energy: energy_book(simulation),
             momentum,
             remarks: remarks(order.scene, simulation),
+            left_behind: Vec::new(),
         }
     }
 
@@ -255,7 +258,8 @@ impl std::fmt::Display for Summary {
         if let Some((cost, of)) = costs.into_iter().find_map(|(cost, of)| Some((cost?, of))) {
             write!(formatter, ", {cost:.1} ns per {of} and step")?;
         }
-        write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })
+        write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })?;
+        self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
     }
 }
 

@@ -21,7 +21,7 @@ pub struct BoundaryState {
     pub pivot: [f64; 3],
     /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\].
     pub start: [f64; 6],
-    /// Where it is to end, in the same order: the last values given.
+    /// Where it is to end, in the same order: the last values given; of prescribed axes where they stood at time 0.
     pub target: [f64; 6],
     /// Rates of the inputs at the start of the communication step; 0 where none was given.
     pub target_rate: [f64; 6],

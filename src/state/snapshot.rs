@@ -1,7 +1,7 @@
 //! State as bytes: versioned, checksummed, tied to its scene.
 
 use super::State;
-use std::io::{self, Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 /// What every snapshot starts with.
@@ -126,6 +126,7 @@ impl State {
 
     /// Writes the same bytes to a file, list by list: memory for all of them is not needed.
     pub fn write_to(&self, scene_fingerprint: u64, file: &mut (impl Write + Seek)) -> io::Result<()> {
+        let begin = file.stream_position()?;
         file.write_all(&header(scene_fingerprint, 0))?;
         let mut checked = Checked { file: &mut *file, checksum: Xxh3::new(), failed: None };
         let written = postcard::serialize_with_flavor(self, Flowing(&mut checked));
@@ -134,7 +135,7 @@ impl State {
         }
         written.expect(WRITABLE);
         let checksum = checked.checksum.digest();
-        file.rewind()?;
+        file.seek(SeekFrom::Start(begin))?;
         file.write_all(&header(scene_fingerprint, checksum))
     }
 

@@ -3,13 +3,16 @@
 mod assemble;
 mod observe;
 mod placement;
+mod room;
 mod run_checks;
 mod settled;
+mod taken_over;
 
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::RunError;
 pub use crate::stability::Limit;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
+pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
 use crate::boundaries::{RigidBody, course, rigid_body};
@@ -36,7 +39,7 @@ const LENGTHENING: f64 = 1.1;
 const WHOLE: f64 = 1e-6;
 
 /// The automatic time step of a scene in which nothing is stiff \[s\].
-const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
+pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 
 /// A scene in motion: its state and the passes composed for it.
 pub struct Simulation {
@@ -110,6 +113,7 @@ impl Simulation {
     fn begin(&mut self) -> Result<(), RunError> {
         self.give_attitudes();
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+        self.check_room()?;
         let context = self.standing();
         self.rebuild(&context);
         let time = self.state.clock.time;
@@ -418,7 +422,7 @@ impl Simulation {
 }
 
 /// Divides an interval into equal time steps: of exactly `step`, where a whole number of them fits, otherwise shorter.
-fn divide(interval: f64, step: f64) -> (u64, f64) {
+pub fn divide(interval: f64, step: f64) -> (u64, f64) {
     let ratio = interval / step;
     let whole = ratio.round();
     if whole >= 1.0 && (ratio - whole).abs() <= WHOLE {

@@ -88,7 +88,9 @@ impl Simulation {
             RunError::StepTooLong { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
-            | RunError::Interval { .. } => {}
+            | RunError::Interval { .. }
+            | RunError::GroupElsewhere { .. }
+            | RunError::Memory { .. } => {}
         }
         error
     }

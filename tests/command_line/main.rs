@@ -5,6 +5,7 @@ mod checks;
 mod folders;
 mod ground;
 mod inputs;
+mod protocols;
 mod refusals;
 mod runs;
 mod settling;

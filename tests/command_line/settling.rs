@@ -40,7 +40,7 @@ fn a_unit_that_begins_settled_keeps_the_packing_when_its_boundaries_are_placed()
     let file = place.at("settled.cograin");
     complaint(&cograin(&[&"settle", &path, &"-o", &file]).output().unwrap(), 0);
     let (scene, _) = Scene::read(&path).unwrap();
-    let state = read_checkpoint(&file, scene.fingerprint).unwrap();
+    let state = read_checkpoint(&file, &scene).unwrap();
     let mut simulation = Simulation::resume(Arc::new(scene), state.clone());
     simulation.place(&[]).unwrap();
     let particles = &simulation.state().particles;

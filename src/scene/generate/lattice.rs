@@ -1,6 +1,6 @@
 //! Equal spheres in regular order.
 
-use super::{MOST, Sphere};
+use super::{Sphere, too_many};
 use crate::scene::file::{LatticeKind, LatticeTable};
 use crate::scene::mistake::Mistake;
 
@@ -55,8 +55,8 @@ pub(in crate::scene) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'
         }
     };
     let total = counts[0] * counts[1] * counts[2] * places.len() as f64;
-    if total > MOST as f64 {
-        let (found, right) = (format!("a lattice of {total:.3e} spheres"), format!("{MOST} at most"));
+    if let Some(right) = too_many(total) {
+        let found = format!("a lattice of {total:.3e} spheres");
         return Err(("lattice", Mistake::Wrong { found, right }));
     }
     Ok(filled(origin, counts.map(|count| count as usize), edges, places, bounds, radius))

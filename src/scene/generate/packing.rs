@@ -2,7 +2,7 @@
 
 use super::dense::dense;
 use super::region::Region;
-use super::{MOST, PackingProgress, Sphere};
+use super::{PackingProgress, Sphere, too_many};
 use crate::scene::file::PackingTable;
 use crate::scene::mistake::Mistake;
 use rand_chacha::ChaCha8Rng;
@@ -114,8 +114,8 @@ fn scattered(
     random: &mut ChaCha8Rng,
     tell: &mut dyn FnMut(usize),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
-    if count > MOST {
-        let (found, right) = (count.to_string(), format!("{MOST} at most"));
+    if let Some(right) = too_many(count as f64) {
+        let found = count.to_string();
         return Err(("packing.count", Mistake::Wrong { found, right }));
     }
     let size = region.size();

@@ -1,0 +1,130 @@
+//! What a run will write and how long it will take, before it runs.
+
+use super::schedule::{Counted, Schedule};
+use super::trial::Trial;
+use crate::scene::{Scene, Step};
+use crate::step::{LONGEST_AUTOMATIC_STEP, Simulation};
+use std::sync::Arc;
+
+/// Part of the step of an impact that a packing may need: its particles have several contacts each.
+const IN_A_PACKING: f64 = 0.5;
+
+/// Bytes in a megabyte.
+const MEGABYTE: f64 = 1e6;
+
+/// The lines of the report on what a run writes, on its steps, and on its time.
+pub(super) struct Forecast {
+    /// What is written, a line each.
+    pub outputs: Vec<String>,
+    /// How many steps.
+    pub steps: String,
+    /// How long it takes.
+    pub time: String,
+}
+
+/// Numbers of time steps: as many where the step is given, a range where it is automatic.
+struct Steps {
+    /// At least.
+    least: Counted,
+    /// At most; with `least` where the step is given.
+    most: Counted,
+}
+
+/// Foretells a run that begins at this time \[s\]. `present` is the simulation as it begins.
+pub(super) fn of(
+    scene: &Arc<Scene>,
+    present: &Simulation,
+    (schedule, begins): (&Schedule, f64),
+    trial: &Trial,
+) -> Forecast {
+    let end = schedule.end();
+    let earlier = |all: u64, before: u64| all - before.saturating_sub(1);
+    let rows = earlier(schedule.rows_until(end), schedule.rows_until(begins));
+    let frames = schedule.frames_until(end).len() as u64;
+    let frames = earlier(frames, schedule.frames_until(begins).len() as u64);
+    let checkpoints = schedule.checkpoints(begins);
+    let steps = steps(scene, present, (schedule, begins));
+    let mut outputs = vec![format!("{rows} rows of history.csv, about {}", size(rows as f64 * trial.row.bytes))];
+    if frames > 0 {
+        let each = trial.frame.bytes;
+        outputs.push(format!("{frames} frames of about {}, {} in all", size(each), size(frames as f64 * each)));
+    }
+    let often = checkpoints.map_or("every 30 s of wall time".to_owned(), |count| format!("{count} times"));
+    outputs.push(format!("a checkpoint of {}, written {often}", size(trial.checkpoint.bytes)));
+    let writing = rows as f64 * trial.row.time
+        + frames as f64 * trial.frame.time
+        + checkpoints.unwrap_or(2) as f64 * trial.checkpoint.time;
+    let Steps { least, most } = steps;
+    let time = |steps: &Counted| writing + steps.all as f64 * trial.step;
+    let given = matches!(scene.run.step, Step::Given(_));
+    let shortened = |steps: &Counted| match steps.shortened {
+        0 => "none of them shortened to meet an output".to_owned(),
+        count => format!("{count} of them shortened to meet an output"),
+    };
+    Forecast {
+        outputs,
+        steps: if given {
+            format!("{} up to t = {end} s, {}", least.all, shortened(&least))
+        } else {
+            format!("{} to {} up to t = {end} s, as the step is automatic", least.all, most.all)
+        },
+        time: if given {
+            duration(time(&least))
+        } else {
+            format!("{} to {}", duration(time(&least)), duration(time(&most)))
+        },
+    }
+}
+
+/// How many steps a run makes.
+fn steps(scene: &Arc<Scene>, present: &Simulation, (schedule, begins): (&Schedule, f64)) -> Steps {
+    let Step::Automatic { safety } = scene.run.step else {
+        let counted = schedule.steps(begins, present.state().clock.step);
+        return Steps { least: counted, most: counted };
+    };
+    let mut falling = present.state().clone();
+    let speed = fall(scene, present);
+    for velocity in &mut falling.particles.velocity {
+        velocity[0] = speed;
+    }
+    let bound = Simulation::resume(Arc::clone(scene), falling).limit().safe;
+    let shortest = (IN_A_PACKING * safety * bound).min(present.state().clock.step);
+    Steps { least: schedule.steps(begins, LONGEST_AUTOMATIC_STEP), most: schedule.steps(begins, shortest) }
+}
+
+/// The largest speed to be expected: of the fastest particle or boundary, with what a fall through all of the scene adds
+/// \[m/s\].
+fn fall(scene: &Scene, present: &Simulation) -> f64 {
+    let norm = |v: &[f64]| v.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let particles = &present.state().particles;
+    let fastest = particles.velocity.iter().map(|row| norm(&row[..3]));
+    let boundaries = present.state().boundaries.iter().map(|boundary| norm(&boundary.velocity));
+    let fastest = fastest.chain(boundaries).fold(0.0, f64::max);
+    let places = || {
+        let centres = particles.position.iter().map(|row| [row[0], row[1], row[2]]);
+        centres.chain(scene.boundaries.iter().map(|boundary| boundary.reference))
+    };
+    let heights = || places().map(|place| place.iter().zip(&scene.gravity).map(|(x, g)| x * g).sum::<f64>());
+    let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let gained = if high > low { 2.0 * (high - low) } else { 0.0 };
+    (fastest * fastest + gained).sqrt()
+}
+
+/// A size in words.
+fn size(bytes: f64) -> String {
+    match bytes {
+        bytes if bytes >= 1e3 * MEGABYTE => format!("{:.2} GB", bytes / (1e3 * MEGABYTE)),
+        bytes if bytes >= 0.1 * MEGABYTE => format!("{:.2} MB", bytes / MEGABYTE),
+        bytes => format!("{:.1} kB", bytes / 1e3),
+    }
+}
+
+/// A time in words.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds >= 2.0 * 86400.0 => format!("{:.1} days", seconds / 86400.0),
+        seconds if seconds >= 7200.0 => format!("{:.1} h", seconds / 3600.0),
+        seconds if seconds >= 120.0 => format!("{:.1} min", seconds / 60.0),
+        seconds => format!("{seconds:.2e} s"),
+    }
+}

@@ -1,0 +1,44 @@
+//! Whether there is memory for what a scene asks for: found before it is asked for, since a system that has promised too
+//! much ends the program.
+
+use super::{RunError, Simulation};
+use crate::memory;
+use crate::neighbours::room;
+
+/// Bytes of a listed pair, without its spring: in the list, in the one it is made of, and where it is found.
+const PAIR: f64 = 46.0;
+
+/// Bytes of its spring, in the list and the one it is made of.
+const SPRING: f64 = 64.0;
+
+/// Bytes of a bond, while its list is brought into order.
+const BOND: f64 = 600.0;
+
+/// Pairs of a list are counted in 32 bits.
+const MOST_PAIRS: f64 = u32::MAX as f64;
+
+impl Simulation {
+    /// Refuses lists that have no room.
+    pub(super) fn check_room(&self) -> Result<(), RunError> {
+        let Some(free) = memory::available() else { return Ok(()) };
+        let particles = &self.state.particles;
+        let every = 0.5 * particles.len() as f64 * particles.len() as f64;
+        let spheres = |skin: f64| move |one: f64, other: f64| one + other + skin;
+        let refuse = |pairs: f64, bytes: f64, why: String| {
+            let (needed, few) = (pairs * bytes, pairs <= MOST_PAIRS);
+            if few && needed <= free as f64 { Ok(()) } else { Err(RunError::Memory { pairs, needed, free, why }) }
+        };
+        // Where even all pairs have room nothing needs to be counted.
+        if every * (PAIR + SPRING) > free as f64 && !self.scene.contacts.is_empty() {
+            let skin = self.state.neighbours.skin;
+            let pairs = room::pairs(particles, spheres(skin));
+            refuse(pairs, PAIR + SPRING, format!("near pairs with a [run] skin of {skin:e} m"))?;
+        }
+        for bond in &self.scene.bonds {
+            let Some(distance) = bond.create_distance.filter(|_| every * BOND > free as f64) else { continue };
+            let pairs = room::pairs(particles, |_, _| distance);
+            refuse(pairs, BOND, format!("pairs with a [bond.{}] create_distance of {distance:e} m", bond.name))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,177 @@
+//! What must be known of a scene to understand a state that it has reached.
+
+use crate::contact::Law;
+use crate::scene::{Boundary, ContactLaw, Scene};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use xxhash_rust::xxh3::Xxh3;
+
+/// A scene, as far as its states refer to it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Description {
+    /// The program that wrote it.
+    pub program: String,
+    /// File name of the scene.
+    pub scene: String,
+    /// Time of the state \[s\].
+    pub time: f64,
+    /// Fingerprint of the scene.
+    pub fingerprint: u64,
+    /// Fingerprint of everything that decides how the scene goes on.
+    course: u64,
+    /// Numbers of the particles, ascending: first and count of each series.
+    particles: Vec<[u32; 2]>,
+    /// Boundaries: name and shape.
+    boundaries: Vec<(String, String)>,
+    /// Contact laws: name, and names of what they remember of a contact.
+    contacts: Vec<(String, Vec<String>)>,
+    /// Bond laws: name, formulation, and the plane if they are at one.
+    bonds: Vec<(String, String, Option<String>)>,
+}
+
+impl Description {
+    /// The description of a scene with this file name.
+    pub fn of(scene: &Scene, name: &str, time: f64) -> Self {
+        let mut particles: Vec<[u32; 2]> = Vec::new();
+        for particle in &scene.particles {
+            match particles.last_mut() {
+                Some([first, count]) if u64::from(*first) + u64::from(*count) == u64::from(particle.id.0) => {
+                    *count += 1
+                }
+                _ => particles.push([particle.id.0, 1]),
+            }
+        }
+        let bonds = scene.bonds.iter().map(|bond| {
+            let plane = bond.plane.map(|plane| scene.boundaries[plane.index()].name.clone());
+            (bond.name.clone(), format!("{:?}", bond.keys.formulation), plane)
+        });
+        Self {
+            program: concat!("cograin ", env!("CARGO_PKG_VERSION")).to_owned(),
+            scene: name.to_owned(),
+            time,
+            fingerprint: scene.fingerprint,
+            course: course(scene),
+            particles,
+            boundaries: scene.boundaries.iter().map(|it| (it.name.clone(), shape(it).to_owned())).collect(),
+            contacts: scene.contacts.iter().map(|law| (law.name.clone(), memory(law))).collect(),
+            bonds: bonds.collect(),
+        }
+    }
+
+    /// Whether a scene goes on in the same way: it differs in its end and its outputs at most.
+    pub fn goes_on_as(&self, scene: &Scene) -> bool {
+        self.course == course(scene)
+    }
+
+    /// Numbers of the particles, ascending.
+    pub(super) fn ids(&self) -> impl Iterator<Item = u32> + '_ {
+        self.particles.iter().flat_map(|&[first, count]| (0..count).map(move |k| first + k))
+    }
+
+    /// Place of the boundary that has this one's name and shape.
+    pub(super) fn boundary(&self, boundary: &Boundary) -> Option<usize> {
+        self.boundaries.iter().position(|(name, kind)| *name == boundary.name && kind == shape(boundary))
+    }
+
+    /// Name and shape of a boundary.
+    pub(super) fn boundary_at(&self, place: usize) -> Option<&(String, String)> {
+        self.boundaries.get(place)
+    }
+
+    /// The contact laws: name, and names of what they remember of a contact.
+    pub(super) fn contacts(&self) -> &[(String, Vec<String>)] {
+        &self.contacts
+    }
+
+    /// The bond laws: name, formulation, and the plane if they are at one.
+    pub(super) fn bonds(&self) -> &[(String, String, Option<String>)] {
+        &self.bonds
+    }
+
+    /// What differs from a scene in a way that its author should know, in words.
+    pub(super) fn differences(&self, scene: &Scene) -> Vec<String> {
+        let mut left = Vec::new();
+        let here = |id: u32| scene.particles.binary_search_by_key(&id, |particle| particle.id.0).is_ok();
+        let (mut all, mut known) = (0, 0);
+        for id in self.ids() {
+            all += 1;
+            known += usize::from(here(id));
+        }
+        if known < all {
+            left.push(format!(
+                "{} of {all} particles of {} are not in this scene and stay behind",
+                all - known,
+                self.scene
+            ));
+        }
+        if known < scene.particles.len() {
+            let new = scene.particles.len() - known;
+            left.push(format!(
+                "{new} particles of this scene are not in {}; they begin as this scene has them",
+                self.scene
+            ));
+        }
+        for (name, kind) in &self.boundaries {
+            if !scene.boundaries.iter().any(|it| it.name == *name && shape(it) == kind) {
+                left.push(format!(
+                    "[boundary.{name}] of {} has no {kind} of its name here and stays behind",
+                    self.scene
+                ));
+            }
+        }
+        for (name, rows) in &self.contacts {
+            let kept = |row: &&String| !scene.contacts.iter().any(|law| memory(law).contains(row));
+            for row in rows.iter().filter(kept) {
+                left.push(format!("the {row} of [contact.{name}] of {} has no law here that keeps it", self.scene));
+            }
+        }
+        for boundary in scene.boundaries.iter().filter(|it| self.boundary(it).is_none()) {
+            left.push(format!("[boundary.{}] is new and begins where this scene has it", boundary.name));
+        }
+        left
+    }
+}
+
+/// Names of what a law remembers of a contact.
+fn memory(law: &ContactLaw) -> Vec<String> {
+    Law::of(&law.choice()).history().iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// The shape of a boundary, in one word.
+fn shape(boundary: &Boundary) -> &'static str {
+    boundary.shape.key()
+}
+
+/// Takes text into a fingerprint.
+struct Hashed(Xxh3);
+
+impl Write for Hashed {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// A fingerprint of all of a scene that decides how a state of it goes on: not when it ends, nor what is written.
+fn course(scene: &Scene) -> u64 {
+    let mut hashed = Hashed(Xxh3::new());
+    for particle in &scene.particles {
+        hashed.0.update(&particle.id.0.to_le_bytes());
+        hashed.0.update(&particle.material.0.to_le_bytes());
+        let [position, velocity, spin] = [particle.position, particle.velocity, particle.angular_velocity];
+        for number in [position, velocity, spin].as_flattened().iter().chain(&[particle.radius, particle.density]) {
+            hashed.0.update(&number.to_bits().to_le_bytes());
+        }
+    }
+    let mut rest = Scene { particles: Vec::new(), fingerprint: 0, ..scene.clone() };
+    rest.run.end = None;
+    rest.run.threads = None;
+    let defaults = crate::scene::Run::default();
+    rest.run.settle_tolerance = defaults.settle_tolerance;
+    rest.run.settle_damping = defaults.settle_damping;
+    rest.run.max_overlap = defaults.max_overlap;
+    rest.output = crate::scene::Output { energy: scene.output.energy, ..crate::scene::Output::default() };
+    // Writing to a fingerprint has no way to fail.
+    let _ = write!(hashed, "{rest:?}");
+    hashed.0.digest()
+}

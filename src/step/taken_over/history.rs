@@ -1,0 +1,236 @@
+//! Springs of contacts and bonds, from the lists of one scene to those of another.
+
+use super::{Description, Numbers};
+use crate::contact::{HistoryRow, Law};
+use crate::scene::Scene;
+use crate::state::contacts::TOUCHING;
+use crate::state::hidden::Hidden;
+use crate::state::{BondList, HiddenContact, Row, State, WallContacts};
+use crate::step::Simulation;
+
+/// The contact law of two materials of a scene.
+fn law(scene: &Scene, one: u32, other: u32) -> Option<usize> {
+    let entry = one as usize * scene.materials.len() + other as usize;
+    scene.contacts.iter().position(|law| law.between[entry])
+}
+
+/// What the laws of both scenes remember of a contact.
+pub(super) struct Memories {
+    /// Of each law here: its rows.
+    here: Vec<Vec<HistoryRow>>,
+    /// Of each law here and each of the other scene: which row of the latter each of its rows is.
+    rows: Vec<Vec<Vec<Option<usize>>>>,
+}
+
+impl Memories {
+    /// Compares what is remembered, by name.
+    pub(super) fn of(scene: &Scene, from: &Description) -> Self {
+        let here: Vec<_> = scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect();
+        let find = |row: &HistoryRow, there: &[String]| there.iter().position(|name| name == row.name);
+        let all = |rows: &[HistoryRow]| {
+            let laws = from.contacts().iter();
+            laws.map(|(_, there)| rows.iter().map(|row| find(row, there)).collect()).collect()
+        };
+        Self { rows: here.iter().map(|rows| all(rows)).collect(), here }
+    }
+
+    /// What a law here remembers of a contact of a law there; as the other body sees it, if they have changed places.
+    fn taken(&self, here: usize, there: usize, swapped: bool, old: impl Fn(usize) -> Row) -> Vec<Row> {
+        let rows = self.here[here].iter().zip(&self.rows[here][there]);
+        rows.map(|(kept, place)| match place {
+            Some(place) if swapped => kept.reversed(old(*place)),
+            Some(place) => old(*place),
+            None => Row::default(),
+        })
+        .collect()
+    }
+}
+
+/// Adds what is remembered of a contact to the lists of a law, a list for each row.
+fn push(history: &mut Vec<Vec<Row>>, rows: Vec<Row>) {
+    history.resize(rows.len(), Vec::new());
+    for (list, row) in history.iter_mut().zip(rows) {
+        list.push(row);
+    }
+}
+
+/// Puts what is remembered of touching bodies into the lists of the laws that govern them here. Slots are those of the
+/// scene.
+pub(super) fn put_contacts(scene: &Scene, state: &mut State, reached: &State, known: (&Description, &Numbers)) {
+    let (from, numbers) = known;
+    let memories = Memories::of(scene, from);
+    let here = |slot: u32| numbers.at(reached.particles.id[slot as usize]);
+    for (there, list) in reached.contacts.iter().enumerate() {
+        for (pair, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
+            let (Some(a), Some(b)) = (here(list.first[pair]), here(list.second[pair])) else { continue };
+            let [one, other] = [a, b].map(|index| state.particles.material[index as usize]);
+            let Some(law) = law(scene, one, other) else { continue };
+            let new = &mut state.contacts[law];
+            new.first.push(a.min(b));
+            new.second.push(a.max(b));
+            new.flags.push(list.flags[pair]);
+            push(&mut new.history, memories.taken(law, there, a > b, |row| list.history[row][pair]));
+        }
+    }
+    for list in &reached.walls {
+        let Some((boundary, material)) = plane(scene, from, list.boundary) else { continue };
+        let touching = list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0);
+        let mut touching: Vec<(u32, usize)> =
+            touching.filter_map(|(entry, _)| Some((here(list.particle[entry])?, entry))).collect();
+        touching.sort_unstable();
+        for (index, entry) in touching {
+            let Some(law) = law(scene, state.particles.material[index as usize], material) else { continue };
+            let governs = |list: &&mut WallContacts| (list.boundary, list.law) == (boundary, law as u32);
+            let Some(new) = state.walls.iter_mut().find(governs) else { continue };
+            new.particle.push(index);
+            new.flags.push(list.flags[entry]);
+            new.feature.extend(list.feature.get(entry));
+            let rows = memories.taken(law, list.law as usize, false, |row| list.history[row][entry]);
+            push(&mut new.history, rows);
+        }
+    }
+}
+
+/// The surface here that a boundary of the other scene is: its place and material.
+fn plane(scene: &Scene, from: &Description, boundary: u32) -> Option<(u32, u32)> {
+    let (name, _) = from.boundary_at(boundary as usize)?;
+    let place = scene.boundaries.iter().position(|it| it.name == *name && from.boundary(it).is_some())?;
+    Some((place as u32, scene.boundaries[place].shape.material()?.0))
+}
+
+impl Simulation {
+    /// Puts bonds of laws of the same name in the place of those that were made anew. Returns what stays behind, in words.
+    pub(super) fn put_bonds(&mut self, reached: &State, from: &Description, numbers: &Numbers) -> Vec<String> {
+        let (mut left, mut taken) = (Vec::new(), vec![false; self.scene.bonds.len()]);
+        for ((name, formulation, plane), list) in from.bonds().iter().zip(&reached.bonds) {
+            let same = |bond: &crate::scene::Bond| {
+                let here = bond.plane.map(|plane| self.scene.boundaries[plane.index()].name.clone());
+                bond.name == *name && format!("{:?}", bond.keys.formulation) == *formulation && here == *plane
+            };
+            match self.scene.bonds.iter().position(same) {
+                Some(law) => {
+                    let lossy = self.scene.bonds[law].law.dissipates();
+                    self.state.bonds[law] = self.bonds_here(list, reached, numbers, lossy);
+                    taken[law] = true;
+                    let missing = list.first.len() - self.state.bonds[law].first.len();
+                    if missing > 0 {
+                        left.push(format!("{missing} bonds of [bond.{name}] stay behind with their particles"));
+                    }
+                }
+                None if list.first.is_empty() => {}
+                None => left.push(format!(
+                    "{} bonds of [bond.{name}] stay behind: this scene has no law of that name and formulation",
+                    list.first.len()
+                )),
+            }
+        }
+        self.count_bonds(reached, numbers, &taken);
+        self.put_hidden(reached, from, numbers);
+        left
+    }
+
+    /// The bonds of a list between particles that are here, in the present order of the particles.
+    fn bonds_here(&self, list: &BondList, reached: &State, numbers: &Numbers, lossy: bool) -> BondList {
+        let slot = |old: u32| {
+            let here = numbers.at(reached.particles.id[old as usize])?;
+            Some(self.state.particles.slot[here as usize])
+        };
+        let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], ..BondList::default() };
+        for bond in 0..list.first.len() {
+            let second = list.second.get(bond).map(|&second| slot(second));
+            let (Some(first), true) = (slot(list.first[bond]), second.is_none_or(|second| second.is_some())) else {
+                continue;
+            };
+            new.first.push(first);
+            new.second.extend(second.flatten());
+            new.foot.extend(list.foot.get(bond));
+            for (column, row) in new.rows.iter_mut().zip(&list.rows) {
+                column.push(row[bond]);
+            }
+            if lossy {
+                new.lost.push(list.lost.get(bond).copied().unwrap_or(0.0));
+            }
+        }
+        new.made = new.first.len() as u64;
+        new
+    }
+
+    /// Counts the bonds of each particle: those it had, and those made anew.
+    fn count_bonds(&mut self, reached: &State, numbers: &Numbers, taken: &[bool]) {
+        let particles = &mut self.state.particles;
+        particles.bonds.fill([0; 2]);
+        for (there, counts) in reached.particles.bonds.iter().enumerate() {
+            let here = numbers.at(there as u32).and_then(|here| particles.bonds.get_mut(here as usize));
+            if let Some(here) = here {
+                *here = *counts;
+            }
+        }
+        for (list, _) in self.state.bonds.iter().zip(taken).filter(|(_, taken)| !**taken) {
+            let bodies: Vec<u32> =
+                list.first.iter().chain(&list.second).map(|&slot| particles.id[slot as usize]).collect();
+            particles.count_bond(bodies);
+        }
+    }
+
+    /// Enters the contacts that the bonds hide, with what is remembered of them.
+    fn put_hidden(&mut self, reached: &State, from: &Description, numbers: &Numbers) {
+        let Self { scene, hiding, state, .. } = self;
+        if !hiding.any() {
+            return;
+        }
+        state.hidden = Hidden::default();
+        let time = state.clock.time;
+        let start = crate::bond::creation::Moment { number: 0, from: time, to: time };
+        hiding.made(state, &vec![0; scene.bonds.len()], &start);
+        let memories = Memories::of(scene, from);
+        let kept = |law: usize, there: usize, entry: &HiddenContact| {
+            let mut history = HiddenContact::default().history;
+            for (row, taken) in history.iter_mut().zip(memories.taken(law, there, false, |row| entry.history[row])) {
+                *row = taken;
+            }
+            history
+        };
+        for (there, list) in reached.hidden.pairs.iter().enumerate() {
+            for entry in list {
+                let (Some(first), Some(second)) =
+                    (numbers.at(entry.first), entry.second.and_then(|second| numbers.at(second)))
+                else {
+                    continue;
+                };
+                let [one, other] = [first, second]
+                    .map(|index| state.particles.material[state.particles.slot[index as usize] as usize]);
+                let Some(law) = law(scene, one, other) else { continue };
+                let history = kept(law, there, entry);
+                remember(
+                    &mut state.hidden.pairs[law],
+                    HiddenContact { first, second: Some(second), history, ..*entry },
+                );
+            }
+        }
+        for (entries, list) in reached.hidden.planes.iter().zip(&reached.walls) {
+            let Some((boundary, material)) = plane(scene, from, list.boundary) else { continue };
+            for entry in entries {
+                let Some(first) = numbers.at(entry.first) else { continue };
+                let one = state.particles.material[state.particles.slot[first as usize] as usize];
+                let Some(law) = law(scene, one, material) else { continue };
+                let governs = |it: &WallContacts| (it.boundary, it.law) == (boundary, law as u32);
+                let Some(place) = state.walls.iter().position(governs) else { continue };
+                let history = kept(law, list.law as usize, entry);
+                remember(&mut state.hidden.planes[place], HiddenContact { first, second: None, history, ..*entry });
+            }
+        }
+        state.hidden.find_active();
+    }
+}
+
+/// Gives the entry of the same bodies what is remembered of them; an offset outlives its bond.
+fn remember(list: &mut Vec<HiddenContact>, old: HiddenContact) {
+    match Hidden::find(list, old.first, old.second) {
+        Ok(place) => {
+            let entry = &mut list[place];
+            *entry = HiddenContact { bonds: entry.bonds, ..old };
+        }
+        Err(place) if old.offset > 0.0 => list.insert(place, HiddenContact { bonds: 0, ..old }),
+        Err(_) => {}
+    }
+}

@@ -1,0 +1,131 @@
+//! A state that another scene has reached, as the start of this one: stages of a protocol.
+//!
+//! What belongs to the particles goes with them, by their numbers: position, motion, orientation, springs of contacts, bonds.
+//! Boundaries of the same name stay where they are. What governs all this is the new scene's: materials, laws, motions, books.
+//! If the new scene differs from the other one only in when it ends and what it writes, the state goes on bit for bit.
+
+mod description;
+mod history;
+
+pub use description::Description;
+
+use super::{RunError, Simulation, assemble};
+use crate::bond::creation::Moment;
+use crate::geometry::Quaternion;
+use crate::boundaries::{course, rigid_body};
+use crate::scene::Scene;
+use crate::state::State;
+use std::sync::Arc;
+
+/// Distance over the radius below which a particle of a group is where its group has it.
+const IN_PLACE: f64 = 1e-6;
+
+/// Which of the new scene's particles each of the other's is.
+struct Numbers {
+    /// For each particle of the other scene: its index here, if it is here.
+    here: Vec<Option<u32>>,
+}
+
+impl Numbers {
+    /// Finds the numbers of one scene in the other; both ascend.
+    fn of(scene: &Scene, from: &Description) -> Self {
+        let find = |id: u32| scene.particles.binary_search_by_key(&id, |particle| particle.id.0).ok();
+        Self { here: from.ids().map(|id| find(id).map(|index| index as u32)).collect() }
+    }
+
+    /// The index here of a particle of the other scene.
+    fn at(&self, there: u32) -> Option<u32> {
+        self.here.get(there as usize).copied().flatten()
+    }
+}
+
+impl Simulation {
+    /// The scene in a state that another scene has reached, and what of that state could not be taken along.
+    pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
+        let numbers = Numbers::of(&scene, from);
+        let mut state = assemble::state(&scene);
+        state.clock.time = reached.clock.time;
+        state.clock.lost = reached.clock.lost;
+        state.clock.steps = reached.clock.steps;
+        state.clock.rebuilds = reached.clock.rebuilds;
+        put_particles(&mut state, reached, &numbers);
+        let mut left = from.differences(&scene);
+        put_boundaries(&scene, &mut state, reached, from);
+        history::put_contacts(&scene, &mut state, reached, (from, &numbers));
+        let mut simulation = Self::resume(scene, state);
+        simulation.give_attitudes();
+        let there: Vec<_> = simulation.state.particles.position.clone();
+        let Self { scene, bodies, state, .. } = &mut simulation;
+        rigid_body::place_groups(scene, bodies, state);
+        check_groups(scene, state, &there)?;
+        simulation.check_room()?;
+        simulation.rebuild(&simulation.standing());
+        let time = simulation.state.clock.time;
+        simulation.bond(&Moment { number: 0, from: time, to: time }, &simulation.standing());
+        left.extend(simulation.put_bonds(reached, from, &numbers));
+        simulation.rebuild(&simulation.standing());
+        simulation.start()?;
+        Ok((simulation, left))
+    }
+}
+
+/// Puts the particles where they are, as they move.
+fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
+    let (particles, other) = (&mut state.particles, &reached.particles);
+    if !other.attitude.is_empty() {
+        particles.attitude.resize(particles.len(), Quaternion::identity().to_row());
+    }
+    for (there, here) in numbers.here.iter().enumerate() {
+        let Some(slot) = here.map(|here| here as usize) else { continue };
+        let from = other.slot[there] as usize;
+        for axis in 0..3 {
+            particles.position[slot][axis] = other.position[from][axis];
+            particles.velocity[slot][axis] = other.velocity[from][axis];
+            particles.angular_velocity[slot][axis] = other.angular_velocity[from][axis];
+        }
+        if let (Some(attitude), Some(other)) = (particles.attitude.get_mut(slot), other.attitude.get(from)) {
+            *attitude = *other;
+        }
+    }
+}
+
+/// Leaves boundaries of the same name where they stand, and free axes as fast as they are.
+fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
+    let time = state.clock.time;
+    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
+        let Some(other) = from.boundary(boundary).and_then(|index| reached.boundaries.get(index)) else {
+            course::begin_prescribed(boundary, moved, time);
+            continue;
+        };
+        moved.displacement = other.displacement;
+        moved.rotation = other.rotation;
+        moved.attitude = other.attitude;
+        moved.start_attitude = other.attitude;
+        let [x, y, z] = other.displacement;
+        let [a, b, c] = other.rotation;
+        moved.target = [x, y, z, a, b, c];
+        course::begin_prescribed(boundary, moved, time);
+        for axis in (0..3).filter(|&axis| boundary.axes[axis].is_free()) {
+            moved.velocity[axis] = other.velocity[axis];
+        }
+        if boundary.axes[3..].iter().any(|motion| motion.is_free()) {
+            moved.angular_velocity = other.angular_velocity;
+            moved.inertial.angular_momentum = other.inertial.angular_momentum;
+        }
+    }
+}
+
+/// Refuses a group that this scene puts elsewhere than its particles are: they would jump.
+fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), RunError> {
+    for boundary in &scene.boundaries {
+        for &member in boundary.shape.members() {
+            let (now, then) = (state.particles.position[member as usize], there[member as usize]);
+            let way = (0..3).map(|axis| (now[axis] - then[axis]).powi(2)).sum::<f64>().sqrt();
+            if way > IN_PLACE * now[3] {
+                let (boundary, id) = (boundary.name.clone(), scene.particles[member as usize].id.0);
+                return Err(RunError::GroupElsewhere { boundary, id, way });
+            }
+        }
+    }
+    Ok(())
+}
