@@ -5,9 +5,9 @@ use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
 const ROWS: [&[&str]; 14] = [
-    &["choices", "memory", "quantity", "number", "run_error"],
+    &["choices", "memory", "quantity", "number", "run_error", "vtk_reader"],
     &["geometry", "lanes"],
-    &["threads"],
+    &["threads", "surface_mesh"],
     &["contact", "bond", "motion", "surface"],
     &["scene"],
     &["state"],

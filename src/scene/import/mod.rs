@@ -3,7 +3,6 @@
 mod csv;
 mod data;
 mod dump;
-mod packed_sizes;
 mod vtu;
 
 use super::file::{Format, Units};

@@ -1,30 +1,17 @@
 //! Particles from VTK's XML unstructured grids, read by vtkio: points, and arrays of point data.
 
-use super::{FileFault, POSSIBLE, Request, Rows, needed, packed_sizes};
+use super::{FileFault, POSSIBLE, Request, Rows, needed};
 use crate::scene::mistake::Mistake;
-use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
+use crate::vtk_reader;
 use vtkio::model::{Attribute, DataArray, DataSet, Piece};
 use vtkio::{IOBuffer, Vtk};
 
 /// Reads a `.vtu` file.
 pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {
-    if let Some(found) = packed_sizes::implausible(bytes) {
-        return Err(refused(found));
-    }
-    // vtkio panics on some files; nothing of its state outlives the call.
-    let pieces = match silently(|| Vtk::parse_xml(bytes)) {
-        Ok(Ok(Vtk { data: DataSet::UnstructuredGrid { pieces, .. }, .. })) => pieces,
-        Ok(Ok(_)) => return Err(refused("VTK data of another kind".to_owned())),
-        Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => {
-            return Err(refused("raw appended data (encoding=\"raw\")".to_owned()));
-        }
-        Ok(Err(_)) if holds(bytes, b"vtkLZMADataCompressor") => {
-            return Err(refused("data packed by lzma".to_owned()));
-        }
-        Ok(Err(_)) => return Err(refused("a file that is no VTK file, or a damaged one,".to_owned())),
-        Err(Panicked) => return Err(refused("a file with damaged data arrays".to_owned())),
+    let pieces = match vtk_reader::read(bytes) {
+        Ok(Vtk { data: DataSet::UnstructuredGrid { pieces, .. }, .. }) => pieces,
+        Ok(_) => return Err(refused("VTK data of another kind".to_owned())),
+        Err(found) => return Err(refused(found)),
     };
     let mut rows = Rows::default();
     for piece in pieces {
@@ -55,32 +42,6 @@ pub(super) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         return Err(refused(format!("{} materials for {} points", rows.label.len(), rows.count)));
     }
     Ok(rows)
-}
-
-thread_local! {
-    /// Whether a panic of this thread is expected and caught.
-    static EXPECTED: Cell<bool> = const { Cell::new(false) };
-}
-
-/// The work panicked.
-struct Panicked;
-
-/// Does the work; a panic in it prints nothing. Panics of other threads are printed as ever.
-fn silently<T>(work: impl FnOnce() -> T) -> Result<T, Panicked> {
-    /// The hook that knows which panics are expected is set once and hands the others on.
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let otherwise = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |panic| {
-            if !EXPECTED.get() {
-                otherwise(panic);
-            }
-        }));
-    });
-    EXPECTED.set(true);
-    let done = catch_unwind(AssertUnwindSafe(work));
-    EXPECTED.set(false);
-    done.map_err(|_| Panicked)
 }
 
 /// One array of point data, if anything is wanted of it.
@@ -127,11 +88,6 @@ fn numbers(buffer: &IOBuffer, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
             Err(vec![FileFault { line: None, column: name.to_owned(), mistake }])
         }
     }
-}
-
-/// Whether the file holds these bytes.
-fn holds(bytes: &[u8], part: &[u8]) -> bool {
-    bytes.windows(part.len()).any(|window| window == part)
 }
 
 /// What was found instead of a readable grid.

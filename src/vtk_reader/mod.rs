@@ -1,0 +1,56 @@
+//! VTK files through vtkio: its panics are silent here, and it is asked for no more memory than a file can fill.
+
+mod packed_sizes;
+
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+use vtkio::Vtk;
+
+thread_local! {
+    /// Whether a panic of this thread is expected and caught.
+    static EXPECTED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Reads a VTK file, XML or legacy; otherwise what was found instead of a readable one.
+pub(crate) fn read(bytes: &[u8]) -> Result<Vtk, String> {
+    if let Some(found) = packed_sizes::implausible(bytes) {
+        return Err(found);
+    }
+    let legacy = bytes.starts_with(b"# vtk DataFile");
+    let found = match silently(|| if legacy { Vtk::parse_legacy_be(bytes) } else { Vtk::parse_xml(bytes) }) {
+        Ok(Ok(file)) => return Ok(file),
+        Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => "raw appended data (encoding=\"raw\")",
+        Ok(Err(_)) if holds(bytes, b"vtkLZMADataCompressor") => "data packed by lzma",
+        Ok(Err(_)) => "a file that is no VTK file, or a damaged one,",
+        Err(Panicked) => "a file with damaged data arrays",
+    };
+    Err(found.to_owned())
+}
+
+/// The work panicked.
+struct Panicked;
+
+/// Does the work; a panic in it prints nothing. Panics of other threads are printed as ever.
+fn silently<T>(work: impl FnOnce() -> T) -> Result<T, Panicked> {
+    /// The hook that knows which panics are expected is set once and hands the others on.
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let otherwise = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            if !EXPECTED.get() {
+                otherwise(panic);
+            }
+        }));
+    });
+    EXPECTED.set(true);
+    // Nothing of vtkio's state outlives the call.
+    let done = catch_unwind(AssertUnwindSafe(work));
+    EXPECTED.set(false);
+    done.map_err(|_| Panicked)
+}
+
+/// Whether the file holds these bytes.
+fn holds(bytes: &[u8], part: &[u8]) -> bool {
+    bytes.windows(part.len()).any(|window| window == part)
+}
