@@ -206,10 +206,24 @@ fn find_words(path: &Path, rule: &Rule, faults: &mut Vec<String>) {
     }
 }
 
+/// Kinds of motion.
+const MOTIONS: Rule = Rule {
+    kept: &["src/motion", "src/verify", "src/output/settle.rs"],
+    searched: &["src", "fmu/src"],
+    words: &[
+        "AxisMotion::Fixed",
+        "AxisMotion::Driven",
+        "AxisMotion::Prescribed",
+        "AxisMotion::Scheduled",
+        "AxisMotion::Free",
+    ],
+    why: "which motion an axis has is asked in its room alone; others ask what it can do",
+};
+
 #[test]
 fn words_stand_where_they_belong() {
     let mut faults = Vec::new();
-    for rule in [LANES, INTRINSICS, FUNCTIONS, CHANCE] {
+    for rule in [LANES, INTRINSICS, FUNCTIONS, CHANCE, MOTIONS] {
         for place in rule.searched {
             find_words(&Path::new(env!("CARGO_MANIFEST_DIR")).join(place), &rule, &mut faults);
         }

@@ -138,7 +138,11 @@ fn sheet(rng: &mut ChaCha8Rng, height: f64) -> Vec<Triangle> {
     for i in 0..CELLS {
         for j in 0..CELLS {
             let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-            triangles.extend(if rng.next_u32().is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+            triangles.extend(if rng.next_u32().is_multiple_of(2) {
+                [[a, b, c], [a, c, d]]
+            } else {
+                [[a, b, d], [b, c, d]]
+            });
         }
     }
     triangles
@@ -327,6 +331,59 @@ fn a_drum_of_facets_becomes_the_cylinder_with_the_square_of_their_number() {
         let order = (two[0] / two[1]).log2();
         assert!((order - 2.0).abs() < 0.06, "order {order} of {errors:?}");
     }
+}
+
+#[test]
+fn a_box_of_meshes_gives_the_bits_of_six_planes() {
+    let (low, high) = (-0.03, 0.03);
+    let corner = |bits: usize| [0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { high } else { low });
+    let (mut planes, mut meshes, mut files) = (String::new(), String::new(), Vec::new());
+    for side in 0..6 {
+        let (axis, upper) = (side / 2, side % 2);
+        let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
+        let at = |one: usize, other: usize| corner(upper << axis | one << first | other << second);
+        let normal = [0, 1, 2].map(|along| if along == axis { 1.0 - 2.0 * upper as f64 } else { 0.0 });
+        let point = at(0, 0);
+        planes += &format!(
+            "[boundary.side{side}]\nmaterial = \"wall\"\nplane = {{ point = {point:?}, normal = {normal:?} }}\n"
+        );
+        meshes += &format!("[boundary.side{side}]\nmaterial = \"wall\"\nmesh = {{ file = \"side{side}.stl\" }}\n");
+        files.push((format!("side{side}.stl"), vec![[at(0, 0), at(1, 0), at(1, 1)], [at(0, 0), at(1, 1), at(0, 1)]]));
+    }
+    let files: Vec<(&str, Vec<Triangle>)> = files.iter().map(|(name, list)| (name.as_str(), list.clone())).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let places: Vec<[f64; 3]> = (0..125)
+        .map(|number| [number % 5, number / 5 % 5, number / 25].map(|k| 0.0112 * (k as f64 - 2.0)))
+        .map(|place| place.map(|part| part + 4e-4 * (random(&mut rng) - 0.5)))
+        .collect();
+    let run = |boundaries: &str, files: &[(&str, Vec<Triangle>)]| {
+        let mut scene = Scene::clone(&scene(&places, ROUGH, boundaries, files));
+        scene.gravity = [3.0, 2.0, -9.81];
+        scene.run.step = cograin::scene::Step::Given(2e-5);
+        let mut simulation = Simulation::new(Arc::new(scene)).unwrap();
+        simulation.advance(1000.0 * 2e-5).unwrap_or_else(|error| panic!("{error}"));
+        let particles = &simulation.state().particles;
+        let row = |slot: &u32| {
+            let slot = *slot as usize;
+            [particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot]]
+        };
+        (simulation.contact_count(), particles.slot.iter().map(row).collect::<Vec<_>>())
+    };
+    let expected = run(&planes, &[]);
+    assert!(expected.0 > 30, "{} contacts", expected.0);
+    assert_eq!(run(&meshes, &files), expected);
+}
+
+#[test]
+fn a_plane_that_turns_carries_a_sphere_like_one_that_stood_there_before() {
+    let turned = "[boundary.wall]\nmaterial = \"wall\"\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\n\
+                  motion = { driven = [\"rotation.y\"] }\n";
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let near = RADIUS - 5e-5;
+    let mut simulation = Simulation::new(scene(&[[near * sine, 0.0, near * cosine]], SMOOTH, turned, &[])).unwrap();
+    simulation.place(&[(BoundaryIndex(0), 4, 0.3)]).unwrap();
+    let [x, y, z, _] = simulation.state().particles.force[0];
+    assert_same([x, y, z], [sine, 0.0, cosine].map(|part| part * hertz(5e-5)), 1e-11);
 }
 
 /// Spheres in a turning drum with a bumpy sheet on the way, rough.

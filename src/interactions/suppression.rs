@@ -80,7 +80,7 @@ impl Hiding {
         let law_of = (0..materials * materials)
             .map(|entry| scene.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32));
         let surfaces = scene.boundaries.iter().map(|boundary| {
-            boundary.shape.plane().map(|plane| (plane.material.0, plane.point.into(), plane.normal.into()))
+            boundary.shifting_plane().map(|plane| (plane.material.0, plane.point.into(), plane.normal.into()))
         });
         Self {
             laws: scene.bonds.iter().map(flags_of).collect(),

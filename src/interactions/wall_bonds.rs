@@ -59,8 +59,8 @@ impl WallBondPass {
     /// The pass of this bond of the scene; none where the boundary is no plane.
     pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
         let bond = &scene.bonds[index];
-        let Boundary { shape, reference, .. } = &scene.boundaries[boundary.index()];
-        let plane = shape.plane()?;
+        let Boundary { reference, .. } = &scene.boundaries[boundary.index()];
+        let plane = scene.boundaries[boundary.index()].shifting_plane()?;
         Some(Self {
             index,
             law: bond.law.clone(),

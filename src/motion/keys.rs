@@ -1,6 +1,6 @@
 //! `motion` of a boundary as the scene writes it.
 
-use super::{AxisMotion, Law};
+use super::{AxisMotion, Schedule};
 use crate::quantity::Finite;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
@@ -33,7 +33,7 @@ pub(crate) enum Axis {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Keys(Table);
 
-/// A constant velocity \[m/s\] or angular velocity \[rad/s\], or a law in time.
+/// A constant velocity \[m/s\] or angular velocity \[rad/s\], or a schedule.
 #[derive(Clone, Copy, Debug)]
 struct Prescribed(AxisMotion);
 
@@ -57,7 +57,8 @@ impl<'de> Deserialize<'de> for Prescribed {
                 self.visit_f64(value as f64)
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Prescribed, A::Error> {
-                Law::deserialize(MapAccessDeserializer::new(map)).map(|law| Prescribed(AxisMotion::Lawful(law)))
+                let schedule = Schedule::deserialize(MapAccessDeserializer::new(map));
+                schedule.map(|schedule| Prescribed(AxisMotion::Scheduled(schedule)))
             }
         }
         deserializer.deserialize_any(NumberOrTable)

@@ -8,13 +8,13 @@ mod driven;
 mod fixed;
 mod free;
 mod keys;
-mod law;
 mod prescribed;
+mod schedule;
 
 pub use course::InputCourse;
 pub(crate) use course::Progress;
 pub(crate) use keys::Keys;
-pub use law::{Law, Sine, Trapezoid};
+pub use schedule::{Schedule, Sine, Trapezoid};
 
 /// What an axis of a boundary does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +25,8 @@ pub enum AxisMotion {
     Driven,
     /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
     Prescribed(f64),
-    /// Moves by a law in time.
-    Lawful(Law),
+    /// Is where a schedule has it.
+    Scheduled(Schedule),
     /// Moves by the forces on it.
     Free,
 }
@@ -91,7 +91,7 @@ impl AxisMotion {
             Self::Fixed => &fixed::Fixed,
             Self::Driven => &driven::Driven,
             Self::Prescribed(velocity) => velocity,
-            Self::Lawful(law) => law,
+            Self::Scheduled(schedule) => schedule,
             Self::Free => &free::Free,
         }
     }
@@ -123,7 +123,7 @@ impl AxisMotion {
 
     /// Whether its velocity is always the same.
     pub(crate) fn is_steady(&self) -> bool {
-        !matches!(self, Self::Lawful(_))
+        !matches!(self, Self::Scheduled(_))
     }
 
     /// Whether forces move it.

@@ -76,7 +76,7 @@ impl Search {
         let meet = |a: usize, b: usize| here[a] && here[b] && laws.between(a as u32, b as u32).is_some();
         let count = scene.materials.len();
         let planes = scene.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
-            let surface::Plane { material, point, normal } = boundary.shape.plane()?;
+            let surface::Plane { material, point, normal } = boundary.shifting_plane()?;
             Some(Plane { boundary: index as u32, material: material.0, point, normal })
         });
         Self {
@@ -204,14 +204,15 @@ impl Search {
     fn list_near_surface(&mut self, state: &mut State, index: usize, context: &Context) {
         let list = &mut state.walls[index];
         let (shape, reference, _) = &self.boundaries[list.boundary as usize];
-        if let (Some(features), Some(material)) = (shape.features(), shape.material()) {
+        let plane = self.planes.iter().find(|plane| plane.boundary == list.boundary);
+        if let (None, Some(features), Some(material)) = (plane, shape.features(), shape.material()) {
             let (boundary, skin) = (list.boundary, state.neighbours.skin);
             let moved = &state.boundaries[boundary as usize];
             let frame = Frame::of(*reference, moved.displacement.into(), moved.attitude.0);
             let near = surfaces::Near { boundary, material: material.0, features, frame, skin };
             return surfaces::replace(list, &near, (&state.particles, &self.laws), (&self.order, context));
         }
-        let Some(plane) = self.planes.iter().find(|plane| plane.boundary == list.boundary) else { return };
+        let Some(plane) = plane else { return };
         let moved = state.boundaries[list.boundary as usize].displacement;
         let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
         let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin);
@@ -224,8 +225,7 @@ impl Search {
 
 /// Shape of a boundary, its point of reference, and whether it turns.
 fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
-    let turns = boundary.axes[3..].iter().any(|motion| !motion.is_fixed());
-    (boundary.shape.clone(), boundary.reference.into(), turns)
+    (boundary.shape.clone(), boundary.reference.into(), boundary.turns())
 }
 
 /// Which pairs of the scene have a law.

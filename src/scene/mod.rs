@@ -211,6 +211,18 @@ pub struct Boundary {
     pub reference: [f64; 3],
 }
 
+impl Boundary {
+    /// The plane that it is and stays parallel to, whose particles are worked on in lanes.
+    pub(crate) fn shifting_plane(&self) -> Option<crate::surface::Plane> {
+        self.shape.plane().filter(|_| !self.turns())
+    }
+
+    /// Whether it can turn.
+    pub(crate) fn turns(&self) -> bool {
+        self.axes[3..].iter().any(|motion| !motion.is_fixed())
+    }
+}
+
 /// `[damping.<name>]`: Cundall's damping of the unbalanced force.
 #[derive(Clone, Debug)]
 pub struct Damping {

@@ -140,7 +140,7 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
 fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dyn Pass> {
     let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
     let table = CoefficientTable::of(&law.choice(), scene, &law.between);
-    let Some(surface::Plane { material, point, normal }) = boundary.shape.plane() else {
+    let Some(surface::Plane { material, point, normal }) = boundary.shifting_plane() else {
         return Box::new(SurfacePass::of(boundary, list, table, Law::of(&law.choice())));
     };
     Box::new(WallPass {

@@ -66,7 +66,7 @@ impl Simulation {
         }
         for (place, list) in walls.iter().enumerate() {
             let boundary = list.boundary as usize;
-            let Some(surface::Plane { point, normal, .. }) = self.scene.boundaries[boundary].shape.plane() else {
+            let Some(surface::Plane { point, normal, .. }) = self.scene.boundaries[boundary].shifting_plane() else {
                 continue;
             };
             let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);

@@ -1,5 +1,6 @@
 //! `plane`: infinite and one-sided.
 
+use super::feet::{Features, Feet, Foot};
 use super::{Around, Shape, ShapeKeys, Surface, direction};
 use crate::number::Vector;
 use crate::quantity::{MaterialIndex, Triple};
@@ -40,12 +41,45 @@ impl Surface for Plane {
         Some(*self)
     }
 
+    fn features(&self) -> Option<&dyn Features> {
+        Some(self)
+    }
+
     fn distance(&self, centre: Vector) -> Option<f64> {
         Some(self.height(centre.to_array()))
     }
 
     fn reference(&self) -> Option<[f64; 3]> {
         Some(self.point)
+    }
+
+    fn turns(&self) -> bool {
+        true
+    }
+}
+
+/// For a plane that turns: one that only shifts has its particles worked on in lanes.
+impl Features for Plane {
+    fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>) {
+        if self.height(centre.to_array()) <= reach {
+            parts.push(0);
+        }
+    }
+
+    fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
+        let distance = self.height(centre.to_array());
+        if distance <= radius {
+            let (normal, behind) = (self.normal.into(), distance < 0.0);
+            feet.list.push(Foot { feature: 0, distance, normal, weight: 1.0, behind });
+        }
+    }
+
+    fn meet(&self, _one: u32, _other: u32) -> bool {
+        true
+    }
+
+    fn extent(&self, _point: Vector) -> f64 {
+        f64::INFINITY
     }
 }
 

@@ -43,10 +43,10 @@ fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
     let free = count(AxisMotion::is_free);
     let driven = count(AxisMotion::is_driven);
     let prescribed = count(AxisMotion::is_prescribed);
-    let lawful = count(|motion| !motion.is_steady());
+    let scheduled = count(|motion| !motion.is_steady());
     let (what, right) = match (free, driven, prescribed) {
-        (0, 0, 2..) if lawful > 0 => {
-            ("a law in time turns about one axis and something about another", "one prescribed rotation is right")
+        (0, 0, 2..) if scheduled > 0 => {
+            ("a schedule turns about one axis and something about another", "one prescribed rotation is right")
         }
         (2, 0, 0) => ("two rotations are free and one is fixed", "one free rotation or all three are right"),
         (1.., 1.., _) | (1.., _, 1..) => {

@@ -38,6 +38,12 @@ macro_rules! boundary_table {
                 written.into_iter().filter(|(_, written)| *written).map(|(key, _)| key).collect()
             }
 
+            /// Whether it is a plane that does not turn.
+            pub(in crate::scene) fn is_shifting_plane(&self) -> bool {
+                let (axes, _) = self.motion.axes();
+                self.shapes().contains(&"plane") && axes[3..].iter().all(motion::AxisMotion::is_fixed)
+            }
+
             /// The first shape that is written; what is wrong with it is reported.
             pub(in crate::scene) fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
                 $(if let Some(keys) = &self.$key {

@@ -58,7 +58,7 @@ impl Mesh {
         let normal = |triangle: &[u32; 3]| {
             let [a, b, c] = places(triangle);
             let across = (b - a).cross(c - a);
-            across * (1.0 / across.length())
+            super::direction(across.to_array()).map_or(across, Vector::from)
         };
         let normals = topology.triangles.iter().map(normal).collect();
         let around = |places: &[Vector]| {

@@ -1,4 +1,4 @@
-//! `prescribed = { z = { sine = .. } }`: a law in time, which begins at displacement 0.
+//! `prescribed = { z = { sine = .. } }`: a displacement in time, which begins at displacement 0.
 
 use super::{Motion, Seen};
 use crate::quantity::{Finite, NonNegative, Positive};
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// A displacement as a function of time.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Law {
+pub enum Schedule {
     /// To and fro.
     Sine(Sine),
     /// To another place and there it stays.
@@ -78,7 +78,7 @@ impl Trapezoid {
     }
 }
 
-impl Motion for Law {
+impl Motion for Schedule {
     fn words(&self, _unit: &str) -> Option<String> {
         Some(match self {
             Self::Sine(_) => "to and fro as a sine".to_owned(),
@@ -102,21 +102,21 @@ impl Motion for Law {
 mod tests {
     use super::*;
 
-    /// Laws of each kind.
-    fn laws() -> Vec<Law> {
+    /// Schedules of each kind.
+    fn schedules() -> Vec<Schedule> {
         let finite = |value| Finite::new(value).unwrap();
         let positive = |value| Positive::new(value).unwrap();
         let trapezoid = |distance, speed| {
             let (distance, speed, acceleration) = (finite(distance), positive(speed), positive(4.0));
-            Law::Trapezoid(Trapezoid { distance, speed, acceleration, start: NonNegative::new(0.25) })
+            Schedule::Trapezoid(Trapezoid { distance, speed, acceleration, start: NonNegative::new(0.25) })
         };
         let sine = Sine { amplitude: finite(0.3), frequency: positive(2.0), phase: Some(finite(0.7)) };
-        vec![Law::Sine(sine), trapezoid(3.0, 2.0), trapezoid(-0.5, 2.0)]
+        vec![Schedule::Sine(sine), trapezoid(3.0, 2.0), trapezoid(-0.5, 2.0)]
     }
 
     #[test]
-    fn every_law_begins_at_0_and_its_velocity_is_the_rate_of_its_displacement() {
-        for law in laws() {
+    fn every_schedule_begins_at_0_and_its_velocity_is_the_rate_of_its_displacement() {
+        for law in schedules() {
             let at = |time| law.at(time).unwrap();
             assert_eq!(at(0.0)[0].abs(), 0.0);
             for number in 1..300 {
@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn a_trapezoid_arrives_after_distance_over_speed_and_the_ramp() {
         // 3 m at 2 m/s and a ramp of ½ s, from 0.25 s on: 1.5 + 0.5 + 0.25 s.
-        let [_, long, short] = laws()[..] else { panic!("three laws") };
+        let [_, long, short] = schedules()[..] else { panic!("three schedules") };
         assert_eq!(long.at(2.25), Some([3.0, 0.0]));
         assert!(long.at(2.24).unwrap()[0] < 3.0);
         // ½ m at 4 m/s²: √2 m/s is never exceeded.
