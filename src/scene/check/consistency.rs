@@ -202,7 +202,7 @@ fn surfaces(scene: &Scene, findings: &mut Vec<Finding>) {
 
 /// Whether no axis of a boundary moves.
 fn is_fixed(boundary: &Boundary) -> bool {
-    boundary.axes.iter().all(|axis| *axis == AxisMotion::Fixed)
+    boundary.axes.iter().all(AxisMotion::is_fixed)
 }
 
 /// Whether each particle belongs to a group that does not move; such a group may be built into a fixed plane.
