@@ -108,9 +108,8 @@ pub fn available() -> Option<u64> {
     };
     let whole = |file: &str| std::fs::read_to_string(file).ok()?.trim().parse::<u64>().ok();
     let free = field("/proc/meminfo", "MemAvailable:").map(|free| free * KIBIBYTE);
-    let own = field("/proc/self/limits", "Max address space").map(|limit| {
-        limit.saturating_sub(field("/proc/self/status", "VmSize:").unwrap_or(0) * KIBIBYTE)
-    });
+    let own = field("/proc/self/limits", "Max address space")
+        .map(|limit| limit.saturating_sub(field("/proc/self/status", "VmSize:").unwrap_or(0) * KIBIBYTE));
     let group = whole("/sys/fs/cgroup/memory.max")
         .map(|limit| limit.saturating_sub(whole("/sys/fs/cgroup/memory.current").unwrap_or(0)));
     [free, own, group].into_iter().flatten().min()

@@ -39,6 +39,8 @@ checked!(/// A number above 0.
     Positive, value => value > 0.0, "a number above 0");
 checked!(/// A number of 0 or above.
     NonNegative, value => value >= 0.0, "a number of 0 or above");
+checked!(/// A number of 1 or above.
+    AtLeastOne, value => value >= 1.0, "a number of 1 or above");
 checked!(/// A number above 0 and at most 1.
     Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
 checked!(/// A number from 0 to 1.

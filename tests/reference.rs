@@ -12,6 +12,9 @@ const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/cont
 /// Where the cases of bonds lie.
 const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
 
+/// Where the cases of rolling springs, sticky and dented spheres lie.
+const MORE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/more");
+
 /// Where the cases of hidden contacts lie.
 const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/hidden");
 
@@ -67,6 +70,16 @@ fn refusal(name: &str, text: &str) -> String {
 fn every_contact_case_holds() {
     let cases = find(&[CONTACT.into()]).unwrap();
     assert_eq!(cases.len(), 42);
+    let reports: Vec<_> = cases.iter().map(|case| replay(case, &Options::default()).unwrap()).collect();
+    let failed: Vec<String> = reports.iter().filter(|report| !report.passed()).map(ToString::to_string).collect();
+    assert!(failed.is_empty(), "\n{}", failed.join("\n"));
+}
+
+/// 35 trajectories of other engines, and those of sticky spheres once more with arms R − δ/2.
+#[test]
+fn every_case_of_rolling_springs_and_of_sticky_and_dented_spheres_holds() {
+    let cases = find(&["contact", "contact_own_arms"].map(|folder| Path::new(MORE).join(folder))).unwrap();
+    assert_eq!(cases.len(), 35 + 14);
     let reports: Vec<_> = cases.iter().map(|case| replay(case, &Options::default()).unwrap()).collect();
     let failed: Vec<String> = reports.iter().filter(|report| !report.passed()).map(ToString::to_string).collect();
     assert!(failed.is_empty(), "\n{}", failed.join("\n"));
@@ -290,8 +303,8 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
         ),
         (
             "model",
-            with("\"normal\": \"hertz\"", "\"normal\": \"jkr\""),
-            "case.json, model.normal: \"jkr\" found; hertz, hooke, hertz/stiffness or hooke/stiffness is right",
+            with("\"normal\": \"hertz\"", "\"normal\": \"luding\""),
+            "case.json, model.normal: \"luding\" found; hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt is right",
         ),
         (
             "bond",

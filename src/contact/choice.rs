@@ -4,7 +4,10 @@ use super::cohesion::{CohesionChoice, TakeCohesion};
 use super::normal::{NormalChoice, TakeNormal};
 use super::rolling::{RollingChoice, TakeRolling};
 use super::tangential::{TakeTangential, TangentialChoice};
-use super::{Coefficients, Cohesion, FrictionNeeds, MaterialPair, Missing, Normal, Rolling, Switches, Tangential};
+use super::{
+    Adhesion, Coefficients, Cohesion, CohesionForm, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Rolling,
+    Switches, Tangential,
+};
 
 /// The sub-models and switches of one law, as the scene names them.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +41,7 @@ impl LawChoice {
     pub fn coefficients(&self, pair: &MaterialPair) -> Result<Vec<f64>, Vec<Missing>> {
         let friction = self.tangential.visit(Parts);
         let needs = FrictionNeeds {
-            stiffness: friction.has_spring,
+            stiffness: friction.has_spring || self.rolling.visit(Parts).takes_tangential_stiffness,
             damping: friction.has_dashpot && self.switches.damps_slip(),
         };
         let ask = Ask(pair, needs);
@@ -58,7 +61,33 @@ impl LawChoice {
 
     /// What speaks against the combination, if anything.
     pub fn objection(&self) -> Option<Objection> {
-        let friction = self.tangential.visit(Parts);
+        if let Some(objection) = self.normal.visit(OfKeys) {
+            return Some(objection);
+        }
+        let (friction, adhesion) = (self.tangential.visit(Parts), self.normal.visit(Parts));
+        if adhesion == Adhesion::BeyondTouch && self.cohesion.visit(Parts) {
+            return Some(Objection {
+                table: "cohesion",
+                key: "",
+                reason: "an attraction by the overlap found beside a normal model that pulls beyond touch by itself; \
+                         none is right",
+            });
+        }
+        if adhesion == Adhesion::BeyondTouch && self.rolling.visit(Parts).takes_overlap {
+            return Some(Objection {
+                table: "rolling",
+                key: "",
+                reason: "a torque by the overlap found, which is below 0 while the normal model pulls beyond touch; \
+                         epsd, epsd2 or none is right",
+            });
+        }
+        if self.normal.visit(Sticks) && self.switches.limits_force() {
+            return Some(Objection {
+                table: "",
+                key: "limit_force",
+                reason: "true found, which would cut the pull that the normal model is for; false is right",
+            });
+        }
         if !friction.active && self.cohesion.visit(Reduces) {
             return Some(Objection {
                 table: "cohesion",
@@ -86,8 +115,57 @@ fn numbers<T: Coefficients>(coefficients: &T) -> Vec<f64> {
     row
 }
 
-/// Asks a tangential model what it is made of.
+/// Asks a sub-model what it is made of.
 struct Parts;
+
+impl TakeNormal for Parts {
+    type Output = Adhesion;
+    fn take<M: Normal>(self, _keys: &M::Keys) -> Adhesion {
+        M::Form::ADHESION
+    }
+}
+
+impl TakeCohesion for Parts {
+    type Output = bool;
+    fn take<M: Cohesion>(self, _keys: &M::Keys) -> bool {
+        M::Form::ACTIVE
+    }
+}
+
+/// What a rolling model takes from a contact.
+struct RollingParts {
+    /// Whether it takes k_n δ for the force that presses.
+    takes_overlap: bool,
+    /// Whether it takes k_t.
+    takes_tangential_stiffness: bool,
+}
+
+impl TakeRolling for Parts {
+    type Output = RollingParts;
+    fn take<M: Rolling>(self, _keys: &M::Keys) -> RollingParts {
+        RollingParts { takes_overlap: M::TAKES_OVERLAP, takes_tangential_stiffness: M::TAKES_TANGENTIAL_STIFFNESS }
+    }
+}
+
+/// Asks a normal model whether `limit_force` contradicts it.
+struct Sticks;
+
+impl TakeNormal for Sticks {
+    type Output = bool;
+    fn take<M: Normal>(self, _keys: &M::Keys) -> bool {
+        M::Form::ADHESION != Adhesion::None && !M::Form::LIMITS_ITSELF
+    }
+}
+
+/// Asks a normal model what speaks against its keys.
+struct OfKeys;
+
+impl TakeNormal for OfKeys {
+    type Output = Option<Objection>;
+    fn take<M: Normal>(self, keys: &M::Keys) -> Option<Objection> {
+        M::objection(keys)
+    }
+}
 
 /// What a tangential model is made of.
 struct FrictionParts {
@@ -184,7 +262,9 @@ mod tests {
     fn every_law_is_finite_at_the_corners() {
         for choice in every_law() {
             let (law, row) = law_of(&choice, 0.5);
-            for row in [row, law_of(&choice, 1.0).1, vec![0.0; law.places().count]] {
+            // Coefficients of 0 are those of materials without a law; what adheres divides by stiffness.
+            let nothing = law.takes_offset().then(|| vec![0.0; law.places().count]);
+            for row in [row, law_of(&choice, 1.0).1].into_iter().chain(nothing) {
                 for contact in corners() {
                     let mut history = history(&law, SPRING);
                     let reaction = law.react(&row, &contact, &mut history, 0.5);
@@ -197,7 +277,7 @@ mod tests {
 
     #[test]
     fn what_a_bond_hides_comes_back_without_a_jump_in_every_law() {
-        for choice in every_law() {
+        for choice in every_law().into_iter().filter(|choice| Law::of(choice).takes_offset()) {
             let (law, row) = law_of(&choice, 0.5);
             for contact in corners() {
                 let beyond = |contact: &Contact, offset: Offset| {

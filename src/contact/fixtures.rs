@@ -1,14 +1,14 @@
 //! A contact and a pair of materials to try laws on.
 
 use super::cohesion::{self, CohesionChoice};
-use super::normal::{NormalChoice, hooke, hooke_stiffness};
-use super::rolling::RollingChoice;
-use super::tangential::TangentialChoice;
+use super::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
+use super::rolling::{RollingChoice, rocking};
+use super::tangential::{TangentialChoice, turned_history};
 use super::{
     Contact, FrictionNeeds, LawChoice, Material, MaterialPair, NoKeys, NormalForce, PairProperties, Response, Switches,
 };
 use crate::number::Vector;
-use crate::quantity::{NonNegative, Positive, Restitution};
+use crate::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
 
 /// Friction that takes all there is.
 pub(super) const ALL: FrictionNeeds = FrictionNeeds { stiffness: true, damping: true };
@@ -28,6 +28,9 @@ pub(super) fn contact() -> Contact {
         normal_velocity: -0.5,
         slip: Vector::new(3.0, 4.0, 0.0),
         relative_spin: Vector::new(0.0, 5.0, 0.0),
+        spin_sum: Vector::new(0.0, 7.0, 0.0),
+        per_reach: 1.0,
+        rolling_inertia: 0.5,
         pair_constant: 0.0,
     }
 }
@@ -53,24 +56,44 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
         NormalChoice::Hooke(speed),
         NormalChoice::HookeStiffness(hooke_stiffness::Keys::default()),
         NormalChoice::HookeViscous(speed),
+        NormalChoice::Jkr(sticky::Keys::default()),
+        NormalChoice::Jkr(sticky::Keys { engine_exact: true, ..sticky::Keys::default() }),
+        NormalChoice::Dmt(sticky::Keys { damping: sticky::DampingKind::Velocity, ..sticky::Keys::default() }),
+        dented(1.5, 5.0, eepa::AdhesionKind::Patch),
+        dented(1.0, 1.0, eepa::AdhesionKind::Fixed),
     ] {
         for tangential in [
             TangentialChoice::None(NoKeys {}),
             TangentialChoice::History(NoKeys {}),
             TangentialChoice::NoHistory(NoKeys {}),
+            TangentialChoice::TurnedHistory(turned_history::Keys { rescale: true, given_stiffness: false }),
         ] {
-            for rolling in [RollingChoice::None(NoKeys {}), RollingChoice::Cdt(NoKeys {})] {
+            for rolling in [
+                RollingChoice::None(NoKeys {}),
+                RollingChoice::Cdt(NoKeys {}),
+                RollingChoice::Epsd(rocking::Keys::default()),
+                RollingChoice::Epsd2(rocking::Keys { torsion: true, engine_exact: true, set_up_step: None }),
+            ] {
                 for cohesion in [
                     CohesionChoice::None(NoKeys {}),
                     CohesionChoice::Sjkr(reduce),
                     CohesionChoice::Sjkr2(cohesion::sjkr::Keys::default()),
                 ] {
-                    all.push(LawChoice { normal, tangential, rolling, cohesion, switches: Switches::of(false, true) });
+                    let switches = Switches::of(false, true);
+                    let choice = LawChoice { normal, tangential, rolling, cohesion, switches };
+                    if choice.objection().is_none_or(|objection| objection.key == "tangential_reduce") {
+                        all.push(choice);
+                    }
                 }
             }
         }
     }
     all
+}
+
+/// An elasto-plastic model.
+fn dented(overlap_exponent: f64, adhesion_exponent: f64, adhesion: eepa::AdhesionKind) -> NormalChoice {
+    NormalChoice::Eepa(eepa::Keys { overlap_exponent, adhesion_exponent, adhesion, engine_exact: false })
 }
 
 /// Contacts at the corners of what can be: no motion, no spin, no overlap, receding.
@@ -112,6 +135,13 @@ pub(crate) fn properties() -> PairProperties {
         fluid_viscosity: Positive::new(0.5),
         critical_stokes_number: Positive::new(30.0),
         maximum_restitution: Restitution::new(0.875),
+        rolling_viscous_damping: NonNegative::new(0.5),
+        surface_energy: NonNegative::new(1e-6),
+        damping_coefficient: NonNegative::new(2.0),
+        tangential_damping_ratio: NonNegative::new(0.5),
+        unloading_stiffness_ratio: AtLeastOne::new(4.0),
+        pull_off_force: NonNegative::new(0.0),
+        adhesion_stiffness_ratio: NonNegative::new(0.5),
     }
 }
 

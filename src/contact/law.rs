@@ -1,10 +1,10 @@
 //! Four sub-models as one law: the functions of each, called one after another on one contact.
 
-use super::{Coefficients, LawChoice};
 use super::{
-    CohesionForm, Contact, Friction, HistoryRow, NormalForce, NormalForm, Reaction, Response, Rolling, Switches,
-    Tangential,
+    Adhesion, CohesionForm, Contact, Friction, HistoryRow, Needs, NormalForce, NormalForm, Reaction, Response, Rolling,
+    RollingStiffness, Switches, Tangential,
 };
+use super::{Coefficients, LawChoice};
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::rolling::TakeRolling;
@@ -36,6 +36,12 @@ struct NormalModel {
     count: usize,
     /// What it remembers.
     history: Option<HistoryRow>,
+    /// What of a contact it looks at.
+    needs: Needs,
+    /// Whether it pulls.
+    adhesion: Adhesion,
+    /// Whether slip is that of the undeformed bodies.
+    undeformed_arms: bool,
     /// Whether it keeps a number of each pair.
     has_pair_constant: bool,
     /// [`NormalForm::force`].
@@ -45,17 +51,22 @@ struct NormalModel {
     /// [`NormalForm::pair_constant`].
     pair_constant: fn(&[f64], f64, f64) -> f64,
     /// [`NormalForm::elastic_energy`].
-    elastic_energy: fn(&[f64], &Contact, f64) -> f64,
+    elastic_energy: fn(&[f64], &Contact, f64, Row) -> f64,
+    /// [`NormalForm::reach`].
+    reach: fn(&[f64], f64) -> f64,
     /// [`NormalForm::tangent_stiffness`].
     tangent_stiffness: fn(&[f64], &Contact) -> f64,
 }
 
 impl NormalModel {
     /// That of a form.
-    fn of<A: NormalForm>() -> Self {
+    fn of<A: NormalForm>(undeformed_arms: bool) -> Self {
         Self {
             count: A::COUNT,
             history: A::HISTORY,
+            needs: A::NEEDS,
+            adhesion: A::ADHESION,
+            undeformed_arms,
             has_pair_constant: A::HAS_PAIR_CONSTANT,
             force: |row, switches, contact, history, step| {
                 let roots = A::roots(contact.overlap, contact.radius, contact.mass);
@@ -63,7 +74,8 @@ impl NormalModel {
             },
             response: |row, contact| A::response(A::lanes(row), contact),
             pair_constant: |row, radius, mass| A::read(row).pair_constant(radius, mass),
-            elastic_energy: |row, contact, offset| A::read(row).elastic_energy(contact, offset),
+            elastic_energy: |row, contact, offset, history| A::read(row).elastic_energy(contact, offset, history),
+            reach: |row, radius| A::read(row).reach(radius),
             tangent_stiffness: |row, contact| A::read(row).tangent_stiffness(contact),
         }
     }
@@ -82,6 +94,8 @@ struct TangentialModel {
     has_spring: bool,
     /// Whether there is a dashpot.
     has_dashpot: bool,
+    /// [`Tangential::stiffness`].
+    stiffness: fn(&[f64], f64) -> f64,
     /// [`Tangential::force`].
     force: fn(&[f64], &Contact, &NormalForce, Row, f64) -> Friction,
 }
@@ -95,6 +109,7 @@ impl TangentialModel {
             history: B::HISTORY,
             has_spring: B::HAS_SPRING,
             has_dashpot: B::HAS_DASHPOT,
+            stiffness: |row, from_normal_model| B::read(row).stiffness(from_normal_model),
             force: |row, contact, normal, history, step| B::force(B::lanes(row), contact, normal, history, step),
         }
     }
@@ -109,6 +124,12 @@ struct RollingModel {
     active: bool,
     /// What it remembers.
     history: Option<HistoryRow>,
+    /// What of a contact it looks at.
+    needs: Needs,
+    /// [`Rolling::stiffness`].
+    stiffness: fn(&[f64], &Contact, &Response) -> RollingStiffness,
+    /// [`Rolling::elastic_energy`].
+    elastic_energy: fn(&[f64], &Contact, &Response, Row) -> f64,
     /// [`Rolling::torque`].
     torque: RollingFunction,
 }
@@ -120,6 +141,9 @@ impl RollingModel {
             count: C::COUNT,
             active: C::ACTIVE,
             history: C::HISTORY,
+            needs: C::NEEDS,
+            stiffness: |row, contact, response| C::read(row).stiffness(contact, response),
+            elastic_energy: |row, contact, response, history| C::read(row).elastic_energy(contact, response, history),
             torque: |row, contact, normal, history, step| C::torque(C::lanes(row), contact, normal, history, step),
         }
     }
@@ -132,6 +156,8 @@ struct CohesionModel {
     count: usize,
     /// Whether there is a force at all.
     active: bool,
+    /// What of a contact it looks at.
+    needs: Needs,
     /// [`CohesionForm::force`].
     force: fn(&[f64], &Contact) -> f64,
     /// [`CohesionForm::add`].
@@ -144,6 +170,7 @@ impl CohesionModel {
         Self {
             count: D::COUNT,
             active: D::ACTIVE,
+            needs: D::NEEDS,
             force: |row, contact| D::force(D::lanes(row), contact),
             add: |row, pull, normal| D::add(D::lanes(row), pull, normal),
         }
@@ -156,8 +183,8 @@ struct Functions;
 
 impl TakeNormal for Functions {
     type Output = NormalModel;
-    fn take<M: Normal>(self, _keys: &M::Keys) -> NormalModel {
-        NormalModel::of::<M::Form>()
+    fn take<M: Normal>(self, keys: &M::Keys) -> NormalModel {
+        NormalModel::of::<M::Form>(M::has_undeformed_arms(keys))
     }
 }
 
@@ -278,9 +305,9 @@ impl Law {
         self.normal.has_pair_constant
     }
 
-    /// Whether bodies feel torque from it.
-    pub fn has_torque(&self) -> bool {
-        self.tangential.active || self.rolling.active
+    /// Whether bodies feel friction from it.
+    pub fn has_friction(&self) -> bool {
+        self.tangential.active
     }
 
     /// Whether bodies feel rolling torque from it.
@@ -288,9 +315,38 @@ impl Law {
         self.rolling.active
     }
 
-    /// Whether [`Contact::section_area`] and [`Contact::section_radius`] are looked at.
-    pub fn has_section(&self) -> bool {
+    /// Whether there is an attraction beside the normal model's own.
+    pub fn has_cohesion(&self) -> bool {
         self.cohesion.active
+    }
+
+    /// What of a contact its sub-models look at.
+    pub fn needs(&self) -> Needs {
+        let friction = Needs { torque: self.tangential.active, ..Needs::NONE };
+        let arms = self.undeformed_arms();
+        let arms = Needs { bodies: arms, spin_sum: arms, ..Needs::NONE };
+        self.normal.needs.and(friction).and(self.rolling.needs).and(self.cohesion.needs).and(arms)
+    }
+
+    /// Whether slip is that of the undeformed bodies, and torques at walls have their arms.
+    pub fn undeformed_arms(&self) -> bool {
+        self.normal.undeformed_arms && (self.tangential.active || self.rolling.active)
+    }
+
+    /// Whether bodies that have touched hold together beyond touch: as far as their pair constant says.
+    pub fn holds_beyond_touch(&self) -> bool {
+        self.normal.adhesion == Adhesion::BeyondTouch
+    }
+
+    /// Whether its force can be taken from the overlap beyond an offset, as contacts need that a bond hides: where it is a
+    /// spring's that does not remember.
+    pub fn takes_offset(&self) -> bool {
+        self.normal.adhesion == Adhesion::None && self.normal.history.is_none()
+    }
+
+    /// How far beyond touch bodies of this effective radius hold together \[m\].
+    pub fn reach(&self, row: &[f64], radius: f64) -> f64 {
+        (self.normal.reach)(row, radius)
     }
 
     /// What is kept of each near pair ([`NormalForm::pair_constant`]).
@@ -305,6 +361,7 @@ impl Law {
 
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\].
     pub fn react(&self, row: &[f64], contact: &Contact, history: &mut [Row], step: f64) -> Reaction {
+        let contact = &if self.undeformed_arms() { contact.with_undeformed_arms() } else { *contact };
         let (mut normal, remembered) = match self.history_places.normal {
             Some(place) => (self.normal.force)(row, self.switches(row), contact, history[place], step),
             None => (self.normal.force)(row, self.switches(row), contact, [0.0; 4], step),
@@ -387,25 +444,37 @@ impl Law {
         torque
     }
 
-    /// Elastic energy of the normal force beyond an offset of the overlap \[m\] and of the tangential spring, where
-    /// there is one \[J\].
+    /// Elastic energy of the normal force beyond an offset of the overlap \[m\] and of the tangential and the rolling
+    /// spring, where there are \[J\].
     pub fn elastic_energy(&self, row: &[f64], contact: &Contact, offset: f64, history: &[Row]) -> f64 {
-        let mut energy = (self.normal.elastic_energy)(row, contact, offset);
-        if let Some(spring) = self.spring().and_then(|place| history.get(place)) {
-            let (stiffness, spring) =
-                ((self.normal.response)(row, contact).tangential_stiffness, Vector::from(*spring));
+        let of = |place: Option<usize>| place.and_then(|place| history.get(place).copied());
+        let HistoryPlaces { normal, rolling, .. } = self.history_places;
+        let mut energy = (self.normal.elastic_energy)(row, contact, offset, of(normal).unwrap_or_default());
+        let response = (self.normal.response)(row, contact);
+        if let Some(spring) = of(self.spring()).map(Vector::from) {
+            let stiffness = (self.tangential.stiffness)(&row[self.places.tangential..], response.tangential_stiffness);
             energy += 0.5 * stiffness * spring.dot(spring);
         }
+        if let Some(torque) = of(rolling) {
+            energy += (self.rolling.elastic_energy)(&row[self.places.rolling..], contact, &response, torque);
+        }
         energy
+    }
+
+    /// Stiffness of the rolling spring \[N m\].
+    pub fn rolling_stiffness(&self, row: &[f64], contact: &Contact) -> RollingStiffness {
+        let response = (self.normal.response)(row, contact);
+        (self.rolling.stiffness)(&row[self.places.rolling..], contact, &response)
     }
 
     /// Tangent normal stiffness, tangential stiffness \[N/m\] and damping coefficients \[kg/s\].
     pub fn stiffness(&self, row: &[f64], contact: &Contact) -> Response {
         let mut response = (self.normal.response)(row, contact);
         response.normal_stiffness = (self.normal.tangent_stiffness)(row, contact);
-        if !self.tangential.has_spring {
-            response.tangential_stiffness = 0.0;
-        }
+        response.tangential_stiffness = match self.tangential.has_spring {
+            true => (self.tangential.stiffness)(&row[self.places.tangential..], response.tangential_stiffness),
+            false => 0.0,
+        };
         if !self.tangential.has_dashpot || !self.switches(row).damps_slip() {
             response.tangential_damping = 0.0;
         }

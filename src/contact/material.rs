@@ -1,6 +1,6 @@
 //! Materials and what two of them have in common: where laws take their coefficients from.
 
-use crate::quantity::{NonNegative, Positive, Restitution};
+use crate::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
 use serde::Deserialize;
 
 /// One material as a law sees it.
@@ -46,6 +46,20 @@ pub struct PairProperties {
     pub critical_stokes_number: Option<Positive>,
     /// Largest coefficient of restitution, without fluid.
     pub maximum_restitution: Option<Restitution>,
+    /// Damping of a rolling spring over its critical damping, η_r.
+    pub rolling_viscous_damping: Option<NonNegative>,
+    /// Surface energy γ, half the work of adhesion of `jkr` and `dmt` \[J/m²\].
+    pub surface_energy: Option<NonNegative>,
+    /// Damping of `jkr` and `dmt`: \[1/(m s)\], \[1/s\] or \[kg/s\], as their key `damping` says.
+    pub damping_coefficient: Option<NonNegative>,
+    /// Tangential damping over normal damping of `jkr` and `dmt`, x_t.
+    pub tangential_damping_ratio: Option<NonNegative>,
+    /// Stiffness of unloading over that of loading of `eepa`, k₂/k₁.
+    pub unloading_stiffness_ratio: Option<AtLeastOne>,
+    /// Constant attraction of touching bodies of `eepa`, f₀ \[N\].
+    pub pull_off_force: Option<NonNegative>,
+    /// Stiffness of the adhesion branch over that of loading of `eepa` with `adhesion = "fixed"`, k_a/k₁.
+    pub adhesion_stiffness_ratio: Option<NonNegative>,
 }
 
 /// A property that the chosen law needs and the scene does not give.
@@ -112,6 +126,20 @@ needed! {
     critical_stokes_number,
     /// Largest coefficient of restitution.
     maximum_restitution,
+    /// η_r.
+    rolling_viscous_damping,
+    /// γ \[J/m²\].
+    surface_energy,
+    /// η \[1/(m s)\], \[1/s\] or \[kg/s\].
+    damping_coefficient,
+    /// x_t.
+    tangential_damping_ratio,
+    /// k₂/k₁.
+    unloading_stiffness_ratio,
+    /// f₀ \[N\].
+    pull_off_force,
+    /// k_a/k₁.
+    adhesion_stiffness_ratio,
 }
 
 impl MaterialPair<'_> {

@@ -31,7 +31,7 @@ use serde::Deserialize;
 /// Geometry and relative motion of one contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<N = f64> {
-    /// Overlap δ, above 0 \[m\].
+    /// Overlap δ; below 0 only where a normal model holds bodies together beyond touch \[m\].
     pub overlap: N,
     /// Effective radius R*: R_i R_j/(R_i + R_j) of two spheres, R_i at a wall \[m\].
     pub radius: N,
@@ -49,9 +49,67 @@ pub struct Contact<N = f64> {
     pub slip: Vector<N>,
     /// Angular velocity of i less that of j \[rad/s\].
     pub relative_spin: Vector<N>,
+    /// Angular velocity of i and that of j together \[rad/s\].
+    pub spin_sum: Vector<N>,
+    /// 1/(R_i + R_j) of two spheres, 0 at a wall \[1/m\].
+    pub per_reach: N,
+    /// p q/(p + q), p = m_i R_i², q = m_j R_j², of two spheres; m_i R_i² at a wall \[kg m²\].
+    pub rolling_inertia: N,
     /// What the normal model made of effective radius and mass when the pair was found
     /// ([`NormalForm::pair_constant`]).
     pub pair_constant: N,
+}
+
+impl<N: Number> Contact<N> {
+    /// The contact with the slip that arms R instead of R − δ/2 give.
+    #[inline(always)]
+    pub fn with_undeformed_arms(&self) -> Self {
+        let missing = (self.spin_sum * (N::splat(0.5) * self.overlap)).cross(self.normal);
+        Self { slip: self.slip - missing, ..*self }
+    }
+}
+
+/// What of a contact a sub-model looks at, beyond overlap, effective radius and mass, normal and normal velocity. What
+/// no sub-model of a law looks at is not found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Slip; there are torques.
+    pub torque: bool,
+    /// [`Contact::relative_spin`].
+    pub spin: bool,
+    /// [`Contact::section_area`] and [`Contact::section_radius`].
+    pub section: bool,
+    /// [`Contact::per_reach`] and [`Contact::rolling_inertia`].
+    pub bodies: bool,
+    /// [`Contact::spin_sum`].
+    pub spin_sum: bool,
+}
+
+impl Needs {
+    /// Nothing.
+    pub const NONE: Self = Self { torque: false, spin: false, section: false, bodies: false, spin_sum: false };
+
+    /// What either of two looks at.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            torque: self.torque || other.torque,
+            spin: self.spin || other.spin,
+            section: self.section || other.section,
+            bodies: self.bodies || other.bodies,
+            spin_sum: self.spin_sum || other.spin_sum,
+        }
+    }
+}
+
+/// Whether a normal model pulls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Adhesion {
+    /// It does not, but for its dashpot at the end of a contact.
+    None,
+    /// While the bodies touch.
+    InTouch,
+    /// Also beyond touch, once they have touched: up to [`NormalForm::reach`].
+    BeyondTouch,
 }
 
 /// What [`NormalForm::roots`] finds.
@@ -129,6 +187,11 @@ impl Switches {
         Self::new(if limit_force { 0.0 } else { f64::NEG_INFINITY }, if tangential_damping { 1.0 } else { 0.0 })
     }
 
+    /// Whether the normal force is kept from pulling.
+    pub fn limits_force(&self) -> bool {
+        self.least_force == 0.0
+    }
+
     /// Whether γ_t acts.
     pub fn damps_slip(&self) -> bool {
         self.tangential_damping_factor != 0.0
@@ -157,12 +220,31 @@ pub trait Normal: Copy + Send + Sync + 'static {
     type Form: NormalForm;
     /// The coefficients for two materials; what friction has no use for is not asked of the scene.
     fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self::Form, Missing>;
+    /// What speaks against these keys, if anything.
+    fn objection(_keys: &Self::Keys) -> Option<Objection> {
+        None
+    }
+    /// Whether slip is that of the undeformed bodies, and torques at walls have their arms, as in the engine.
+    fn has_undeformed_arms(_keys: &Self::Keys) -> bool {
+        false
+    }
 }
 
 /// Stiffness and damping of a contact, and the force that follows from them.
 pub trait NormalForm: Coefficients {
     /// What it remembers, if anything.
     const HISTORY: Option<HistoryRow> = None;
+    /// What of a contact it looks at.
+    const NEEDS: Needs = Needs::NONE;
+    /// Whether it pulls.
+    const ADHESION: Adhesion = Adhesion::None;
+    /// Whether `limit_force` cuts the pull of its dashpot alone, where nothing adheres.
+    const LIMITS_ITSELF: bool = false;
+    /// How far beyond touch it holds bodies of this effective radius \[m\] together, where it does \[m\]. The pair
+    /// constant is that, too.
+    fn reach(&self, _radius: f64) -> f64 {
+        0.0
+    }
     /// Whether [`NormalForm::pair_constant`] says anything.
     const HAS_PAIR_CONSTANT: bool = false;
     /// What depends on effective radius \[m\] and mass \[kg\] alone and is too dear for the loop
@@ -178,7 +260,7 @@ pub trait NormalForm: Coefficients {
     fn roots<N: Number>(_overlap: N, _radius: N, _mass: N) -> Roots<N> {
         [N::zero(); 2]
     }
-    /// Stiffness and damping of the contact at hand.
+    /// Stiffness and damping of the contact at hand: k_n and k_t are those that the other sub-models see.
     fn response_at<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>, roots: Roots<N>) -> Response<N>;
     /// The same when the roots are not known.
     #[inline(always)]
@@ -203,8 +285,9 @@ pub trait NormalForm: Coefficients {
         let force = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);
         (NormalForce { response, force, seen: force }, history)
     }
-    /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact \[J\].
-    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64;
+    /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact, by what is remembered
+    /// \[J\].
+    fn elastic_energy(&self, contact: &Contact, offset: f64, history: Row) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].
     fn tangent_stiffness(&self, contact: &Contact) -> f64;
 }
@@ -221,6 +304,10 @@ pub trait Tangential: Coefficients {
     const HAS_SPRING: bool;
     /// Whether slip is damped by γ_t.
     const HAS_DASHPOT: bool;
+    /// Stiffness of the spring where that of the normal model is k_t \[N/m\].
+    fn stiffness(&self, from_normal_model: f64) -> f64 {
+        from_normal_model
+    }
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
     /// Force on i, its limit, and what is to be remembered. `step` is the time since the history was last advanced
@@ -234,6 +321,15 @@ pub trait Tangential: Coefficients {
     ) -> Friction<N>;
 }
 
+/// Stiffness of a rolling spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RollingStiffness {
+    /// Against rolling \[N m\].
+    pub bending: f64,
+    /// Against twisting about the normal \[N m\].
+    pub torsion: f64,
+}
+
 /// Resistance against rolling.
 pub trait Rolling: Coefficients {
     /// What the scene writes under the model's name.
@@ -244,6 +340,21 @@ pub trait Rolling: Coefficients {
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
     /// What it remembers, if anything.
     const HISTORY: Option<HistoryRow> = None;
+    /// What of a contact it looks at.
+    const NEEDS: Needs = Needs { torque: true, spin: true, ..Needs::NONE };
+    /// Whether it takes k_n δ for the force that presses: then the bodies must overlap while they touch.
+    const TAKES_OVERLAP: bool = false;
+    /// Whether it takes k_t of the normal model, whatever the tangential model does.
+    const TAKES_TANGENTIAL_STIFFNESS: bool = false;
+    /// Stiffness of its spring against bending and against twisting, that of its dashpot included, for the stable time
+    /// step \[N m\].
+    fn stiffness(&self, _contact: &Contact, _response: &Response) -> RollingStiffness {
+        RollingStiffness::default()
+    }
+    /// Energy of its spring \[J\].
+    fn elastic_energy(&self, _contact: &Contact, _response: &Response, _history: Row) -> f64 {
+        0.0
+    }
     /// Torque taken from i and given to j \[N m\], and what is to be remembered. `step` as for friction.
     fn torque<N: Number>(
         law: Self::Lanes<N>,
@@ -270,6 +381,8 @@ pub trait Cohesion: Copy + Send + Sync + 'static {
 pub trait CohesionForm: Coefficients {
     /// Whether there is a force at all.
     const ACTIVE: bool;
+    /// What of a contact it looks at.
+    const NEEDS: Needs = Needs { section: true, ..Needs::NONE };
     /// Force along the normal, negative for a pull \[N\].
     fn force<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> N;
     /// The part of that force which the friction limit sees \[N\].

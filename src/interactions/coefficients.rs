@@ -1,12 +1,25 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
-use crate::contact::{Contact, Law, LawChoice, MaterialPair, Response};
+use crate::contact::{Contact, Law, MaterialPair, Response};
 use crate::lanes::Lane;
 use crate::number::Vector;
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Scene};
 
 /// Most coefficients that a composed law may have.
-pub(crate) const MOST_COEFFICIENTS: usize = 24;
+pub(crate) const MOST_COEFFICIENTS: usize = 32;
+
+/// The coefficients that the scene gives a law for all pairs of materials it governs, row by row; others get zeros.
+pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
+    let (choice, materials) = (law.choice(), scene.materials.len());
+    let count = Law::of(&choice).places().count;
+    let row = |entry: usize| {
+        let (a, b) = (&scene.materials[entry / materials], &scene.materials[entry % materials]);
+        let pair = MaterialPair { a, b, properties: &scene.pairs[entry] };
+        let row = if law.between[entry] { choice.coefficients(&pair).ok() } else { None };
+        row.unwrap_or_else(|| vec![0.0; count])
+    };
+    (0..materials * materials).flat_map(row).collect()
+}
 
 /// Coefficients of a law for each two materials of the scene.
 #[derive(Clone, Debug)]
@@ -24,22 +37,18 @@ pub(crate) struct CoefficientTable {
 }
 
 impl CoefficientTable {
-    /// Takes the coefficients of a law for all pairs of materials it governs; others get zeros.
-    pub(crate) fn of(choice: &LawChoice, scene: &Scene, between: &[bool]) -> Self {
-        let (count, materials) = (Law::of(choice).places().count, scene.materials.len());
-        let mut rows = Vec::with_capacity(materials * materials * count);
-        for a in 0..materials {
-            for b in 0..materials {
-                let entry = a * materials + b;
-                let pair =
-                    MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties: &scene.pairs[entry] };
-                let row = if between[entry] { choice.coefficients(&pair).ok() } else { None };
-                rows.extend(row.unwrap_or_else(|| vec![0.0; count]));
-            }
-        }
+    /// The table of a law with the coefficients that the scene gives it; those of a state are taken over by
+    /// [`CoefficientTable::take`].
+    pub(crate) fn of(law: &ContactLaw, scene: &Scene) -> Self {
+        let (count, materials) = (Law::of(&law.choice()).places().count, scene.materials.len());
         let mut present = scene.particles.iter().map(|particle| particle.material.0);
         let single = present.next().filter(|&first| present.all(|other| other == first));
-        Self { rows, count, materials, single, governed: between.to_vec() }
+        Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone() }
+    }
+
+    /// Takes over the coefficients of a state.
+    pub(crate) fn take(&mut self, rows: &[f64]) {
+        self.rows.copy_from_slice(rows);
     }
 
     /// A table of these rows for so many materials, for tests.
@@ -107,6 +116,9 @@ fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Respons
         normal_velocity: 0.0,
         slip: Vector::zero(),
         relative_spin: Vector::zero(),
+        spin_sum: Vector::zero(),
+        per_reach: 0.0,
+        rolling_inertia: mass * radius * radius,
         pair_constant: law.pair_constant(row, radius, mass),
     };
     for _ in 0..ITERATIONS {

@@ -3,12 +3,12 @@
 //! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
-use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Needs, Touching};
+use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::CoefficientTable;
 use super::pass::{Link, Pass};
 use super::records::{self, ContactRecord};
 use super::sphere_geometry::SpherePair;
-use crate::contact::{Contact, Response};
+use crate::contact::{Contact, Needs, Response};
 use crate::lanes::{self, Lane, Shared};
 use crate::number::Vector;
 use crate::run_error::RunError;
@@ -69,6 +69,10 @@ impl Pass for ContactPass {
         Source::Contacts
     }
 
+    fn take_coefficients(&mut self, state: &State) {
+        self.table.take(&state.coefficients[self.index]);
+    }
+
     fn prepare(&self, state: &mut State) {
         self.prepare_hidden(state);
         let list = &mut state.contacts[self.index];
@@ -89,9 +93,10 @@ impl Pass for ContactPass {
         let list = &state.contacts[self.index];
         for pair in 0..list.first.len() {
             let (i, j) = (list.first[pair], list.second[pair]);
-            if let Some((contact, arms)) = pair_contact(&state.particles, list, pair) {
+            if let Some((contact, arms)) = self.pair_contact(&state.particles, list, pair) {
                 let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
                 let response = self.law.law.stiffness(row, &contact);
+                let rolling = self.law.law.rolling_stiffness(row, &contact);
                 let [first_arm, second_arm] = arms;
                 tell(Link {
                     first: i,
@@ -100,8 +105,8 @@ impl Pass for ContactPass {
                     first_arm,
                     second_arm,
                     normal: contact.normal,
-                    torsion: 0.0,
-                    bending: 0.0,
+                    torsion: rolling.torsion,
+                    bending: rolling.bending,
                 });
             }
         }
@@ -136,7 +141,7 @@ impl Pass for ContactPass {
         let list = &state.contacts[self.index];
         let material = |slot: u32| state.particles.material[slot as usize];
         let energy = |pair: usize| {
-            let (contact, _) = pair_contact(&state.particles, list, pair)?;
+            let (contact, _) = self.pair_contact(&state.particles, list, pair)?;
             let row = self.table.row(material(list.first[pair]), material(list.second[pair]));
             Some(self.law.law.elastic_energy(row, &contact, 0.0, &records::history(&list.history, pair)))
         };
@@ -153,20 +158,22 @@ pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
     (r * s / (r + s), m * n / (m + n))
 }
 
-/// The contact of a listed pair and its arms, if the two touch.
-pub(crate) fn pair_contact(particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
-    let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
-    let reach = particles.position[i][3] + particles.position[j][3];
-    let apart = Vector::from(particles.position[i]) - Vector::from(particles.position[j]);
-    if apart.dot(apart) >= reach * reach {
-        return None;
+impl ContactPass {
+    /// The contact of a listed pair and its arms, if the two touch, or still hold together.
+    fn pair_contact(&self, particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
+        let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
+        let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
+        let holds = self.law.law.holds_beyond_touch() && list.flags[pair] & TOUCHING != 0;
+        let rows = |rows: &[Row]| [rows[i], rows[j]];
+        let Particles { position, velocity, angular_velocity, .. } = particles;
+        let spheres = SpherePair::of(rows(position));
+        if !spheres.overlap(holds.then_some(constant)) {
+            return None;
+        }
+        let ContactGeometry { contact, first_arm, second_arm } =
+            spheres.meet(rows(velocity), rows(angular_velocity), constant);
+        Some((contact, [first_arm, second_arm]))
     }
-    let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
-    let rows = |rows: &[Row]| [rows[i], rows[j]];
-    let Particles { position, velocity, angular_velocity, .. } = particles;
-    let ContactGeometry { contact, first_arm, second_arm } =
-        SpherePair::of(rows(position)).meet(rows(velocity), rows(angular_velocity), constant);
-    Some((contact, [first_arm, second_arm]))
 }
 
 /// Pairs of particles.
@@ -203,11 +210,17 @@ impl Bodies for Pairs<'_> {
     }
 
     #[inline(always)]
-    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, _sum: &mut ()) -> (u32, [N; FOUND]) {
+    unsafe fn touch<N: Lane>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        beyond: Option<N>,
+        _sum: &mut (),
+    ) -> (u32, [N; FOUND]) {
         let positions = self.position.as_ptr();
         // SAFETY: a list holds slots of particles, below their number.
         let pair = unsafe { SpherePair::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
-        (N::bits(pair.overlap()), pair.to_found())
+        (N::bits(pair.overlap(beyond)), pair.to_found())
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 mod batch;
 pub(crate) mod bonds;
-mod coefficients;
+pub(crate) mod coefficients;
 pub(crate) mod contacts;
 mod pass;
 mod records;

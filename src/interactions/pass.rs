@@ -35,6 +35,9 @@ pub(crate) trait Pass: Send + Sync {
     /// Whether particles feel torque from it.
     fn has_torque(&self) -> bool;
 
+    /// Takes over the coefficients of contact laws that a state has.
+    fn take_coefficients(&mut self, _state: &State) {}
+
     /// Prepares its part of the state after the neighbour lists were made anew.
     fn prepare(&self, state: &mut State);
 

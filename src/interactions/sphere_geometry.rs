@@ -23,10 +23,13 @@ impl<N: Number> SpherePair<N> {
         Self { apart: vector(i) - vector(j), radius_i: i[3], radius_j: j[3] }
     }
 
-    /// Where the spheres overlap.
+    /// Where the spheres overlap, or are no further apart than `beyond` \[m\].
     #[inline(always)]
-    pub(crate) fn overlap(&self) -> N::Mask {
-        let reach = self.radius_i + self.radius_j;
+    pub(crate) fn overlap(&self, beyond: Option<N>) -> N::Mask {
+        let mut reach = self.radius_i + self.radius_j;
+        if let Some(beyond) = beyond {
+            reach = reach + beyond;
+        }
         (reach * reach).greater(self.apart.dot(self.apart))
     }
 
@@ -68,6 +71,7 @@ impl<N: Number> SpherePair<N> {
         let turning = vector(spin_i) * arm_i + vector(spin_j) * arm_j;
         let slip = relative - normal * normal_velocity - turning.cross(normal);
         let difference = radius_i - radius_j;
+        let (first_inertia, second_inertia) = (mass_i * radius_i * radius_i, mass_j * radius_j * radius_j);
         let radius = radius_i * radius_j * (mass * shared);
         let contact = Contact {
             overlap,
@@ -84,6 +88,9 @@ impl<N: Number> SpherePair<N> {
             normal_velocity,
             slip,
             relative_spin: vector(spin_i) - vector(spin_j),
+            spin_sum: vector(spin_i) + vector(spin_j),
+            per_reach: mass * shared,
+            rolling_inertia: first_inertia * second_inertia / (first_inertia + second_inertia),
             pair_constant,
         };
         ContactGeometry { contact, first_arm: arm_i, second_arm: arm_j }

@@ -100,6 +100,9 @@ impl Standing<'_> {
             normal_velocity,
             slip: relative - normal * normal_velocity - (Vector::from(*spin) * arm).cross(normal),
             relative_spin,
+            spin_sum: Vector::from(*spin),
+            per_reach: 0.0,
+            rolling_inertia: velocity[3] * radius * radius,
             pair_constant,
         };
         Meeting { contact, point, arm }
@@ -233,13 +236,14 @@ impl SurfacePass {
             let Meeting { contact, point, arm } = at.meet(foot, &body, constant);
             let mut history = carry(foot, contact.normal, feet, past, at.features, &self.law);
             let reaction = self.law.react(row, &contact, &mut history, step);
+            let arm = if self.law.undeformed_arms() { contact.radius } else { arm };
             let share = friction(&self.law, at, (foot, feet), &body, (row, constant));
             let weighed = weigh(&reaction, contact.normal, foot.weight, share);
             let Reaction { force, couple, rolling, sliding, .. } = weighed;
             // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
             let (on_force, on_torque) = unsafe { (loaded.force.at(slot as usize), loaded.torque.at(slot as usize)) };
             add(on_force, force);
-            if self.law.has_torque() {
+            if self.law.needs().torque {
                 add(on_torque, -(couple * arm));
                 add(on_torque, -rolling);
             }
@@ -347,7 +351,11 @@ impl Pass for SurfacePass {
     }
 
     fn has_torque(&self) -> bool {
-        self.law.has_torque()
+        self.law.needs().torque
+    }
+
+    fn take_coefficients(&mut self, state: &State) {
+        self.table.take(&state.coefficients[state.walls[self.index].law as usize]);
     }
 
     fn source(&self) -> Source {
@@ -373,7 +381,8 @@ impl Pass for SurfacePass {
             if foot.weight > 0.0 {
                 let response = self.law.stiffness(self.row(state, entry), contact);
                 let (first, first_arm, normal) = (list.particle[entry], *arm, contact.normal);
-                let (second, second_arm, torsion, bending) = (None, 0.0, 0.0, 0.0);
+                let rolling = self.law.rolling_stiffness(self.row(state, entry), contact);
+                let (second, second_arm, torsion, bending) = (None, 0.0, rolling.torsion, rolling.bending);
                 tell(Link { first, second, response, first_arm, second_arm, normal, torsion, bending });
             }
         });

@@ -3,11 +3,11 @@
 //! Planes are worked on together, pieces of the particles side by side: a particle gets the loads of all planes from one
 //! thread, in the order of the planes. Loads on a plane are summed piece by piece, in order.
 
-use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Needs, Touching};
+use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::CoefficientTable;
 use super::pass::{Link, Pass};
 use super::records::{self, ContactRecord};
-use crate::contact::{Contact, Response};
+use crate::contact::{Contact, Needs, Response};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector};
 use crate::run_error::RunError;
@@ -90,6 +90,9 @@ impl<N: Number> Plane<N> {
             normal_velocity,
             slip,
             relative_spin: vector(spin),
+            spin_sum: vector(spin),
+            per_reach: N::zero(),
+            rolling_inertia: velocity[3] * radius * radius,
             pair_constant,
         };
         ContactGeometry { contact, first_arm: arm, second_arm: N::zero() }
@@ -126,10 +129,12 @@ impl WallPass {
         let slot = list.particle[entry] as usize;
         let plane = self.plane(state);
         let particles = &state.particles;
-        if plane.distance(particles.position[slot]) > particles.position[slot][3] {
+        let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
+        let holds = self.law.law.holds_beyond_touch() && list.flags[entry] & TOUCHING != 0;
+        let reach = particles.position[slot][3] + if holds { constant } else { 0.0 };
+        if plane.distance(particles.position[slot]) > reach {
             return None;
         }
-        let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
         let Particles { position, velocity, angular_velocity, .. } = particles;
         let geometry = plane.meet(position[slot], velocity[slot], angular_velocity[slot], constant);
         Some((geometry.contact, geometry.first_arm))
@@ -281,6 +286,10 @@ impl Pass for WallPass {
         Source::Walls
     }
 
+    fn take_coefficients(&mut self, state: &State) {
+        self.table.take(&state.coefficients[state.walls[self.index].law as usize]);
+    }
+
     fn prepare(&self, state: &mut State) {
         self.prepare_hidden(state);
         let list = &mut state.walls[self.index];
@@ -303,6 +312,7 @@ impl Pass for WallPass {
             if let Some((contact, arm)) = self.contact(state, entry) {
                 let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
                 let response = self.law.law.stiffness(row, &contact);
+                let rolling = self.law.law.rolling_stiffness(row, &contact);
                 let (first, normal) = (list.particle[entry], contact.normal);
                 tell(Link {
                     first,
@@ -311,8 +321,8 @@ impl Pass for WallPass {
                     first_arm: arm,
                     second_arm: 0.0,
                     normal,
-                    torsion: 0.0,
-                    bending: 0.0,
+                    torsion: rolling.torsion,
+                    bending: rolling.bending,
                 });
             }
         }
@@ -404,7 +414,13 @@ impl Bodies for AtPlane<'_> {
     }
 
     #[inline(always)]
-    unsafe fn touch<N: Lane>(&self, first: *const u32, _second: *const u32, load: &mut Load) -> (u32, [N; FOUND]) {
+    unsafe fn touch<N: Lane>(
+        &self,
+        first: *const u32,
+        _second: *const u32,
+        beyond: Option<N>,
+        load: &mut Load,
+    ) -> (u32, [N; FOUND]) {
         // SAFETY: a list holds slots of particles, below their number.
         let position = unsafe { N::load_rows(self.position.as_ptr(), first) };
         let distance = self.plane.lanes::<N>().distance(position);
@@ -414,7 +430,11 @@ impl Bodies for AtPlane<'_> {
             load.behind = Some(unsafe { *first.add(behind.trailing_zeros() as usize) });
         }
         let zero = N::zero();
-        (!N::bits(distance.greater(position[3])), [distance, position[3], zero, zero, zero])
+        let mut reach = position[3];
+        if let Some(beyond) = beyond {
+            reach = reach + beyond;
+        }
+        (!N::bits(distance.greater(reach)), [distance, position[3], zero, zero, zero])
     }
 
     #[inline(always)]

@@ -47,6 +47,10 @@ pub(crate) struct Search {
     sizes: Sizes,
     /// Radius of the smallest particle \[m\].
     smallest: f64,
+    /// How far beyond touch a contact law holds bodies together \[m\].
+    reach: f64,
+    /// Radius of the largest particle \[m\].
+    largest: f64,
     /// Skin that the scene asks for \[m\].
     skin: Option<f64>,
     /// Mean radius of the particles \[m\].
@@ -85,6 +89,8 @@ impl Search {
             boundaries: scene.boundaries.iter().map(boundary).collect(),
             sizes: Sizes::of(radii()),
             smallest: radii().fold(f64::INFINITY, f64::min),
+            reach: 0.0,
+            largest: radii().fold(0.0, f64::max),
             skin: scene.run.skin,
             mean: radii().sum::<f64>() / scene.particles.len().max(1) as f64,
             touching: !scene.contacts.is_empty() && !scene.particles.is_empty(),
@@ -96,6 +102,23 @@ impl Search {
             making: Making::default(),
             mark: Vec::new(),
         }
+    }
+
+    /// Takes over the coefficients of contact laws that a state has: how far beyond touch bodies hold together follows from
+    /// them.
+    pub(crate) fn take_coefficients(&mut self, scene: &Scene, state: &State) {
+        let reaches = scene.contacts.iter().zip(&state.coefficients).map(|(choice, rows)| {
+            let law = Law::of(&choice.choice());
+            let governed = rows.chunks_exact(law.places().count.max(1)).zip(&choice.between);
+            let reaches = governed.filter(|(_, governed)| **governed).map(|(row, _)| law.reach(row, self.largest));
+            if law.holds_beyond_touch() { reaches.fold(0.0, f64::max) } else { 0.0 }
+        });
+        self.reach = reaches.fold(0.0, f64::max);
+    }
+
+    /// How far beyond touch a contact law holds bodies together \[m\].
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// Radius of the smallest particle \[m\].
@@ -131,7 +154,7 @@ impl Search {
         if !self.needed {
             return;
         }
-        let skin = if self.touching { state.neighbours.skin } else { 0.0 };
+        let skin = if self.touching { state.neighbours.skin + self.reach } else { 0.0 };
         let grid = Grid::around(&state.particles, &self.sizes, skin, bonds::longest(state), context);
         self.order.find(&grid, &self.sizes, &state.particles, context);
         self.order.apply(&mut state.particles, context);
@@ -215,7 +238,7 @@ impl Search {
         let Some(plane) = plane else { return };
         let moved = state.boundaries[list.boundary as usize].displacement;
         let point = [0, 1, 2].map(|axis| plane.point[axis] + moved[axis]);
-        let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin);
+        let (columns, skin) = (&state.neighbours.reference, state.neighbours.skin + self.reach);
         let near = planes::Side { columns, point, normal: plane.normal, skin };
         let particles = (&state.particles, &self.laws);
         let history = self.histories[list.law as usize].len();

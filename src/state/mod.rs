@@ -34,6 +34,9 @@ pub struct State {
     pub particles: Particles,
     /// When and for where the lists below were made.
     pub neighbours: Neighbours,
+    /// Coefficients of each contact law: a row for each two materials, row by row; zeros where it does not govern them.
+    #[serde(with = "plain::lists")]
+    pub coefficients: Vec<Vec<f64>>,
     /// Near pairs of particles and their springs, a list for each contact law.
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.

@@ -8,7 +8,7 @@ use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 const MAGIC: &[u8; 8] = b"cograin\0";
 
 /// Version of the layout; a change of any field of the state raises it.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// Length of what stands before the payload: magic, version, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8;

@@ -9,7 +9,7 @@ use crate::interactions::contacts::ContactPass;
 use crate::interactions::surfaces::SurfacePass;
 use crate::interactions::wall_bonds::WallBondPass;
 use crate::interactions::walls::{Plane, WallPass};
-use crate::interactions::{BatchLaw, CoefficientTable};
+use crate::interactions::{BatchLaw, CoefficientTable, coefficients};
 use crate::neighbours;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
@@ -26,6 +26,7 @@ pub(super) fn state(scene: &Scene) -> State {
     State {
         clock: Clock::default(),
         neighbours: lists,
+        coefficients: scene.contacts.iter().map(|law| coefficients::rows(law, scene)).collect(),
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
         hidden: Hidden::default(),
@@ -132,14 +133,13 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
 /// The pass of a law between particles.
 fn between_particles(scene: &Scene, index: usize) -> ContactPass {
     let law = &scene.contacts[index];
-    let table = CoefficientTable::of(&law.choice(), scene, &law.between);
-    ContactPass { index, table, law: BatchLaw::of(&law.choice()) }
+    ContactPass { index, table: CoefficientTable::of(law, scene), law: BatchLaw::of(&law.choice()) }
 }
 
 /// The pass of a law at a surface; `list` is its place among those of the state.
 fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dyn Pass> {
     let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
-    let table = CoefficientTable::of(&law.choice(), scene, &law.between);
+    let table = CoefficientTable::of(law, scene);
     let Some(surface::Plane { material, point, normal }) = boundary.shifting_plane() else {
         return Box::new(SurfacePass::of(boundary, list, table, Law::of(&law.choice())));
     };

@@ -1,6 +1,7 @@
 //! One time step: the passes, in their order, over the state.
 
 mod assemble;
+mod coefficients;
 mod observe;
 mod placement;
 mod room;
@@ -93,7 +94,7 @@ impl Simulation {
     /// The scene in a state saved earlier. The state must be of this scene ([`State::from_bytes`] sees to it).
     pub fn resume(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
-        Self {
+        let mut simulation = Self {
             turning: passes.iter().any(|pass| pass.has_torque()),
             passes,
             fields: Fields::of(&scene),
@@ -106,7 +107,9 @@ impl Simulation {
             state,
             origin: Origin::Reached,
             watch: None,
-        }
+        };
+        simulation.take_coefficients();
+        simulation
     }
 
     /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
@@ -163,7 +166,11 @@ impl Simulation {
 
     /// Puts back a state of this simulation; it continues from there bit for bit.
     pub fn restore(&mut self, state: &State) {
+        let same = self.state.coefficients == state.coefficients;
         self.state.clone_from(state);
+        if !same {
+            self.take_coefficients();
+        }
     }
 
     /// Works in this lane width from now on. Every width gives the same bits.
@@ -216,7 +223,8 @@ impl Simulation {
     pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
         let from_scene = self.origin == Origin::Scene && self.state.clock.steps == 0;
         if from_scene {
-            self.state = assemble::state(&self.scene);
+            let coefficients = std::mem::take(&mut self.state.coefficients);
+            self.state = State { coefficients, ..assemble::state(&self.scene) };
         }
         for &(boundary, axis, value) in starts {
             course::put(&mut self.state.boundaries[boundary.index()], axis, value);

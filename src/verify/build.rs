@@ -21,6 +21,9 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
     }
     let step = positive("dt", case.dt)?.get();
     let law = law::law(case)?;
+    if let Some(objection) = law.objection() {
+        return Err(Mistake::new(format!("model.{}", objection.table), objection.reason));
+    }
     let materials = law::materials(case)?;
     let pairs = law::pairs(case)?;
     for (at, properties) in pairs.iter().enumerate() {

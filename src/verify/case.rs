@@ -99,6 +99,20 @@ pub(super) struct Model {
     /// Whether an attractive normal force is cut off.
     #[serde(default, deserialize_with = "switch")]
     pub(super) limit_force: bool,
+    /// Whether a rolling spring resists spin about the normal.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) torsion_torque: bool,
+    /// Whether the adhesion stiffness of `edinburgh` is fixed.
+    #[serde(default, deserialize_with = "switch")]
+    pub(super) fix_kc: bool,
+    /// What the damping of `jkr` and `dmt` follows.
+    pub(super) damping: Option<String>,
+    /// `lammps` where properties of unlike materials are mixed from those of like ones.
+    #[serde(default = "none")]
+    pub(super) mixing: String,
+    /// `lammps` where slip has the arms of the undeformed spheres, otherwise `overlap`.
+    #[serde(default = "overlap")]
+    pub(super) arms: String,
     /// The combination in the old notation; informs the reader.
     #[serde(default, rename = "seed_style")]
     pub(super) _seed_style: Option<String>,
@@ -270,6 +284,16 @@ fn one() -> u64 {
 /// The default of sub-models.
 fn off() -> String {
     "off".into()
+}
+
+/// The default of `mixing`.
+fn none() -> String {
+    "none".into()
+}
+
+/// The default of `arms`.
+fn overlap() -> String {
+    "overlap".into()
 }
 
 /// The default of `tangential_damping`.

@@ -5,14 +5,14 @@ use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
 use crate::contact::cohesion::{CohesionChoice, sjkr};
-use crate::contact::normal::{NormalChoice, hooke, hooke_stiffness};
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
+use crate::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
+use crate::contact::rolling::{RollingChoice, rocking};
+use crate::contact::tangential::{TangentialChoice, turned_history};
 use crate::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
-use crate::quantity::{NonNegative, PoissonsRatio, Positive, Restitution};
+use crate::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
 /// The other engine's name of each pair property, with ours.
-const PROPERTIES: [(&str, &str); 13] = [
+const PROPERTIES: [(&str, &str); 21] = [
     ("coefficientRestitution", "restitution"),
     ("coefficientFriction", "friction"),
     ("coefficientRollingFriction", "rolling_friction"),
@@ -26,6 +26,14 @@ const PROPERTIES: [(&str, &str); 13] = [
     ("FluidViscosity", "fluid_viscosity"),
     ("CriticalStokes", "critical_stokes_number"),
     ("MaximumRestitution", "maximum_restitution"),
+    ("coefficientRollingViscousDamping", "rolling_viscous_damping"),
+    ("surfaceEnergy", "surface_energy"),
+    ("dampingCoefficient", "damping_coefficient"),
+    ("tangentialDampingRatio", "tangential_damping_ratio"),
+    ("tangentialStiffness", "tangential_stiffness"),
+    ("UnloadingStiffness", "unloading_stiffness_ratio"),
+    ("pullOffForce", "pull_off_force"),
+    ("coefficientAdhesionStiffness", "adhesion_stiffness_ratio"),
 ];
 
 /// A property that the model needs and the case does not give.
@@ -69,13 +77,53 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
         let Some((_, ours)) = PROPERTIES.iter().find(|(theirs, _)| theirs == name) else {
             return Err(Mistake::new(format!("pair_properties.{name}"), "not known here"));
         };
-        for (at, value) in matrix(name, value, count)?.into_iter().enumerate() {
+        for (at, mut value) in matrix(name, value, count)?.into_iter().enumerate() {
+            if *ours == "pull_off_force" {
+                value = -value + 0.0; // the engine's is positive where it repels
+            }
             let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
             set(&mut pairs[at], ours, value)
                 .map_err(|right| Mistake::new(field(), format!("{value} found; {right} is right")))?;
         }
     }
+    if case.model.mixing == "lammps" {
+        mixed(case, &mut pairs);
+    }
     Ok(pairs)
+}
+
+/// Gives unlike materials what the engine makes of the properties of like ones: geometric means, and a tangential
+/// stiffness from the effective Young's modulus and the mean of Poisson's ratios.
+fn mixed(case: &Case, pairs: &mut [PairProperties]) {
+    let count = case.materials.len();
+    for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+        let (a, b) = (pairs[i * count + i], pairs[j * count + j]);
+        let mean = |of: fn(&PairProperties) -> Option<NonNegative>| {
+            let product = of(&a)?.get() * of(&b)?.get();
+            NonNegative::new(if i == j { of(&a)?.get() } else { product.sqrt() })
+        };
+        let stiffness = |material: &super::case::Material| {
+            let (modulus, ratio) = (material.youngs_modulus?, material.poissons_ratio?);
+            Some((modulus, ratio))
+        };
+        let modulus = || {
+            let ((e, nu), (f, mu)) = (stiffness(&case.materials[i])?, stiffness(&case.materials[j])?);
+            let effective = 1.0 / ((1.0 - nu * nu) / e + (1.0 - mu * mu) / f);
+            let shear = |compliance: f64| 1.0 / compliance;
+            let true_shear = shear(2.0 * (2.0 - nu) * (1.0 + nu) / e + 2.0 * (2.0 - mu) * (1.0 + mu) / f);
+            let ratio = (nu * mu).sqrt();
+            let own = if i == j { true_shear } else { effective / (4.0 * (2.0 - ratio) * (1.0 + ratio)) };
+            NonNegative::new(8.0 * own)
+        };
+        pairs[i * count + j] = PairProperties {
+            friction: mean(|pair| pair.friction),
+            surface_energy: mean(|pair| pair.surface_energy),
+            damping_coefficient: mean(|pair| pair.damping_coefficient),
+            tangential_damping_ratio: mean(|pair| pair.tangential_damping_ratio),
+            tangential_stiffness: modulus(),
+            ..PairProperties::default()
+        };
+    }
 }
 
 /// A symmetric square matrix, row by row.
@@ -114,6 +162,15 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
         "absolute_normal_damping" => pair.absolute_normal_damping = non_negative()?,
         "absolute_tangential_damping" => pair.absolute_tangential_damping = non_negative()?,
         "fluid_viscosity" => pair.fluid_viscosity = positive()?,
+        "rolling_viscous_damping" => pair.rolling_viscous_damping = non_negative()?,
+        "surface_energy" => pair.surface_energy = non_negative()?,
+        "damping_coefficient" => pair.damping_coefficient = non_negative()?,
+        "tangential_damping_ratio" => pair.tangential_damping_ratio = non_negative()?,
+        "unloading_stiffness_ratio" => {
+            pair.unloading_stiffness_ratio = AtLeastOne::new(value).map(Some).ok_or("a number of 1 or above")?;
+        }
+        "pull_off_force" => pair.pull_off_force = NonNegative::new(value).map(Some).ok_or("0 or an attraction")?,
+        "adhesion_stiffness_ratio" => pair.adhesion_stiffness_ratio = non_negative()?,
         "critical_stokes_number" => pair.critical_stokes_number = positive()?,
         _ => pair.maximum_restitution = restitution()?,
     }
@@ -146,22 +203,40 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         "hooke/stiffness" => {
             NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: model.absolute_damping })
         }
-        other => return Err(unknown("normal", other, "hertz, hooke, hertz/stiffness or hooke/stiffness")),
+        "edinburgh" => NormalChoice::Eepa(eepa(case)?),
+        "jkr" => NormalChoice::Jkr(sticky(case)?),
+        "dmt" => NormalChoice::Dmt(sticky(case)?),
+        other => {
+            let right = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
+            return Err(unknown("normal", other, right));
+        }
     };
     misplaced(case)?;
+    let turned =
+        |rescale, given_stiffness| TangentialChoice::TurnedHistory(turned_history::Keys { rescale, given_stiffness });
+    let rocking =
+        rocking::Keys { torsion: model.torsion_torque, engine_exact: true, set_up_step: Positive::new(case.dt) };
     let keys = sjkr::Keys { tangential_reduce: model.tangential_reduce };
     Ok(LawChoice {
         normal,
         tangential: match model.tangential.as_str() {
             "off" => TangentialChoice::None(NoKeys {}),
             "history" => TangentialChoice::History(NoKeys {}),
-            "no_history" => TangentialChoice::NoHistory(NoKeys {}),
-            other => return Err(unknown("tangential", other, "history, no_history or off")),
+            "no_history" | "linear_nohistory" => TangentialChoice::NoHistory(NoKeys {}),
+            "linear_history" => turned(false, true),
+            "mindlin" => turned(false, false),
+            "mindlin_rescale" => turned(true, false),
+            other => {
+                let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
+                return Err(unknown("tangential", other, right));
+            }
         },
         rolling: match model.rolling_friction.as_str() {
             "off" => RollingChoice::None(NoKeys {}),
             "cdt" => RollingChoice::Cdt(NoKeys {}),
-            other => return Err(unknown("rolling_friction", other, "cdt or off")),
+            "epsd" => RollingChoice::Epsd(rocking),
+            "epsd2" => RollingChoice::Epsd2(rocking),
+            other => return Err(unknown("rolling_friction", other, "cdt, epsd, epsd2 or off")),
         },
         cohesion: match model.cohesion.as_str() {
             "off" | "bond" => CohesionChoice::None(NoKeys {}),
@@ -171,6 +246,39 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         },
         switches: Switches::of(model.limit_force, model.tangential_damping),
     })
+}
+
+/// Keys of `edinburgh`, as the engine has it.
+fn eepa(case: &Case) -> Result<eepa::Keys, Mistake> {
+    let number = |name: &str| {
+        let value = case.scalar_properties.get(name).copied();
+        value.ok_or_else(|| Mistake::new(format!("scalar_properties.{name}"), "absent; the chosen model needs it"))
+    };
+    Ok(eepa::Keys {
+        overlap_exponent: number("overlapExponent")?,
+        adhesion_exponent: number("adhesionExponent")?,
+        adhesion: if case.model.fix_kc { eepa::AdhesionKind::Fixed } else { eepa::AdhesionKind::Patch },
+        engine_exact: true,
+    })
+}
+
+/// Keys of `jkr` and `dmt`.
+fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
+    let damping = match case.model.damping.as_deref() {
+        None | Some("viscoelastic") => sticky::DampingKind::Viscoelastic,
+        Some("mass_velocity") => sticky::DampingKind::MassVelocity,
+        Some("velocity") => sticky::DampingKind::Velocity,
+        Some(other) => {
+            let message = format!("\"{other}\" found; viscoelastic, mass_velocity or velocity is right");
+            return Err(Mistake::new("model.damping", message));
+        }
+    };
+    let engine_exact = match case.model.arms.as_str() {
+        "lammps" => true,
+        "overlap" => false,
+        other => return Err(Mistake::new("model.arms", format!("\"{other}\" found; lammps or overlap is right"))),
+    };
+    Ok(sticky::Keys { damping, given_tangential_modulus: case.model.mixing == "lammps", engine_exact })
 }
 
 /// Flags that the other engine refuses with the model at hand.

@@ -1,6 +1,6 @@
 //! No cohesion.
 
-use crate::contact::{Cohesion, CohesionForm, Contact, MaterialPair, Missing, NoKeys, coefficients};
+use crate::contact::{Cohesion, CohesionForm, Contact, MaterialPair, Missing, Needs, NoKeys, coefficients};
 use crate::number::Number;
 
 coefficients! {
@@ -23,6 +23,7 @@ impl Cohesion for None {
 
 impl CohesionForm for None {
     const ACTIVE: bool = false;
+    const NEEDS: Needs = Needs::NONE;
 
     #[inline(always)]
     fn force<N: Number>(_law: None<N>, _contact: &Contact<N>) -> N {

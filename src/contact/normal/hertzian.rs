@@ -1,7 +1,7 @@
 //! What all Hertzian models compute.
 
 use crate::contact::{Contact, NormalForm, Response, Roots, coefficients};
-use crate::number::Number;
+use crate::number::{Number, Row};
 
 coefficients! {
     /// Stiffness and damping that grow with the radius of the contact.
@@ -50,7 +50,7 @@ impl NormalForm for Hertzian {
         }
     }
 
-    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+    fn elastic_energy(&self, contact: &Contact, offset: f64, _history: Row) -> f64 {
         // ∫ K √(R* δ) (δ − δ₀) dδ = K √R* [2/5 δ^(5/2) − 2/3 δ₀ δ^(3/2)] from δ₀ to δ
         let below = |overlap: f64| overlap * overlap.sqrt() * (0.4 * overlap - offset * 2.0 / 3.0);
         self.normal_stiffness * contact.radius.sqrt() * (below(contact.overlap) - below(offset))

@@ -3,7 +3,7 @@
 use crate::contact::{
     Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
 };
-use crate::number::Number;
+use crate::number::{Number, Row};
 use serde::Deserialize;
 
 coefficients! {
@@ -80,7 +80,7 @@ impl NormalForm for HookeStiffness {
         }
     }
 
-    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+    fn elastic_energy(&self, contact: &Contact, offset: f64, _history: Row) -> f64 {
         let pressing = contact.overlap - offset;
         0.5 * self.normal_stiffness * pressing * pressing
     }

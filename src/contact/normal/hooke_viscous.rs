@@ -4,7 +4,7 @@ use super::hooke;
 use crate::contact::{
     Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
 };
-use crate::number::Number;
+use crate::number::{Number, Row};
 use std::f64::consts::PI;
 
 coefficients! {
@@ -83,7 +83,7 @@ impl NormalForm for HookeViscous {
         }
     }
 
-    fn elastic_energy(&self, contact: &Contact, offset: f64) -> f64 {
+    fn elastic_energy(&self, contact: &Contact, offset: f64, _history: Row) -> f64 {
         let pressing = contact.overlap - offset;
         0.5 * contact.pair_constant * pressing * pressing
     }

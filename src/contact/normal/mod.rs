@@ -1,11 +1,15 @@
 //! Normal sub-models, one a file.
 
+pub mod dmt;
+pub mod eepa;
 pub mod hertz;
 pub mod hertz_stiffness;
 pub mod hertzian;
 pub mod hooke;
 pub mod hooke_stiffness;
 pub mod hooke_viscous;
+pub mod jkr;
+pub mod sticky;
 
 use super::Normal;
 use crate::choices::choices;
@@ -13,9 +17,12 @@ use crate::choices::choices;
 choices! {
     /// `[contact.<law>.normal.<model>]`
     NormalChoice of Normal, taken by TakeNormal:
+    dmt::Dmt,
+    eepa::Eepa,
     hertz::Hertz,
     hertz_stiffness::HertzStiffness,
     hooke::Hooke,
     hooke_stiffness::HookeStiffness,
     hooke_viscous::HookeViscous,
+    jkr::Jkr,
 }

@@ -32,6 +32,7 @@ coefficients! {
 impl Rolling for Cdt {
     type Keys = NoKeys;
     const ACTIVE: bool = true;
+    const TAKES_OVERLAP: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new(pair.rolling_friction()?))

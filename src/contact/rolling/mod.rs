@@ -1,7 +1,10 @@
 //! Rolling sub-models, one a file.
 
 pub mod cdt;
+pub mod epsd;
+pub mod epsd2;
 pub mod none;
+pub mod rocking;
 
 use super::Rolling;
 use crate::choices::choices;
@@ -11,4 +14,6 @@ choices! {
     RollingChoice of Rolling, taken by TakeRolling:
     none::None,
     cdt::Cdt,
+    epsd::Epsd,
+    epsd2::Epsd2,
 }

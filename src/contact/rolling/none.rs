@@ -1,6 +1,6 @@
 //! No resistance against rolling.
 
-use crate::contact::{Contact, MaterialPair, Missing, NoKeys, NormalForce, Rolling, coefficients};
+use crate::contact::{Contact, MaterialPair, Missing, Needs, NoKeys, NormalForce, Rolling, coefficients};
 use crate::number::{Number, Vector};
 
 coefficients! {
@@ -11,6 +11,7 @@ coefficients! {
 impl Rolling for None {
     type Keys = NoKeys;
     const ACTIVE: bool = false;
+    const NEEDS: Needs = Needs::NONE;
 
     fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new())

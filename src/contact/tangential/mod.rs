@@ -3,6 +3,7 @@
 pub mod history;
 pub mod no_history;
 pub mod none;
+pub mod turned_history;
 
 use super::Tangential;
 use crate::choices::choices;
@@ -13,4 +14,5 @@ choices! {
     none::None,
     history::History,
     no_history::NoHistory,
+    turned_history::TurnedHistory,
 }

@@ -1,7 +1,7 @@
 //! The batch that goes through the phases.
 
-use super::{Bodies, ContactGeometry, FOUND, Needs, Touching};
-use crate::contact::{Contact, NormalForce, NormalForm, Response, Roots};
+use super::{Bodies, ContactGeometry, FOUND, Touching};
+use crate::contact::{Contact, Needs, NormalForce, NormalForm, Response, Roots};
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;
@@ -49,8 +49,14 @@ mod column {
     pub(super) const FORCE: usize = 21;
     /// What of it friction sees.
     pub(super) const SEEN: usize = 22;
+    /// 1/(R_i + R_j).
+    pub(super) const PER_REACH: usize = 23;
+    /// Moment of inertia of rolling.
+    pub(super) const ROLLING_INERTIA: usize = 24;
+    /// Sum of the spins.
+    pub(super) const SPIN_SUM: [usize; 3] = [25, 26, 27];
     /// How many there are.
-    pub(super) const COUNT: usize = 23;
+    pub(super) const COUNT: usize = 28;
 }
 use column as at;
 
@@ -239,6 +245,13 @@ impl Buffer {
                     self.store_vector(at::SPIN, place, contact.relative_spin);
                 }
             }
+            if needs.bodies {
+                self.store(at::PER_REACH, place, contact.per_reach);
+                self.store(at::ROLLING_INERTIA, place, contact.rolling_inertia);
+            }
+            if TORQUE && needs.spin_sum {
+                self.store_vector(at::SPIN_SUM, place, contact.spin_sum);
+            }
             if needs.section {
                 self.store(at::SECTION_AREA, place, contact.section_area);
                 self.store(at::SECTION_RADIUS, place, contact.section_radius);
@@ -262,10 +275,29 @@ impl Buffer {
                 normal_velocity: self.load(at::NORMAL_VELOCITY, place),
                 slip: self.load_vector(at::SLIP, place),
                 relative_spin: self.load_vector(at::SPIN, place),
+                spin_sum: self.load_vector(at::SPIN_SUM, place),
+                per_reach: self.load(at::PER_REACH, place),
+                rolling_inertia: self.load(at::ROLLING_INERTIA, place),
                 section_area: self.load(at::SECTION_AREA, place),
                 section_radius: self.load(at::SECTION_RADIUS, place),
                 pair_constant,
             }
+        }
+    }
+
+    /// Gives a register's worth of contacts the slip and, at walls, the arms of undeformed bodies.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn undeform_arms<N: Lane>(&mut self, place: usize) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let contact = self.contact(place, N::zero()).with_undeformed_arms();
+            self.store_vector(at::SLIP, place, contact.slip);
+            let arm: N = self.load(at::FIRST_ARM, place);
+            let between_bodies = contact.per_reach.greater(N::zero());
+            self.store(at::FIRST_ARM, place, N::select(between_bodies, arm, contact.radius));
         }
     }
 

@@ -5,14 +5,14 @@
 //! that are met most are compiled whole beside that ([`FUSED`]), from the same functions in the same order: they keep in
 //! registers what the others write and read, and their bits are the same.
 
+use super::Entries;
 use super::buffer::Buffer;
-use super::{Entries, Needs};
 use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
 use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke::Hooke, hooke_stiffness::HookeStiffness};
 use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
 use crate::contact::tangential::{self, TakeTangential, history::History};
 use crate::contact::{
-    CoefficientPlaces, Coefficients, Cohesion, CohesionForm, Contact, HistoryPlaces, Law, LawChoice, Normal,
+    CoefficientPlaces, Coefficients, Cohesion, CohesionForm, Contact, HistoryPlaces, Law, LawChoice, Needs, Normal,
     NormalForce, NormalForm, Rolling, Switches, Tangential,
 };
 use crate::interactions::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
@@ -54,13 +54,17 @@ impl BatchLaw {
     pub(crate) fn sub_models(choice: &LawChoice) -> Self {
         let law = Law::of(choice);
         assert!(law.places().count <= MOST_COEFFICIENTS, "a law has at most {MOST_COEFFICIENTS} coefficients");
-        let needs = Needs::of(&law);
-        let mut runs = vec![choice.normal.visit(RunOf)];
-        if needs.section {
+        let needs = law.needs();
+        let mut runs: Vec<Run> = Vec::new();
+        if law.undeformed_arms() {
+            runs.push(|width, stage| lanes::run(width, ArmsRun(stage)));
+        }
+        runs.push(choice.normal.visit(RunOf));
+        if law.has_cohesion() {
             runs.push(choice.cohesion.visit(RunOf));
         }
         runs.push(choice.tangential.visit(RunOf));
-        if needs.spin {
+        if law.has_rolling() {
             runs.push(choice.rolling.visit(RunOf));
         }
         Self { law, needs, runs }
@@ -365,6 +369,21 @@ impl Stage<'_> {
     unsafe fn leave_couple<N: Lane>(&mut self, place: usize) {
         // SAFETY: the caller's promise.
         unsafe { N::store_block([N::zero(); 4], self.buffer.couple.as_mut_ptr().add(place)) };
+    }
+}
+
+/// Slip and arms of undeformed bodies, for laws that take them.
+struct ArmsRun<'a, 'b>(&'a mut Stage<'b>);
+
+impl Kernel for ArmsRun<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let mut done = 0;
+        while done < self.0.buffer.ready {
+            // SAFETY: there is room for a register behind the batch.
+            unsafe { self.0.buffer.undeform_arms::<N>(done) };
+            done += N::WIDTH;
+        }
     }
 }
 

@@ -22,7 +22,7 @@ mod phases;
 mod tests;
 
 use super::coefficients::CoefficientTable;
-use crate::contact::{Contact, Law, MOST_HISTORY};
+use crate::contact::{Contact, MOST_HISTORY, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use buffer::Buffer;
@@ -30,24 +30,6 @@ pub(crate) use law::BatchLaw;
 use law::Stage;
 use phases::{Meet, Spread, Touch};
 use std::ops::Range;
-
-/// What a law looks at beyond the normal motion; the rest is not found.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Needs {
-    /// Slip and arms, and that there are torques.
-    pub torque: bool,
-    /// The relative spin.
-    pub spin: bool,
-    /// The section of the overlap.
-    pub section: bool,
-}
-
-impl Needs {
-    /// Those of a law.
-    pub(crate) fn of(law: &Law) -> Self {
-        Self { torque: law.has_torque(), spin: law.has_rolling(), section: law.has_section() }
-    }
-}
 
 /// A contact and the arms of its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -77,11 +59,18 @@ pub(crate) trait Bodies: Copy {
     /// The second body of each entry (slot); where the second body is always the same, anything.
     fn second(&self) -> &[u32];
 
-    /// Which entries touch, a bit for each, and what [`Bodies::meet`] has to know of their places.
+    /// Which entries touch, a bit for each, and what [`Bodies::meet`] has to know of their places. `beyond` is how far
+    /// apart each may be to count as touching \[m\], for laws that hold bodies together beyond touch.
     ///
     /// # Safety
     /// Both point to [`Lane::WIDTH`] slots of the lists.
-    unsafe fn touch<N: Lane>(&self, first: *const u32, second: *const u32, sum: &mut Self::Sum) -> (u32, [N; FOUND]);
+    unsafe fn touch<N: Lane>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        beyond: Option<N>,
+        sum: &mut Self::Sum,
+    ) -> (u32, [N; FOUND]);
 
     /// What takes the processor long, is needed early, and follows from the places alone: roots and quotients.
     fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2];
@@ -205,7 +194,11 @@ impl<B: Bodies> Batches<'_, B> {
             let share = ahead.start + ahead.len() * (next - from) / (to - from);
             self.bodies.prefetch(fetched..share, needs);
             fetched = share;
-            lanes::run(width, Touch { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            if law.law.holds_beyond_touch() {
+                lanes::run(width, Touch::<B, true> { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            } else {
+                lanes::run(width, Touch::<B, false> { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            }
             buffer.complete::<B>(next == to);
             self.meet(needs, buffer);
             law.react(width, &mut self.stage(buffer));

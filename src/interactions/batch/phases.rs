@@ -1,12 +1,14 @@
 //! The phases of a batch.
 
 use super::buffer::{BATCH, Buffer};
-use super::{Batches, Bodies, Entries, Needs};
+use super::{Batches, Bodies, Entries};
+use crate::contact::Needs;
 use crate::lanes::{Kernel, Lane, prefetch};
 use crate::state::contacts::TOUCHING;
 
-/// Phase 1: fills the batch with touching entries and ends the contacts that came apart.
-pub(crate) struct Touch<'a, 'b, B: Bodies> {
+/// Phase 1: fills the batch with touching entries and ends the contacts that came apart. BEYOND: for laws that hold
+/// bodies together beyond touch, as far as their pair constant says.
+pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool> {
     /// The list.
     pub(crate) work: &'a Batches<'a, B>,
     /// Behind the last entry.
@@ -19,7 +21,7 @@ pub(crate) struct Touch<'a, 'b, B: Bodies> {
     pub(crate) sum: &'b mut B::Sum,
 }
 
-impl<B: Bodies> Kernel for Touch<'_, '_, B> {
+impl<B: Bodies, const BEYOND: bool> Kernel for Touch<'_, '_, B, BEYOND> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { work, to, next, buffer, sum } = self;
@@ -42,7 +44,18 @@ impl<B: Bodies> Kernel for Touch<'_, '_, B> {
                     }
                     (first, second) = (some_first.as_ptr(), some_second.as_ptr());
                 }
-                let (touching, found) = bodies.touch::<N>(first, second, sum);
+                let mut reaches = [0.0; 8];
+                if BEYOND {
+                    let mut lane = 0;
+                    while lane < here {
+                        if *entries.flags.pointer().add(entry + lane) & TOUCHING != 0 {
+                            reaches[lane] = entries.pair_constant[entry + lane];
+                        }
+                        lane += 1;
+                    }
+                }
+                let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
+                let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
                 let bits = touching & ((1 << here) - 1);
                 if here == N::WIDTH {
                     end(entries, entry, N::WIDTH, bits);

@@ -3,9 +3,9 @@
 
 use super::buffer::Buffer;
 use super::law::{BatchLaw, Stage};
-use super::{ContactGeometry, Entries, Needs};
-use crate::contact::LawChoice;
+use super::{ContactGeometry, Entries};
 use crate::contact::fixtures::{corners, every_law, properties, with_pair};
+use crate::contact::{LawChoice, Needs};
 use crate::interactions::coefficients::CoefficientTable;
 use crate::lanes::Width;
 use crate::number::{Row, Vector};
@@ -16,14 +16,14 @@ const COUNT: usize = 11;
 
 /// What is to be remembered of an entry before.
 fn before(entry: usize, row: usize) -> Row {
-    [0.125, -0.5 * entry as f64, 0.25 * row as f64, 0.0625]
+    [0.125, 0.5 * entry as f64, 0.25 * row as f64, 0.0625]
 }
 
 /// Forces, couples, torques, flags and history of a batch.
 fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
-    let all = Needs { torque: true, spin: true, section: true };
+    let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true };
     for entry in 0..COUNT {
         let geometry = ContactGeometry { contact: corners()[entry % 5], first_arm: 0.5, second_arm: 0.25 };
         // SAFETY: the buffer has room for more.

@@ -1,7 +1,8 @@
 //! What must hold in any scene, read from a file or built in code.
 
 use super::bonds::{Bonded, idle};
-use crate::contact::{MaterialPair, Missing};
+use crate::bond::creation::ContactPolicy;
+use crate::contact::{Law, MaterialPair, Missing};
 use crate::scene::error::{SceneError, SceneErrors};
 use crate::scene::mistake::Mistake;
 use crate::scene::overlaps::for_each_overlap;
@@ -54,6 +55,8 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
     if scene.contacts.is_empty() {
         return findings;
     }
+    findings.extend(scene.contacts.iter().filter_map(|law| cannot_be_hidden(scene, law)));
+    findings.extend(scene.contacts.iter().filter_map(|law| cannot_meet_features(scene, law)));
     let count = scene.materials.len();
     let mut told = BTreeSet::new();
     for (a, b) in touching(scene) {
@@ -94,6 +97,42 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
         false => particles[a] > 0 && (particles[b] > 0 || walls[b]) || particles[b] > 0 && walls[a],
     };
     (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(|(a, b)| touch(*a, *b)).collect()
+}
+
+/// What speaks against a law where a bond hides contacts: its normal force must be one that an offset can be taken from.
+fn cannot_be_hidden(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
+    let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
+    if Law::of(&law.choice()).takes_offset() {
+        return None;
+    }
+    let message = format!(
+        "a policy that suppresses contacts found, but the normal model of [contact.{}], {}, adheres or remembers; \
+         \"parallel\", or another normal model, is right",
+        law.name,
+        law.normal.name()
+    );
+    Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
+}
+
+/// What speaks against a law that holds bodies together beyond touch where a surface is found anew in each step: what
+/// is not touched is not found there.
+fn cannot_meet_features(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
+    let count = scene.materials.len();
+    let meets = |boundary: &&Boundary| {
+        let material = boundary.shape.material().filter(|_| boundary.shape.features().is_some());
+        material.is_some_and(|material| (0..count).any(|other| law.between[other * count + material.index()]))
+    };
+    let boundary = scene.boundaries.iter().find(meets)?;
+    if !Law::of(&law.choice()).holds_beyond_touch() {
+        return None;
+    }
+    let message = format!(
+        "a surface that is no plane found at a material of [contact.{}], whose normal model, {}, pulls beyond touch; \
+         a plane, or another law for this material, is right",
+        law.name,
+        law.normal.name()
+    );
+    Some(Finding::at(format!("boundary.{}", boundary.name), "material", Mistake::Refused { message }))
 }
 
 /// What speaks against the combination of a law's sub-models and switches.

@@ -11,8 +11,8 @@ pub use description::Description;
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::creation::Moment;
-use crate::geometry::Quaternion;
 use crate::boundaries::{course, rigid_body};
+use crate::geometry::Quaternion;
 use crate::scene::Scene;
 use crate::state::State;
 use std::sync::Arc;
