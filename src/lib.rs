@@ -26,7 +26,6 @@ mod stability;
 pub mod state;
 pub mod step;
 pub mod surface;
-pub mod surface_mesh;
 mod threads;
 pub mod verify;
 mod vtk_reader;

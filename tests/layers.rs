@@ -7,7 +7,7 @@ use std::path::Path;
 const ROWS: [&[&str]; 14] = [
     &["choices", "memory", "quantity", "number", "run_error", "vtk_reader"],
     &["geometry", "lanes"],
-    &["threads", "surface_mesh"],
+    &["threads"],
     &["contact", "bond", "motion", "surface"],
     &["scene"],
     &["state"],

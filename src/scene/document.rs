@@ -108,6 +108,12 @@ impl<'a> Document<'a> {
         offset.map(|offset| self.line(offset))
     }
 
+    /// Whether a table stands below a table; its name may hold any characters.
+    pub(super) fn is_table_below(&self, table: &str, name: &str) -> bool {
+        let below = self.find(table).and_then(|above| child(above, name));
+        matches!(below.map(|(_, value)| value.get_ref()), Some(DeValue::Table(_)))
+    }
+
     /// The line of a table or key whose name may hold any characters, below a table.
     pub(super) fn line_of_name(&self, table: &str, name: &str) -> Option<usize> {
         let (key_start, below) = child(self.find(table)?, name)?;

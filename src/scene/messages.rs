@@ -73,7 +73,7 @@ pub(super) fn mistake(error: &Error, key: &str) -> Mistake {
 /// What was found, from serde's "invalid type: integer `1`".
 fn found_in(message: &str) -> String {
     let found = message.split_once(": ").map_or(message, |(_, found)| found);
-    let quoted = found.split_once('`').and_then(|(_, rest)| rest.strip_suffix('`'));
+    let quoted = found.split_once('`').and_then(|(_, rest)| rest.split_once('`')).map(|(value, _)| value);
     match (found, quoted) {
         (_, Some(value)) => value.to_owned(),
         ("map", _) => "a table".to_owned(),
@@ -91,7 +91,7 @@ fn expected_in(message: &str) -> String {
         "a boolean" => "true or false",
         "a map" => "a table",
         "u32" => "a whole number from 0 to 4294967295",
-        "u64" | "usize" => "a whole number of 0 or above",
+        "u64" | "usize" => "a whole number from 0 to 18446744073709551615",
         "a nonzero u32" => "a whole number from 1 to 4294967295",
         text if text.starts_with("struct ") => "a table",
         text => text,

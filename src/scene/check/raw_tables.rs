@@ -141,12 +141,12 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
             continue;
         }
         let known = TABLES.map(str::to_owned).to_vec();
-        let mistake = messages::absent(&name).unwrap_or(match document.is_table(&name) {
+        let mistake = messages::absent(&name).unwrap_or(match document.is_table_below("", &name) {
             true => Mistake::UnknownTable { found: name.clone(), known },
             false => Mistake::UnknownKey { found: name.clone(), known },
         });
         let line = document.line_of_name("", &name);
-        match document.is_table(&name) {
+        match document.is_table_below("", &name) {
             true => faults.at_line(line, &name, "", mistake),
             false => faults.at_line(line, "", &name, mistake),
         }

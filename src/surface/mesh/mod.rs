@@ -1,6 +1,7 @@
 //! `mesh`: triangles of a file.
 
-mod stl;
+mod faults;
+mod files;
 mod topology;
 mod tree;
 
@@ -51,9 +52,8 @@ struct OnEdge {
 }
 
 impl Mesh {
-    /// The surface of these triangles; an error is the number of a triangle without area.
-    fn of(material: MaterialIndex, corners: &[[[f64; 3]; 3]], sides: Option<u8>) -> Result<Self, usize> {
-        let topology = Topology::of(corners)?;
+    /// A surface.
+    fn of(material: MaterialIndex, topology: Topology, sides: Option<u8>) -> Self {
         let places = |triangle: &[u32; 3]| triangle.map(|vertex| topology.vertices[vertex as usize]);
         let normal = |triangle: &[u32; 3]| {
             let [a, b, c] = places(triangle);
@@ -74,14 +74,14 @@ impl Mesh {
         let boxes: Vec<_> = topology.triangles.iter().map(|triangle| around(&places(triangle))).collect();
         let [low, high] = around(&topology.vertices);
         let front = sides.map_or_else(|| topology.is_closed(), |sides| sides == 1);
-        Ok(Self {
+        Self {
             material,
             tree: Tree::of(&boxes),
             normals,
             sides: if front { Sides::Front } else { Sides::Both },
             middle: (Vector::from(low) + Vector::from(high)) * 0.5,
             topology,
-        })
+        }
     }
 
     /// Height of a centre over a triangle \[m\].
@@ -156,10 +156,12 @@ impl Mesh {
 pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -> Result<Shape, String> {
     let mut triangles = Vec::new();
     for file in files {
-        triangles.extend(stl::read(file).map_err(|(found, right)| format!("{found} found; {right} is right"))?);
+        triangles.extend(
+            files::read("mesh.stl", file).map_err(|(found, right)| format!("{found} found; {right} is right"))?,
+        );
     }
-    let mesh = Mesh::of(material, &triangles, sides);
-    mesh.map(Shape::of).map_err(|triangle| format!("triangle {triangle} has no area"))
+    let topology = Topology::of(&triangles).map_err(|triangle| format!("triangle {triangle} has no area"))?;
+    Ok(Shape::of(Mesh::of(material, topology, sides)))
 }
 
 /// Adds to the weight of a foot.
@@ -316,7 +318,7 @@ impl Surface for Mesh {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Keys {
-    /// Its file, STL.
+    /// Its file: STL, OBJ or VTK.
     file: String,
     /// Files of further triangles of the same surface.
     #[serde(default)]
@@ -334,7 +336,7 @@ pub(crate) struct Keys {
 impl Keys {
     /// The triangles of a file, where the scene wants them; what is wrong is reported.
     fn triangles(&self, key: &str, file: &str, around: &mut dyn Around) -> Option<Vec<[[f64; 3]; 3]>> {
-        let mut triangles = match stl::read(around.file(file)?) {
+        let mut triangles = match files::read(file, around.file(file)?) {
             Ok(triangles) if !triangles.is_empty() => triangles,
             Ok(_) => {
                 around.refuse(key, format!("no triangle in {file}"), "a surface");
@@ -375,13 +377,23 @@ impl ShapeKeys for Keys {
         for file in &self.joined {
             triangles.extend(self.triangles("mesh.joined", file, around)?);
         }
-        match Mesh::of(material?, &triangles, self.sides) {
-            Ok(mesh) => Some(Shape::of(mesh)),
+        let mut refuse =
+            |found: String, right: &str| around.refuse("mesh.file", format!("{}: {found}", self.file), right);
+        let mut topology = match Topology::of(&triangles) {
+            Ok(topology) => topology,
             Err(triangle) => {
-                let found = format!("{}: triangle {triangle} without area", self.file);
-                around.refuse("mesh.file", found, "triangles of some area");
-                None
+                refuse(format!("triangle {triangle} without area"), "triangles of some area");
+                return None;
             }
+        };
+        if let (Err(triangle), Some(1)) = (topology.turn_alike(), self.sides) {
+            refuse(format!("a surface that has one side only, seen at triangle {triangle},"), "sides = 2");
+            return None;
         }
+        if let Some(found) = faults::found(&topology) {
+            refuse(found, "a surface that is there once everywhere");
+            return None;
+        }
+        Some(Shape::of(Mesh::of(material?, topology, self.sides)))
     }
 }

@@ -16,6 +16,10 @@ pub(super) struct Topology {
     pub vertices: Vec<Vector>,
     /// The vertices at the ends of each edge, the lower one first.
     pub edges: Vec<[u32; 2]>,
+    /// Distance below which corners are one vertex \[m\].
+    pub tolerance: f64,
+    /// The number of each triangle among those given, counted from 1.
+    pub numbers: Vec<usize>,
     /// The vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Its edges.
@@ -62,8 +66,10 @@ impl Topology {
                 edge
             });
             topology.triangles.push(triangle);
+            topology.numbers.push(number);
             topology.edges_of.push(edges_of);
         }
+        topology.tolerance = welder.tolerance;
         topology.vertices = welder.vertices;
         topology.at_vertex = vec![Vec::new(); topology.vertices.len()];
         topology.edges_at_vertex = vec![Vec::new(); topology.vertices.len()];
@@ -74,6 +80,40 @@ impl Topology {
             edge.iter().for_each(|vertex| topology.edges_at_vertex[*vertex as usize].push(place));
         }
         Ok(topology)
+    }
+
+    /// Turns triangles round until any two at an edge go along it in opposite directions; the first triangle of each
+    /// connected part stays as it is. An error is the number of a triangle of a surface that has one side only.
+    pub(super) fn turn_alike(&mut self) -> Result<(), usize> {
+        let along = |corners: [u32; 3], [a, b]: [u32; 2]| {
+            (0..3).any(|corner| corners[corner] == a && corners[(corner + 1) % 3] == b)
+        };
+        let mut met = vec![false; self.triangles.len()];
+        for start in 0..self.triangles.len() {
+            let mut waiting = if met[start] { Vec::new() } else { vec![start] };
+            met[start] = true;
+            while let Some(here) = waiting.pop() {
+                for edge in self.edges_of[here] {
+                    let [one, two] = self.at_edge[edge as usize][..] else { continue };
+                    let other = if one as usize == here { two } else { one } as usize;
+                    let ends = self.edges[edge as usize];
+                    let agree = along(self.triangles[here], ends) != along(self.triangles[other], ends);
+                    match (met[other], agree) {
+                        (true, false) => return Err(self.numbers[other]),
+                        (true, true) => {}
+                        (false, _) => {
+                            met[other] = true;
+                            waiting.push(other);
+                            if !agree {
+                                self.triangles[other].swap(1, 2);
+                                self.edges_of[other].swap(0, 2);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether the surface has no rim: every edge has two triangles that go along it in opposite directions.

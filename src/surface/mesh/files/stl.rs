@@ -1,7 +1,6 @@
 //! STL files, ASCII and binary. Stored normals are not looked at.
 
-/// Corners of triangles as a file has them \[file's unit\].
-pub(super) type Triangles = Vec<[[f64; 3]; 3]>;
+use super::Triangles;
 
 /// Length of the head of a binary file.
 const HEAD: usize = 84;
