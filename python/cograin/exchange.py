@@ -70,7 +70,8 @@ class Taker(Protocol):
 class Exchange(ABC):
     """One way to agree. `evaluate` steps the units and leaves the partner alone; `commit` lets the partner follow.
 
-    Where `evaluate` raises, the partner is as it was. ``force`` is the kind that is exchanged.
+    Where `evaluate` raises, the partner is as it was. ``force`` is the kind that is exchanged. An exchange remembers
+    slopes from step to step and belongs to one run.
     """
 
     force: Force = "mean"

@@ -20,7 +20,7 @@ class Progress:
         self._steps += 1
         self._evaluations += evaluations
         clock = time.monotonic()
-        done = now >= self._end
+        done = now >= self._end - 1e-9 * (self._end - self._begin)
         if not self._shown or (clock - self._written < 0.1 and not done):
             return
         self._written = clock

@@ -84,9 +84,17 @@ class Unit:
             instanceName=self.name,
         )
         self._callbacks = self._listening()
-        self.slave.instantiate(callbacks=self._callbacks)
+        try:
+            self.slave.instantiate(callbacks=self._callbacks)
+        except Exception:
+            reason = "; ".join(self._messages) or "it gives no reason"
+            raise UnitError(f"{self.name}: could not be instantiated: {reason}") from None
         self._open = True
-        self._initialise(parameters or {}, inputs or {}, start)
+        try:
+            self._initialise(parameters or {}, inputs or {}, start)
+        except UnitError:
+            self.close()
+            raise
 
     def _listening(self) -> Any:
         """Callbacks that keep what the unit says until somebody asks."""

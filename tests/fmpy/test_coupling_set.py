@@ -1,0 +1,47 @@
+"""The coupling set gives the errors and the energies that its page states, at steps that take no time."""
+
+import sys
+
+import pytest
+from cograin import Program, Unit
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "models" / "coupling_set"))
+
+import couple  # noqa: E402
+import problems  # noqa: E402
+
+# Problem, exchange, step, error: the scheme's own, from the table of the page.
+CASES = [
+    (problems.Drop(), "secant", 1e-3, 3.5e-3),
+    (problems.Drop(), "secant", 5e-4, 8.6e-4),
+    (problems.Drop(), "Verlet", 1e-3, 2.8e-3),
+    (problems.Drop(), "Gauss–Seidel", 1e-3, 3.4e-2),
+]
+
+
+@pytest.fixture(scope="module")
+def opened(request, tmp_path_factory):
+    """The unit of a problem."""
+    program = Program(ROOT / request.config.getoption("--program"))
+    folder, units = tmp_path_factory.mktemp("set"), {}
+
+    def opening(problem):
+        if problem.scene not in units:
+            path = program.export(couple.HERE / problem.scene, folder / f"{problem.scene}.fmu")
+            units[problem.scene] = Unit(path)
+        return units[problem.scene]
+
+    yield opening
+    for unit in units.values():
+        unit.close()
+
+
+@pytest.mark.parametrize(("problem", "exchange", "step", "error"), CASES)
+def test_errors_are_the_schemes_own_and_repeated_steps_keep_the_energy(opened, problem, exchange, step, error):
+    (measure, _, touched, unconverged), _, said = couple.ours(problem, opened(problem), exchange, step)
+    assert not said and not unconverged
+    assert measure.error == pytest.approx(error, rel=0.02)
+    if exchange == "secant":
+        assert measure.interface <= 1e-9
+        assert touched <= 2.6
