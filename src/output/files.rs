@@ -96,7 +96,7 @@ pub fn write_checkpoint(path: &Path, state: &State, scene: &Scene, scene_name: &
     let checksum = xxh3_64(description.as_bytes());
     write_whole_by(path, Durability::Machine, |file| {
         let mut buffered = BufWriter::new(file);
-        write!(buffered, "{HEAD}{checksum:016x} {description}\n")?;
+        writeln!(buffered, "{HEAD}{checksum:016x} {description}")?;
         state.write_to(scene.fingerprint, &mut buffered)?;
         buffered.flush()
     })

@@ -76,7 +76,7 @@ fn lists_that_need_more_memory_than_there_is_are_refused_before_they_are_made() 
     let place = Place::new("memory");
     let scene = place.scene("end = 0.1\nstep = 1e-5\nskin = 1e3", "");
     let many = "[particles.many]\nmaterial = \"glass\"\nlattice = { kind = \"simple_cubic\", origin = [1.0, 1.0, 1.0], \
-                counts = [100, 100, 100], radius = 5e-3 }\n";
+                counts = [50, 50, 40], radius = 5e-3 }\n";
     let text = fs::read_to_string(&scene).unwrap();
     fs::write(
         &scene,

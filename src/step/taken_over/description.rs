@@ -36,7 +36,7 @@ impl Description {
         for particle in &scene.particles {
             match particles.last_mut() {
                 Some([first, count]) if u64::from(*first) + u64::from(*count) == u64::from(particle.id.0) => {
-                    *count += 1
+                    *count += 1;
                 }
                 _ => particles.push([particle.id.0, 1]),
             }
