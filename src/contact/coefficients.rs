@@ -31,6 +31,7 @@ macro_rules! coefficients {
         impl $name {
             /// The coefficients with these values, in the order of the fields.
             #[allow(clippy::new_without_default, reason = "a sub-model without coefficients has no default meaning")]
+            #[allow(clippy::too_many_arguments, reason = "one for each coefficient")]
             pub fn new($($field: f64),*) -> Self {
                 Self { $($field,)* marker: std::marker::PhantomData }
             }
