@@ -186,10 +186,10 @@ impl<N: Number> Eepa<N> {
     #[inline(always)]
     fn adhering(&self, x: N) -> N {
         let (chi, square) = (self.adhesion_exponent, x * x);
-        let above = |threshold: f64, yes: N, no: N| N::select(chi.greater(N::splat(threshold)), yes, no);
-        let high = above(4.0, square * square * x, square * x);
-        let middle = above(2.5, high, square);
-        above(1.75, middle, above(1.25, x * x.sqrt(), x))
+        let high = N::select(chi.greater(N::splat(4.0)), square * square * x, square * x);
+        let middle = N::select(chi.greater(N::splat(2.5)), high, square);
+        let low = N::select(chi.greater(N::splat(1.25)), x * x.sqrt(), x);
+        N::select(chi.greater(N::splat(1.75)), middle, low)
     }
 
     /// k₁ \[N/mⁿ\].

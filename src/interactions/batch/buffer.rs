@@ -358,11 +358,10 @@ impl Buffer {
     /// As for [`Buffer::store`].
     #[inline(always)]
     pub(crate) unsafe fn find_roots<N: Lane, A: NormalForm>(&mut self, place: usize) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller's promise. (A closure here would not be compiled for the features of the width.)
         unsafe {
-            let [overlap, radius, mass] =
-                [at::OVERLAP, at::RADIUS, at::MASS].map(|column| self.load::<N>(column, place));
-            let [one, other] = A::roots(overlap, radius, mass);
+            let (overlap, radius): (N, N) = (self.load(at::OVERLAP, place), self.load(at::RADIUS, place));
+            let [one, other] = A::roots(overlap, radius, self.load(at::MASS, place));
             one.store(self.roots[0].as_mut_ptr().add(place));
             other.store(self.roots[1].as_mut_ptr().add(place));
         }
