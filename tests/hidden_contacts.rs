@@ -119,6 +119,25 @@ fn a_broken_pair_starts_from_no_force_and_keeps_its_energy() {
     assert!(parallel.elastic_energy() > 1e-6 * parallel.kinetic_energy());
 }
 
+/// They were worked on one by one in every step, though nothing of them acts: 6,000 spheres with 20,350 bonds took 1.57 ms a
+/// step with `"none"` where they took 0.60 ms with `"parallel"`, which does more.
+#[test]
+fn contacts_of_which_nothing_acts_are_left_alone_until_their_bond_breaks() {
+    let active = |simulation: &Simulation| simulation.state().hidden.active.iter().map(Vec::len).sum::<usize>();
+    assert_eq!(active(&pair("without_normal", "[1.0, 0.0, 0.0]", 1.0, 1e-8)), 1);
+    let mut simulation = pair("none", "[1.0, 0.0, 0.0]", 1.0, 1e-8);
+    while living(&simulation) > 0 {
+        assert_eq!(active(&simulation), 0);
+        let positions = &simulation.state().particles.position;
+        let overlap = (2e-3 - (positions[1][0] - positions[0][0]).abs()) / 1e-3;
+        assert!((simulation.largest_overlap() - overlap).abs() < 1e-12, "it is told all the same");
+        simulation.advance(1e-8).unwrap();
+    }
+    assert_eq!(active(&simulation), 1);
+    let entry = simulation.state().hidden.all().next().copied().expect("an offset is left");
+    assert!((entry.offset / 1e-3 - simulation.largest_overlap()).abs() < 1e-12, "{entry:?}");
+}
+
 /// Two spheres whose bond breaks while they are pressed together.
 fn pressed(step: f64) -> Simulation {
     let text = PAIR
