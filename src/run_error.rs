@@ -1,13 +1,77 @@
 //! Why a run stopped.
 
+/// What is behind a motion that no longer makes sense, with its figures.
+#[derive(Clone, Debug, Default, PartialEq, thiserror::Error)]
+pub enum Cause {
+    /// Not yet looked for.
+    #[default]
+    #[error("the cause is not known")]
+    Unknown,
+    /// The time step is too long.
+    #[error("the time step, {step:.3e} s, is above the stable one, {stable:.3e} s")]
+    Step {
+        /// The time step \[s\].
+        step: f64,
+        /// The stable one, as last found \[s\].
+        stable: f64,
+    },
+    /// The body is too fast for the time step.
+    #[error(
+        "its speed, {speed:.3e} m/s, is too high for a time step of {step:.3e} s, though that is below the stable one, {stable:.3e} s"
+    )]
+    Speed {
+        /// Speed \[m/s\].
+        speed: f64,
+        /// The time step \[s\].
+        step: f64,
+        /// The stable one, as last found \[s\].
+        stable: f64,
+    },
+    /// A force throws the body.
+    #[error(
+        "the force on it, {force:.3e} N, is too large for its mass: an overlap, a bond made under load or an applied force (the time step is below the stable one)"
+    )]
+    Force {
+        /// Force \[N\].
+        force: f64,
+    },
+    /// Bodies met too fast.
+    #[error(
+        "they meet at {speed:.3e} m/s, which is more than the stiffness of the contact holds (the time step is below the stable one)"
+    )]
+    Impact {
+        /// Closing speed \[m/s\].
+        speed: f64,
+    },
+    /// A load is too large.
+    #[error("the load on the contact is above what its stiffness holds (the time step is below the stable one)")]
+    Load,
+    /// Cohesion pulls bodies into each other.
+    #[error("cohesion: its energy density is {ratio:.3} of the effective modulus, and contacts collapse above {bound}")]
+    Cohesion {
+        /// Energy density over effective modulus.
+        ratio: f64,
+        /// The bound.
+        bound: f64,
+    },
+    /// A bond is loaded beyond what its formulation follows.
+    #[error("its load turns it that far, and no breakage limit ends it (the time step is below the stable one)")]
+    Unbroken,
+    /// The law itself, or numbers at the end of what is finite.
+    #[error("no single cause is seen (the time step, {step:.3e} s, is below the stable one, {stable:.3e} s)")]
+    Unseen {
+        /// The time step \[s\].
+        step: f64,
+        /// The stable one, as last found \[s\].
+        stable: f64,
+    },
+}
+
 /// Why a run stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// A particle would move further in one step than its neighbours were looked for.
-    #[error(
-        "particle {id} would move {radii:.2} of its radius in one step at t = {time} s; \
-         likely a time step above the stable one ({stable:.2e} s), or an overlap at the start"
-    )]
+    #[error("particle {id} would move {radii:.2} of its radius in one step at t = {time} s: {cause}")]
     Runaway {
         /// The particle.
         id: u32,
@@ -15,13 +79,11 @@ pub enum RunError {
         radii: f64,
         /// Time \[s\].
         time: f64,
-        /// The computed stable step \[s\].
-        stable: f64,
+        /// Why.
+        cause: Cause,
     },
     /// A number ceased to be one.
-    #[error(
-        "particle {id} has a {quantity} that is not finite at t = {time} s; likely a time step above the stable one ({stable:.2e} s)"
-    )]
+    #[error("particle {id} has a {quantity} that is not finite at t = {time} s: {cause}")]
     NotFinite {
         /// The particle.
         id: u32,
@@ -29,13 +91,11 @@ pub enum RunError {
         quantity: &'static str,
         /// Time \[s\].
         time: f64,
-        /// The computed stable step \[s\].
-        stable: f64,
+        /// Why.
+        cause: Cause,
     },
     /// The centre of a particle is behind a plane.
-    #[error(
-        "particle {id} went through boundary {boundary} at t = {time} s; likely a load above what its stiffness holds, or a boundary moved too fast"
-    )]
+    #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}")]
     Behind {
         /// The particle.
         id: u32,
@@ -43,6 +103,36 @@ pub enum RunError {
         boundary: String,
         /// Time \[s\].
         time: f64,
+        /// Why.
+        cause: Cause,
+    },
+    /// Two particles are pressed into each other as deep as no contact law holds.
+    #[error("particles {first} and {second} overlap by {overlap:.2} of the smaller radius at t = {time} s: {cause}")]
+    Crushed {
+        /// One particle.
+        first: u32,
+        /// The other.
+        second: u32,
+        /// Overlap over the smaller radius.
+        overlap: f64,
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: Cause,
+    },
+    /// More energy came out of contacts and bonds than went in.
+    #[error(
+        "contacts and bonds gave {gained:.3e} J more than they got, of {turnover:.3e} J that were turned over, at t = {time} s: {cause}"
+    )]
+    EnergyGain {
+        /// What came out of nothing \[J\].
+        gained: f64,
+        /// Sum of the magnitudes of all work \[J\].
+        turnover: f64,
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: Cause,
     },
     /// A particle left the domain.
     #[error("particle {id} left the [domain] at t = {time} s, at ({x:.3e}, {y:.3e}, {z:.3e}) m; likely a missing wall")]
@@ -60,7 +150,7 @@ pub enum RunError {
     },
     /// A bond is bent further than its formulation can follow.
     #[error(
-        "the bond of particle {first} and {} is bent beyond half a turn at t = {time} s; likely a missing breakage limit",
+        "the bond of particle {first} and {} is bent beyond half a turn at t = {time} s: {cause}",
         second.map_or_else(|| "a plane".to_owned(), |second| format!("particle {second}"))
     )]
     Overbent {
@@ -70,16 +160,20 @@ pub enum RunError {
         second: Option<u32>,
         /// Time \[s\].
         time: f64,
+        /// Why.
+        cause: Cause,
     },
     /// The given time step is too long.
     #[error(
-        "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s; likely a particle pair or load stiffer than thought; set [run] step below it, or \"auto\""
+        "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s, limited by {by}; set [run] step below it, or \"auto\" (allow_unstable = true lets it run all the same)"
     )]
     StepTooLong {
         /// The step given \[s\].
         step: f64,
         /// The stable step \[s\].
         stable: f64,
+        /// What limits it.
+        by: String,
         /// Time \[s\].
         time: f64,
     },

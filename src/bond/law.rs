@@ -2,6 +2,7 @@
 
 use super::breakage::{Breakage, Loaded, Rule, Stress, TakeRule};
 use super::damping::{Damping, DampingChoice, DampingLoad, TakeDamping};
+use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
 use crate::number::Vector;
@@ -101,7 +102,23 @@ impl TakeFormulation for TakeFunctions {
     }
 }
 
+/// Asks damping what it is to the stable time step, with these stiffnesses.
+struct TakeLinear<'a>(&'a Pair, Parts);
+
+impl TakeDamping for TakeLinear<'_> {
+    type Output = [Parts; 2];
+    fn take<D: Damping>(self, damping: D) -> [Parts; 2] {
+        damping.linear(self.0, self.1)
+    }
+}
+
 impl Law {
+    /// What a bond of this pair is to the stable time step: stiffness \[N/m, N m\] and dashpots \[kg/s, N m s\] of each part.
+    pub fn linear(&self, pair: &Pair) -> [Parts; 2] {
+        let stiffness = self.elasticity.stiffness(pair.least_radius);
+        self.damping.map_or([stiffness, [0.0; 4]], |damping| damping.visit(TakeLinear(pair, stiffness)))
+    }
+
     /// A conservative bond that does not break.
     pub fn elastic(formulation: FormulationChoice, elasticity: Elasticity) -> Self {
         let compression_share = if formulation.is_engine() { 1.0 } else { -1.0 };

@@ -18,7 +18,7 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
     for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
         turns.push(turn_ahead(boundary, moved, interval, state.clock.time)?);
     }
-    for (moved, turn) in state.boundaries.iter_mut().zip(turns) {
+    for ((moved, turn), boundary) in state.boundaries.iter_mut().zip(turns).zip(&scene.boundaries) {
         for axis in 0..6 {
             moved.target[axis] += moved.target_rate[axis] * interval;
         }
@@ -26,10 +26,27 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
         moved.start = six(moved.displacement, moved.rotation);
         moved.start_attitude = moved.attitude;
         moved.turn = turn;
+        moved.fastest = fastest(boundary, moved, interval);
         moved.impulse = [0.0; 3];
         moved.angular_impulse = [0.0; 3];
     }
     Ok(())
+}
+
+/// Largest speed of each driven axis on its way through a communication step of `interval` \[s\]: along it \[m/s\] and
+/// about it \[rad/s\].
+fn fastest(boundary: &Boundary, moved: &BoundaryState, interval: f64) -> [f64; 6] {
+    let steepest = match boundary.input {
+        // One that holds its new place jumps there: no speed of its own.
+        InputCourse::Hold => 0.0,
+        InputCourse::Ramp => 1.0,
+        // The slope of 3 s² − 2 s³ at its middle.
+        InputCourse::Smooth => 1.5,
+    };
+    std::array::from_fn(|axis| {
+        let way = if axis < 3 { moved.target[axis] - moved.start[axis] } else { moved.turn[axis - 3] };
+        if boundary.axes[axis].is_driven() { steepest * way / interval } else { 0.0 }
+    })
 }
 
 /// Three numbers of x, y, z and three about them.
@@ -78,6 +95,34 @@ pub(crate) struct Way {
     led: [f64; 6],
     /// No particle of it went further \[m\]; 0 where it carries none.
     pub carried: f64,
+}
+
+impl Way {
+    /// How far the boundary went, or what it carries \[m\].
+    pub(crate) fn farthest(&self) -> f64 {
+        let [x, y, z, ..] = self.led;
+        (x * x + y * y + z * z).sqrt().max(self.carried)
+    }
+}
+
+/// Largest speed that each boundary has, or gets in the communication step that has begun, of the particles that it
+/// carries \[m/s\].
+pub(crate) fn speeds<'a>(
+    scene: &'a Scene,
+    bodies: &'a [Option<RigidBody>],
+    state: &'a State,
+) -> impl Iterator<Item = f64> + 'a {
+    let time = state.clock.time;
+    scene.boundaries.iter().zip(bodies).zip(&state.boundaries).map(move |((boundary, body), moved)| {
+        // Of what an axis is known to do, the faster: as it moves, as it is about to, as the scene says.
+        let speed = |axis: usize, now: f64| {
+            let said = boundary.axes[axis].at(time).map_or(0.0, |[_, velocity]| velocity.abs());
+            now.abs().max(moved.fastest[axis].abs()).max(said)
+        };
+        let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
+        let about = Vector::from([0, 1, 2].map(|axis| speed(3 + axis, moved.angular_velocity[axis]))).length();
+        along + body.as_ref().map_or(0.0, |body| about * body.farthest)
+    })
 }
 
 /// Moves every boundary to where it stands at the end of the present time step.
@@ -160,7 +205,7 @@ fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress
     }
     let turned = whole * (share - before);
     moved.angular_velocity = match course {
-        InputCourse::Ramp => whole * (1.0 / progress.length()),
+        InputCourse::Ramp => whole * (1.0 / progress.length),
         InputCourse::Smooth => turned * (1.0 / progress.step),
         InputCourse::Hold => Vector::zero(),
     }

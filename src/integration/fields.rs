@@ -22,6 +22,9 @@ pub(crate) struct Fields {
     damping: Vec<Damped>,
 }
 
+/// Cundall's damping of all particles, put aside.
+pub(crate) struct Damping(Vec<Damped>);
+
 /// Cundall's damping of one particle.
 #[derive(Clone, Copy, Default)]
 struct Damped {
@@ -73,9 +76,34 @@ impl Fields {
         }
     }
 
+    /// Takes all damping away, until [`Fields::damp_as`] puts it back.
+    pub(crate) fn without_damping(&mut self) -> Damping {
+        Damping(std::mem::take(&mut self.damping))
+    }
+
+    /// Damps as before.
+    pub(crate) fn damp_as(&mut self, damping: Damping) {
+        self.damping = damping.0;
+    }
+
     /// Whether any particle is damped.
     pub(crate) fn damps(&self) -> bool {
         !self.damping.is_empty()
+    }
+
+    /// By which factors Cundall's damping makes force and torque on a particle of the scene larger, at most: where the motion
+    /// changes its sign in every step, which is the mode that grows first, every load acts on the way out.
+    pub(crate) fn amplification(&self, id: u32) -> [f64; 2] {
+        self.damping.get(id as usize).map_or([1.0; 2], |damped| [1.0 + damped.linear, 1.0 + damped.angular])
+    }
+
+    /// Largest acceleration that gravity and applied forces give a particle \[m/s²\].
+    pub(crate) fn acceleration(&self, particles: &Particles) -> f64 {
+        let gravity = Vector::from(self.gravity).length();
+        let applied = |(id, force): (usize, &[f64; 3])| {
+            Vector::from(*force).length() / particles.velocity[particles.slot[id] as usize][3]
+        };
+        gravity + self.applied.iter().enumerate().map(applied).fold(0.0, f64::max)
     }
 
     /// Gravity \[m/s²\], if nothing else acts and nobody asks for it by itself: it is then added by the kick that

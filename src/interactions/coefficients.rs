@@ -1,5 +1,6 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
+use super::ahead::overlap_of;
 use crate::contact::{Contact, Law, MaterialPair, Response};
 use crate::lanes::Lane;
 use crate::number::Vector;
@@ -20,6 +21,9 @@ pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
     };
     (0..materials * materials).flat_map(row).collect()
 }
+
+/// Overlap over the effective radius below which no impact is thought: what touches has a stiffness.
+const LEAST_OVERLAP: f64 = 1e-12;
 
 /// Coefficients of a law for each two materials of the scene.
 #[derive(Clone, Debug)]
@@ -104,10 +108,8 @@ impl CoefficientTable {
 
 /// Stiffness at the deepest point of a head-on impact: where the spring has taken up the kinetic energy.
 fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
-    /// Iterations of overlap = speed √(mass/stiffness); each at least halves the error of Hertz's law.
-    const ITERATIONS: usize = 30;
-    let mut contact = Contact {
-        overlap: 1e-6 * radius,
+    let contact = Contact {
+        overlap: 0.0,
         radius,
         mass,
         section_area: 0.0,
@@ -121,11 +123,6 @@ fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Respons
         rolling_inertia: mass * radius * radius,
         pair_constant: law.pair_constant(row, radius, mass),
     };
-    for _ in 0..ITERATIONS {
-        let stiffness = law.stiffness(row, &contact).normal_stiffness;
-        if stiffness > 0.0 {
-            contact.overlap = (speed * (mass / stiffness).sqrt()).max(1e-12 * radius);
-        }
-    }
-    law.stiffness(row, &contact)
+    let overlap = overlap_of(law, row, &contact, 0.5 * mass * speed * speed, radius);
+    law.stiffness(row, &Contact { overlap: overlap.max(LEAST_OVERLAP * radius), ..contact })
 }

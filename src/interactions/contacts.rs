@@ -3,9 +3,10 @@
 //! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
+use super::ahead::{Ahead, Kind, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::CoefficientTable;
-use super::pass::{Link, Pass};
+use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use super::sphere_geometry::SpherePair;
 use crate::contact::{Contact, Needs, Response};
@@ -88,27 +89,20 @@ impl Pass for ContactPass {
         }
     }
 
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
-        self.hidden_stiffness(state, tell);
-        let list = &state.contacts[self.index];
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+        self.hidden_stiffness(state, ahead, tell);
+        let (list, particles) = (&state.contacts[self.index], &state.particles);
         for pair in 0..list.first.len() {
             let (i, j) = (list.first[pair], list.second[pair]);
-            if let Some((contact, arms)) = self.pair_contact(&state.particles, list, pair) {
-                let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
-                let response = self.law.law.stiffness(row, &contact);
-                let rolling = self.law.law.rolling_stiffness(row, &contact);
-                let [first_arm, second_arm] = arms;
-                tell(Link {
-                    first: i,
-                    second: Some(j),
-                    response,
-                    first_arm,
-                    second_arm,
-                    normal: contact.normal,
-                    torsion: rolling.torsion,
-                    bending: rolling.bending,
-                });
-            }
+            let reach = ahead.margin.max(ahead.way);
+            let Some((contact, arms)) = self.near_contact(particles, list, pair, reach) else { continue };
+            let law = &self.law.law;
+            let row = self.table.row(particles.material[i as usize], particles.material[j as usize]);
+            let touches = contact.overlap > 0.0 || (law.holds_beyond_touch() && list.flags[pair] & TOUCHING != 0);
+            let deep = ahead.between(law, row, &contact, particles, [i, j]);
+            let Some(deep) = deep.or(touches.then_some(contact)) else { continue };
+            let kind = if touches { Kind::Contact } else { Kind::ComingContact };
+            tell(Link { kind, ..Link::of_contact((i, Some(j), None), (law, row), &deep, arms) });
         }
     }
 
@@ -161,13 +155,26 @@ pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
 impl ContactPass {
     /// The contact of a listed pair and its arms, if the two touch, or still hold together.
     fn pair_contact(&self, particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
+        self.near_contact(particles, list, pair, 0.0)
+    }
+
+    /// The contact of a listed pair and its arms, if the two touch, still hold together or are less than `gap` \[m\] apart:
+    /// the overlap is then below 0.
+    fn near_contact(
+        &self,
+        particles: &Particles,
+        list: &ContactList,
+        pair: usize,
+        gap: f64,
+    ) -> Option<(Contact, [f64; 2])> {
         let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
         let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
         let holds = self.law.law.holds_beyond_touch() && list.flags[pair] & TOUCHING != 0;
         let rows = |rows: &[Row]| [rows[i], rows[j]];
         let Particles { position, velocity, angular_velocity, .. } = particles;
         let spheres = SpherePair::of(rows(position));
-        if !spheres.overlap(holds.then_some(constant)) {
+        let beyond = if holds { gap.max(constant) } else { gap };
+        if !spheres.overlap((beyond > 0.0).then_some(beyond)) {
             return None;
         }
         let ContactGeometry { contact, first_arm, second_arm } =

@@ -1,5 +1,6 @@
 //! Interactions: what particles, surfaces and bonds do to each other, pass by pass over the lists.
 
+mod ahead;
 mod batch;
 pub(crate) mod bonds;
 pub(crate) mod coefficients;
@@ -14,7 +15,8 @@ pub(crate) mod surfaces;
 pub(crate) mod wall_bonds;
 pub(crate) mod walls;
 
+pub(crate) use ahead::{Ahead, FASTER, Kind, Link};
 pub(crate) use batch::BatchLaw;
 pub(crate) use coefficients::CoefficientTable;
-pub(crate) use pass::{Link, Pass};
+pub(crate) use pass::Pass;
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

@@ -1,10 +1,10 @@
 //! What the passes of a time step have in common.
 
+use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
 use super::walls::PlanePass;
 use crate::bond::creation::Moment;
 use crate::contact::Response;
-use crate::number::Vector;
 use crate::run_error::RunError;
 use crate::state::State;
 use crate::state::ledger::Source;
@@ -44,8 +44,9 @@ pub(crate) trait Pass: Send + Sync {
     /// The kind of force it is, for the energy book.
     fn source(&self) -> Source;
 
-    /// Tells the stiffness of each interaction at work, for the stable time step.
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link));
+    /// Tells the stiffness of each interaction at work or, where `ahead` looks further, as stiff as each may get: for the
+    /// stable time step.
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link));
 
     /// The stiffest that it gets between two bodies of this effective radius \[m\] and mass \[kg\] which meet at
     /// this speed \[m/s\].
@@ -64,25 +65,4 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Tells each living bond and what it carries. Changes nothing.
     fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
-}
-
-/// The stiffness of one interaction at work.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
-    /// One particle (slot).
-    pub first: u32,
-    /// The other particle (slot), or none at a wall.
-    pub second: Option<u32>,
-    /// Stiffnesses \[N/m\] and damping coefficients \[kg/s\].
-    pub response: Response,
-    /// Arm at the first particle \[m\].
-    pub first_arm: f64,
-    /// Arm at the second particle \[m\].
-    pub second_arm: f64,
-    /// Unit normal, from the second to the first.
-    pub normal: Vector,
-    /// Stiffness against twisting about the normal \[N m\].
-    pub torsion: f64,
-    /// Stiffness against bending \[N m\].
-    pub bending: f64,
 }

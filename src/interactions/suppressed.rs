@@ -1,9 +1,10 @@
 //! What the pass of a contact law does with contacts that a bond hides or has hidden: one by one, in the order of
 //! their list, after its near pairs. A scene without a bond that hides contacts has no such list.
 
+use super::ahead::{Ahead, Link};
 use super::batch;
 use super::contacts::{ContactPass, effective};
-use super::pass::Link;
+
 use super::records::ContactRecord;
 use super::sphere_geometry::SpherePair;
 use super::walls::{Plane, WallPass};
@@ -159,16 +160,17 @@ impl ContactPass {
     }
 
     /// Tells the stiffness of hidden contacts, as far as they act.
-    pub(crate) fn hidden_stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+    pub(crate) fn hidden_stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         let particles = &state.particles;
         for entry in state.hidden.pairs.get(self.index).into_iter().flatten().filter(|entry| !entry.is_silent()) {
             let Some(Meeting { contact, first_arm, second_arm, .. }) = pair(particles, entry) else { continue };
-            let Some(response) = stiffness(&self.law.law, entry, &contact, self.row_of(particles, entry)) else {
-                continue;
-            };
+            let law = &self.law.law;
+            let row = self.row_of(particles, entry);
             let [i, j] = slots(particles, entry).map(|slot| slot as u32);
-            let (normal, torsion, bending) = (contact.normal, 0.0, 0.0);
-            tell(Link { first: i, second: Some(j), response, first_arm, second_arm, normal, torsion, bending });
+            let deep = ahead.between(law, row, &contact, particles, [i, j]).unwrap_or(contact);
+            let Some(response) = stiffness(law, entry, &deep, row) else { continue };
+            let link = Link::of_contact((i, Some(j), None), (law, row), &deep, [first_arm, second_arm]);
+            tell(link.with_normal(&response));
         }
     }
 
@@ -263,18 +265,20 @@ impl WallPass {
     }
 
     /// Tells the stiffness of hidden contacts, as far as they act.
-    pub(crate) fn hidden_stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+    pub(crate) fn hidden_stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         let particles = &state.particles;
         for entry in state.hidden.planes.get(self.index).into_iter().flatten() {
             let Some(Meeting { contact, first_arm, .. }) = at_plane(&self.plane(state), particles, entry) else {
                 continue;
             };
-            let Some(response) = stiffness(&self.law.law, entry, &contact, self.row_of(particles, entry)) else {
-                continue;
-            };
-            let first = slots(particles, entry)[0] as u32;
-            let (normal, second_arm, torsion, bending) = (contact.normal, 0.0, 0.0, 0.0);
-            tell(Link { first, second: None, response, first_arm, second_arm, normal, torsion, bending });
+            let law = &self.law.law;
+            let (row, speed) = (self.row_of(particles, entry), self.plane(state).velocity.length());
+            let deep =
+                ahead.at_boundary(law, row, &contact, speed, state.walls[self.index].boundary).unwrap_or(contact);
+            let Some(response) = stiffness(law, entry, &deep, row) else { continue };
+            let bodies = (slots(particles, entry)[0] as u32, None, Some(state.walls[self.index].boundary));
+            let link = Link::of_contact(bodies, (law, row), &deep, [first_arm, 0.0]);
+            tell(link.with_normal(&response));
         }
     }
 

@@ -5,15 +5,16 @@
 //! its feature, and from one feature to the next where the foot rolls over a bend. Each particle is worked on by one
 //! thread, and its contacts in the order of the features; loads on the surface are summed piece by piece, in order.
 
+use super::ahead::{Ahead, Link};
 use super::coefficients::CoefficientTable;
-use super::pass::{Link, Pass};
+use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use super::surface_history::{Past, carry};
 use crate::contact::{Contact, Law, MOST_HISTORY, Reaction, Response};
 use crate::geometry::Frame;
 use crate::lanes::Shared;
 use crate::number::Vector;
-use crate::run_error::RunError;
+use crate::run_error::{Cause, RunError};
 use crate::scene::{Boundary, Shape};
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
 use crate::state::ledger::Source;
@@ -344,9 +345,12 @@ impl Pass for SurfacePass {
         }
         match through {
             None => Ok(()),
-            Some(slot) => {
-                Err(RunError::Behind { id: particles.id[slot as usize], boundary: self.name.clone(), time: clock.time })
-            }
+            Some(slot) => Err(RunError::Behind {
+                id: particles.id[slot as usize],
+                boundary: self.name.clone(),
+                time: clock.time,
+                cause: Cause::Unknown,
+            }),
         }
     }
 
@@ -374,16 +378,16 @@ impl Pass for SurfacePass {
         }
     }
 
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         let list = &state.walls[self.index];
+        let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length();
         self.each(state, present(&state.particles), |entry, foot, _, Meeting { contact, arm, .. }| {
             // A saddle only takes away from what its faces have.
             if foot.weight > 0.0 {
-                let response = self.law.stiffness(self.row(state, entry), contact);
-                let (first, first_arm, normal) = (list.particle[entry], *arm, contact.normal);
-                let rolling = self.law.rolling_stiffness(self.row(state, entry), contact);
-                let (second, second_arm, torsion, bending) = (None, 0.0, rolling.torsion, rolling.bending);
-                tell(Link { first, second, response, first_arm, second_arm, normal, torsion, bending });
+                let row = self.row(state, entry);
+                let deep = ahead.at_boundary(&self.law, row, contact, speed, list.boundary).unwrap_or(*contact);
+                let bodies = (list.particle[entry], None, Some(list.boundary));
+                tell(Link::of_contact(bodies, (&self.law, row), &deep, [*arm, 0.0]));
             }
         });
     }

@@ -3,8 +3,9 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::bonds::{Done, begin_losses, body_of, book, shared_damping};
-use super::pass::{Link, Pass};
+use super::ahead::{Ahead, Kind, Link};
+use super::bonds::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched};
+use super::pass::Pass;
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
@@ -110,6 +111,11 @@ impl WallBondPass {
         if !self.creation.bonds_near_pairs(moment) {
             return Vec::new();
         }
+        self.unbonded(state, self.create_distance)
+    }
+
+    /// Particles without a bond that are this near, with their feet.
+    fn unbonded(&self, state: &State, create_distance: f64) -> Vec<(u32, Row)> {
         let (particles, list) = (&state.particles, &state.bonds[self.index]);
         let displacement = Vector::from(state.boundaries[self.boundary.index()].displacement);
         let mut bonded = list.first.clone();
@@ -120,7 +126,7 @@ impl WallBondPass {
             let distance = (position - self.point).dot(self.normal);
             let free = member && distance > 0.0 && bonded.binary_search(&(slot as u32)).is_err();
             let [x, y, z] = (position - self.normal * distance).to_array();
-            (free && near_plane(distance, self.create_distance)).then_some((slot as u32, [x, y, z, 0.0]))
+            (free && near_plane(distance, create_distance)).then_some((slot as u32, [x, y, z, 0.0]))
         };
         (0..particles.len()).filter_map(near).collect()
     }
@@ -275,26 +281,20 @@ impl Pass for WallBondPass {
 
     fn prepare(&self, _state: &mut State) {}
 
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
-            let distance = pair.connection.length();
-            let [normal, shear, torsion, bending] = self.law.elasticity.stiffness(pair.least_radius);
-            tell(Link {
-                first,
-                second: None,
-                response: Response {
-                    normal_stiffness: normal,
-                    tangential_stiffness: shear,
-                    normal_damping: 0.0,
-                    tangential_damping: 0.0,
-                },
-                first_arm: distance,
-                second_arm: 0.0,
-                normal: pair.connection * (1.0 / distance),
-                torsion,
-                bending,
-            });
+            let bodies = (first, None, Some(self.boundary.0));
+            tell(link_of(&self.law, &pair, bodies, Kind::Bond));
+            stretched(&pair, bodies, self.carried(state, bond).normal, tell);
+        }
+        if !ahead.window.as_ref().is_some_and(|window| self.creation.comes_within(window)) {
+            return;
+        }
+        for (slot, foot) in self.unbonded(state, self.create_distance + 2.0 * ahead.margin.max(ahead.way)) {
+            let plane = &state.boundaries[self.boundary.index()];
+            let pair = Pair::at_wall(&body_of(&state.particles, slot as usize), &self.foot(foot, plane));
+            tell(link_of(&self.law, &pair, (slot, None, Some(self.boundary.0)), Kind::ComingBond));
         }
     }
 

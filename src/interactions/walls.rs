@@ -3,14 +3,15 @@
 //! Planes are worked on together, pieces of the particles side by side: a particle gets the loads of all planes from one
 //! thread, in the order of the planes. Loads on a plane are summed piece by piece, in order.
 
+use super::ahead::{Ahead, Kind, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::CoefficientTable;
-use super::pass::{Link, Pass};
+use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use crate::contact::{Contact, Needs, Response};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector};
-use crate::run_error::RunError;
+use crate::run_error::{Cause, RunError};
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Particles, Row, State, WallContacts};
@@ -125,13 +126,18 @@ impl WallPass {
 
     /// The contact of a listed particle and its arm, if it touches.
     pub(crate) fn contact(&self, state: &State, entry: usize) -> Option<(Contact, f64)> {
+        self.near(state, &self.plane(state), entry, 0.0)
+    }
+
+    /// The contact of a listed particle and its arm, if it touches or is no more than `gap` \[m\] away: the overlap is then
+    /// below 0.
+    fn near(&self, state: &State, plane: &Plane, entry: usize, gap: f64) -> Option<(Contact, f64)> {
         let list = &state.walls[self.index];
         let slot = list.particle[entry] as usize;
-        let plane = self.plane(state);
         let particles = &state.particles;
         let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
         let holds = self.law.law.holds_beyond_touch() && list.flags[entry] & TOUCHING != 0;
-        let reach = particles.position[slot][3] + if holds { constant } else { 0.0 };
+        let reach = particles.position[slot][3] + if holds { gap.max(constant) } else { gap };
         if plane.distance(particles.position[slot]) > reach {
             return None;
         }
@@ -263,6 +269,7 @@ impl PlanePass for WallPass {
                 id: state.particles.id[slot as usize],
                 boundary: self.name.clone(),
                 time: state.clock.time,
+                cause: Cause::Unknown,
             }),
         }
     }
@@ -305,26 +312,21 @@ impl Pass for WallPass {
         }
     }
 
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
-        self.hidden_stiffness(state, tell);
-        let list = &state.walls[self.index];
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+        self.hidden_stiffness(state, ahead, tell);
+        let (list, particles) = (&state.walls[self.index], &state.particles);
+        let (plane, reach) = (self.plane(state), ahead.margin.max(ahead.way));
+        let speed = plane.velocity.length();
         for entry in 0..list.particle.len() {
-            if let Some((contact, arm)) = self.contact(state, entry) {
-                let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
-                let response = self.law.law.stiffness(row, &contact);
-                let rolling = self.law.law.rolling_stiffness(row, &contact);
-                let (first, normal) = (list.particle[entry], contact.normal);
-                tell(Link {
-                    first,
-                    second: None,
-                    response,
-                    first_arm: arm,
-                    second_arm: 0.0,
-                    normal,
-                    torsion: rolling.torsion,
-                    bending: rolling.bending,
-                });
-            }
+            let Some((contact, arm)) = self.near(state, &plane, entry, reach) else { continue };
+            let (slot, law) = (list.particle[entry], &self.law.law);
+            let row = self.table.row(particles.material[slot as usize], self.material);
+            let touches = contact.overlap >= 0.0 || (law.holds_beyond_touch() && list.flags[entry] & TOUCHING != 0);
+            let deep = ahead.at_boundary(law, row, &contact, speed, list.boundary);
+            let Some(deep) = deep.or(touches.then_some(contact)) else { continue };
+            let kind = if touches { Kind::Contact } else { Kind::ComingContact };
+            let bodies = (slot, None, Some(list.boundary));
+            tell(Link { kind, ..Link::of_contact(bodies, (law, row), &deep, [arm, 0.0]) });
         }
     }
 

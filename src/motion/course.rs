@@ -26,25 +26,24 @@ impl InputCourse {
     }
 }
 
-/// Where a communication step stands: the time steps done with the present one, of how many.
+/// Where a communication step stands: the time steps done with the present one, of how many since it was divided last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {
-    /// Time steps done, the present one included.
+    /// Time steps done since then, the present one included.
     pub done: u64,
-    /// Time steps in all.
+    /// Time steps in all since then.
     pub count: u64,
     /// Length of each \[s\].
     pub step: f64,
     /// Time at the end of the present one \[s\].
     pub time: f64,
+    /// Share of the time of the communication step that had passed when it was divided last.
+    pub passed: f64,
+    /// Length of the communication step \[s\].
+    pub length: f64,
 }
 
 impl Progress {
-    /// Length of the communication step \[s\].
-    pub(crate) fn length(&self) -> f64 {
-        self.count as f64 * self.step
-    }
-
     /// Whether the present time step is the last one.
     pub(crate) fn is_last(&self) -> bool {
         self.done == self.count
@@ -52,14 +51,19 @@ impl Progress {
 
     /// Which share of its way a driven axis has gone at the end of the present time step.
     pub(crate) fn share(&self, course: InputCourse) -> f64 {
-        course.at(self.done as f64 / self.count as f64)
+        course.at(self.share_of_time(self.done))
     }
 
     /// Which share it had gone before.
     pub(crate) fn share_before(&self, course: InputCourse) -> f64 {
-        match self.done {
-            0 | 1 => 0.0,
-            done => course.at((done - 1) as f64 / self.count as f64),
+        if self.done <= 1 && self.passed <= 0.0 {
+            return 0.0;
         }
+        course.at(self.share_of_time(self.done.saturating_sub(1)))
+    }
+
+    /// The share of the time that has passed after so many time steps.
+    fn share_of_time(&self, done: u64) -> f64 {
+        self.passed + (1.0 - self.passed) * (done as f64 / self.count as f64)
     }
 }

@@ -18,7 +18,7 @@ impl Motion for Driven {
         let Way { start, target, before, course } = *way;
         let displacement = if progress.is_last() { target } else { start + (target - start) * progress.share(course) };
         let velocity = match course {
-            InputCourse::Ramp => (target - start) / progress.length(),
+            InputCourse::Ramp => (target - start) / progress.length,
             InputCourse::Smooth => (displacement - before) / progress.step,
             InputCourse::Hold => 0.0,
         };

@@ -4,6 +4,7 @@ use super::error::Refusal;
 use super::files::Checkpoint;
 use super::forecast;
 use super::remarks::remarks;
+use super::rules::rules;
 use super::schedule::Schedule;
 use super::trial::{self, Trial};
 use crate::interface::Interface;
@@ -20,6 +21,8 @@ pub struct Report {
     pub uses: Vec<String>,
     /// The time step, the stable one and what limits it.
     pub time_step: String,
+    /// The usual rules of thumb beside it.
+    pub rules: Option<String>,
     /// What a run writes, a line each; nothing where the scene does not say when it ends.
     pub outputs: Vec<String>,
     /// How many steps a run makes.
@@ -54,6 +57,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     remarks.extend(left_behind.into_iter().map(|left| format!("not taken along: {left}")));
     let uses = uses(scene, &simulation);
     let time_step = time_step(scene, &simulation);
+    let rules = rules(scene, &simulation);
     let present = simulation.state().clone();
     let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
@@ -66,7 +70,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
         Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
         None => (Vec::new(), None, None),
     };
-    Ok(Report { uses, time_step, outputs, steps, memory, cost, time, remarks })
+    Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, remarks })
 }
 
 impl fmt::Display for Report {
@@ -75,6 +79,9 @@ impl fmt::Display for Report {
             writeln!(formatter, "uses       {line}")?;
         }
         writeln!(formatter, "time step  {}", self.time_step)?;
+        if let Some(rules) = &self.rules {
+            writeln!(formatter, "rules      {rules}")?;
+        }
         for line in &self.outputs {
             writeln!(formatter, "writes     {line}")?;
         }
@@ -159,11 +166,7 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> String {
     if !limit.safe.is_finite() {
         return format!("{step:.4e} s ({chosen}); nothing is stiff, no bound");
     }
-    let by =
-        limit.particle.and_then(|index| scene.particles.get(index as usize)).map_or_else(String::new, |particle| {
-            let material = &scene.materials[particle.material.index()].name;
-            format!(", limited by particle {} (radius {:e} m, {material})", particle.id.0, particle.radius)
-        });
+    let by = limit.by.map_or_else(String::new, |by| format!(", limited by {}", simulation.words(&by)));
     format!("{step:.4e} s ({chosen}), {:.3} of the stable one, {:.4e} s{by}", step / limit.safe, limit.safe)
 }
 

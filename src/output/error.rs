@@ -316,6 +316,23 @@ pub enum Failure {
         /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
         ratio: f64,
     },
+    /// The packing will not come to rest.
+    #[error(
+        "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
+         the mean force, above settle_tolerance, {tolerance:e}: {why}"
+    )]
+    Restless {
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// The smallest unbalanced force over the mean force of the contacts or bonds.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+        /// Why.
+        why: String,
+    },
     /// The packing did not come to rest.
     #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
     Unsettled {

@@ -27,6 +27,7 @@ mod lock;
 mod momentum;
 mod remarks;
 mod replacement;
+mod rules;
 mod run;
 mod schedule;
 mod settle;

@@ -1,8 +1,7 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
-use crate::contact::MaterialPair;
 use crate::scene::{Scene, Step};
-use crate::step::Simulation;
+use crate::step::{COLLAPSING_COHESION, Simulation};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -12,9 +11,6 @@ const USUAL_MODULI: [f64; 2] = [5e6, 1e9];
 
 /// Cohesion energy density over effective modulus from which contacts at rest are visibly pulled together.
 const DEEP_COHESION: f64 = 0.03;
-
-/// Cohesion energy density over effective modulus from which contacts collapse.
-const COLLAPSING_COHESION: f64 = 0.07;
 
 /// Overlap over radius above which contact laws are hardly valid.
 const DEEP_OVERLAP: f64 = 0.05;
@@ -35,6 +31,11 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
 fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
     let stable = simulation.state().clock.stable;
+    if scene.run.allow_unstable {
+        return Some(format!(
+            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one ({stable:.3e} s as last found); its numbers are worth nothing then"
+        ));
+    }
     (step > NEAR_THE_BOUND * stable).then(|| {
         format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
     })
@@ -76,27 +77,17 @@ fn moduli(scene: &Scene) -> Vec<String> {
 /// On cohesion that pulls contacts deep into each other.
 fn cohesion(scene: &Scene) -> Vec<String> {
     let count = scene.materials.len();
-    let mut remarks = Vec::new();
-    for law in scene.contacts.iter().filter(|law| law.cohesion.name() != "none") {
-        for (a, b) in (0..count).flat_map(|a| (a..count).map(move |b| (a, b))) {
-            let properties = &scene.pairs[a * count + b];
-            let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
-            let Some(density) = properties.cohesion_energy_density.filter(|_| law.between[a * count + b]) else {
-                continue;
-            };
-            let Ok(modulus) = pair.effective_youngs_modulus() else { continue };
-            let ratio = density.get() / modulus;
-            if ratio > DEEP_COHESION {
-                let effect =
-                    if ratio > COLLAPSING_COHESION { "contacts collapse" } else { "contacts rest deep in each other" };
-                remarks.push(format!(
-                    "[pair.{}.{}] cohesion_energy_density: {:e} J/m³ is {ratio:.2e} of the effective modulus; above {DEEP_COHESION} {effect}",
-                    pair.a.name, pair.b.name, density.get()
-                ));
-            }
-        }
-    }
-    remarks
+    let pairs = (0..count).flat_map(|a| (a..count).map(move |b| (a, b)));
+    let deep = pairs.filter_map(|(a, b)| {
+        let ratio = scene.cohesion_ratio(a, b).filter(|ratio| *ratio > DEEP_COHESION)?;
+        let density = scene.pairs[a * count + b].cohesion_energy_density?.get();
+        let effect = if ratio > COLLAPSING_COHESION { "contacts collapse" } else { "contacts rest deep in each other" };
+        let [a, b] = [a, b].map(|index| &scene.materials[index].name);
+        Some(format!(
+            "[pair.{a}.{b}] cohesion_energy_density: {density:e} J/m³ is {ratio:.2e} of the effective modulus; above {DEEP_COHESION} {effect}"
+        ))
+    });
+    deep.collect()
 }
 
 /// On overlaps that contact laws are not made for.

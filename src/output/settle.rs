@@ -16,6 +16,12 @@ const STEPS_BETWEEN_LOOKS: u32 = 100;
 /// Looks in a row that must find the packing at rest: one alone may meet a swing at its middle, where forces balance.
 const LOOKS: usize = 10;
 
+/// Looks after which the smallest ratio is compared with that of the time before.
+const LOOKS_TO_COMPARE: u32 = 400;
+
+/// Part of the smallest ratio before that counts as nearer to rest.
+const NEARER: f64 = 0.8;
+
 /// What is to be settled, and where to.
 #[derive(Clone, Copy, Debug)]
 pub struct SettleOrder<'a> {
@@ -113,6 +119,7 @@ fn come_to_rest(
     let tolerance = order.scene.run.settle_tolerance;
     let before = simulation.state().clock.steps;
     let mut looks = VecDeque::from(vec![f64::INFINITY; LOOKS]);
+    let mut course = Course::default();
     loop {
         let clock = simulation.state().clock;
         let ratio = looks.iter().copied().fold(0.0, f64::max);
@@ -128,6 +135,10 @@ fn come_to_rest(
         if steps >= order.most_steps {
             return Err(Failure::Unsettled { steps, time: simulation.time(), ratio: latest, tolerance });
         }
+        if let Some(best) = course.stalled(ratio, simulation) {
+            let why = why_not(simulation);
+            return Err(Failure::Restless { steps, time: simulation.time(), ratio: best, tolerance, why });
+        }
         let left = order.most_steps - steps;
         let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
         simulation.advance(count * clock.step)?;
@@ -136,12 +147,83 @@ fn come_to_rest(
     }
 }
 
-/// Unbalanced force over the mean force of the contacts or bonds; 0 where nothing moves by the forces on it.
-fn unbalanced_force(simulation: &Simulation) -> f64 {
+/// How settling has gone so far: whether it comes nearer to rest.
+struct Course {
+    /// Looks since the last comparison.
+    looks: u32,
+    /// When that was \[s\].
+    since: f64,
+    /// The smallest ratio since then, and that of the time before.
+    best: [f64; 2],
+    /// Comparisons in a row in which it came no nearer.
+    idle: u32,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { looks: 0, since: 0.0, best: [f64::INFINITY; 2], idle: 0 }
+    }
+}
+
+impl Course {
+    /// The smallest ratio so far, if the scene comes no nearer to rest: twice in a row, or ten times where particles are
+    /// still on their way.
+    fn stalled(&mut self, ratio: f64, simulation: &Simulation) -> Option<f64> {
+        self.looks += 1;
+        self.best[0] = self.best[0].min(ratio);
+        if self.looks < LOOKS_TO_COMPARE {
+            return None;
+        }
+        let [now, before] = self.best;
+        let nearer = now < NEARER * before;
+        let elapsed = simulation.time() - self.since;
+        let on_their_way = simulation.fastest().is_some_and(|(_, speed, radius)| speed * elapsed > radius);
+        *self =
+            Self { looks: 0, since: simulation.time(), best: [f64::INFINITY, now.min(before)], idle: self.idle + 1 };
+        if nearer || !now.is_finite() && on_their_way {
+            self.idle = 0;
+        }
+        (self.idle >= if on_their_way { 10 } else { 2 }).then_some(now.min(before))
+    }
+}
+
+/// Why a scene does not come to rest.
+fn why_not(simulation: &Simulation) -> String {
+    let scene = simulation.scene();
+    let rolls = |law: &&crate::scene::ContactLaw| law.rolling.name() == "cdt";
+    let rubs =
+        |pair: &crate::contact::PairProperties| pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0);
+    if let Some(law) = scene.contacts.iter().find(rolls).filter(|_| scene.pairs.iter().any(rubs)) {
+        return format!(
+            "[contact.{}.rolling.cdt] has a torque of constant size that changes its sign from step to step about rest: bodies \
+             tremble for ever; settle without it, or with a larger settle_tolerance",
+            law.name
+        );
+    }
+    if let Some(damping) = scene.damping.iter().find(|damping| !damping.gravity_damped)
+        && scene.gravity != [0.0; 3]
+    {
+        return format!(
+            "[damping.{}] gravity_damped = false: what it leaves of the load is not the whole load, so that bodies swing \
+             about rest; gravity_damped = true while it settles is right",
+            damping.name
+        );
+    }
+    match simulation.fastest() {
+        Some((id, speed, radius)) if speed > 0.0 => format!(
+            "it still moves: particle {id} (radius {radius:.3e} m) at {speed:.3e} m/s, fastest of all; a bed that flows, or a \
+             particle that nothing holds, never rests"
+        ),
+        _ => "nothing moves, and still the forces do not balance".to_owned(),
+    }
+}
+
+/// Unbalanced force over the mean force of the contacts or bonds, damping apart; 0 where nothing moves by the forces on it.
+fn unbalanced_force(simulation: &mut Simulation) -> f64 {
     let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
     let free = |boundary: &Boundary| boundary.axes.iter().any(AxisMotion::is_free);
     let nothing_moves = held && !simulation.scene().boundaries.iter().any(free);
-    if nothing_moves { 0.0 } else { simulation.unbalanced_force() }
+    if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
 }
 
 /// The scene with boundaries that stand still but for their free axes, and without books to keep.

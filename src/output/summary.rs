@@ -95,12 +95,16 @@ pub struct Counts {
 }
 
 /// Time steps \[s\].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeSteps {
     /// The present one \[s\].
     pub current: f64,
     /// The largest stable one, as last computed \[s\]; none where nothing is stiff.
     pub stable: Option<f64>,
+    /// What limits the stable one at the end: the pair and how it moves.
+    pub limited_by: Option<String>,
+    /// Whether a given step above the stable one was let run.
+    pub allow_unstable: bool,
 }
 
 /// The algorithmic energy book: work of each kind of force on the free particles since time 0 \[J\].
@@ -204,6 +208,8 @@ impl Summary {
             time_step: TimeSteps {
                 current: state.clock.step,
                 stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
+                limited_by: simulation.limit().by.map(|by| simulation.words(&by)),
+                allow_unstable: order.scene.run.allow_unstable,
             },
             threads: simulation.threads(),
             counts: Counts {

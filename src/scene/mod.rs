@@ -74,6 +74,8 @@ pub struct Run {
     pub end: Option<f64>,
     /// The time step.
     pub step: Step,
+    /// Whether a given step above the stable one may run on.
+    pub allow_unstable: bool,
     /// Threads; `None`: as many as the machine offers.
     pub threads: Option<usize>,
     /// Seed of everything random.
@@ -93,6 +95,7 @@ impl Default for Run {
         Self {
             end: None,
             step: Step::Automatic { safety: Self::SAFETY },
+            allow_unstable: false,
             threads: None,
             seed: 1,
             skin: None,
@@ -262,4 +265,22 @@ pub struct Output {
     pub energy: bool,
     /// Time between checkpoints \[s\].
     pub checkpoint_interval: Option<f64>,
+}
+
+impl Scene {
+    /// Cohesion energy density of two materials (by their index) over their effective modulus, where a law has both.
+    pub fn cohesion_ratio(&self, a: usize, b: usize) -> Option<f64> {
+        let entry = a * self.materials.len() + b;
+        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.name() != "none";
+        if !self.contacts.iter().any(cohesive) {
+            return None;
+        }
+        let pair = crate::contact::MaterialPair {
+            a: &self.materials[a],
+            b: &self.materials[b],
+            properties: &self.pairs[entry],
+        };
+        let density = pair.properties.cohesion_energy_density?.get();
+        Some(density / pair.effective_youngs_modulus().ok()?)
+    }
 }

@@ -1,309 +1,262 @@
 //! How long a time step may be.
 //!
-//! Velocity Verlet with forces that see the half-step velocity is stable while 4 M − 2 Δt C − Δt² K is positive
-//! definite (M masses, C dampers, K stiffnesses). Each interaction's share is bounded by twice what its two
-//! particles would feel alone, |a − b|² ≤ 2 |a|² + 2 |b|², so a bound holds particle by particle: the largest
-//! eigenvalue of its own 6 × 6 block. It is safe, and at most √2 below the true limit where only springs act.
-//! A group that forces move is one such particle, with its own mass and inertia and the arms of its spheres.
+//! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
+//! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
+//! the largest root μ of det(μ² M − μ C − K). [`blocks`] bounds it from the safe side where there are contacts alone, [`lanczos`]
+//! finds it with a certificate where there are bonds. Contacts and bonds still to come are foreseen by the passes
+//! ([`Ahead`]); pairs that are not yet near each other by [`coming_root`]. `docs/stability.md` has the whole.
+
+mod blocks;
+mod lanczos;
+mod network;
 
 use crate::boundaries::RigidBody;
-use crate::interactions::{Link, Pass};
-use crate::number::Vector;
+use crate::integration::Fields;
+use crate::interactions::{Ahead, FASTER, Kind, Link, Pass};
 use crate::scene::Scene;
 use crate::state::{Particles, State};
-use std::collections::BTreeMap;
-
-/// A symmetric matrix over the six freedoms of a particle, scaled by its mass and moment of inertia.
-type Block = [[f64; 6]; 6];
-
-/// The rows of the lower triangle of such a matrix.
-type Triangle = [f64; 21];
-
-/// Squarings in the bound of the largest eigenvalue: the trace of the 32nd power.
-const SQUARINGS: u32 = 5;
-
-/// 32nd root of 6: how far the bound of the largest of six eigenvalues may be above it.
-const ROOT_OF_SIX: f64 = 1.057_590_4;
+use crate::threads::Context;
+use network::Network;
 
 /// What limits the time step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// A safe bound of the time step \[s\]; infinite where nothing is stiff.
+    /// A safe bound of the time step \[s\]; infinite where nothing can be stiff.
     pub safe: f64,
-    /// A time step that is certainly unstable \[s\].
-    pub unstable: f64,
-    /// The particle that limits it: index into the scene's particles.
-    pub particle: Option<u32>,
+    /// What limits it, if anything does.
+    pub by: Option<Limiter>,
 }
 
-/// Stiffness and damping that the interactions of each particle put on it.
-pub(crate) struct Network<'a> {
-    /// Masses, radii and where everything stands.
-    state: &'a State,
-    /// Groups, by their boundary.
-    bodies: &'a [Option<RigidBody>],
-    /// Stiffness of the own block of each particle, doubled where the partner moves too \[1/s²\].
-    stiffness: Vec<Triangle>,
-    /// The same of each boundary.
-    groups: Vec<Block>,
-    /// The share of interactions whose partner does not move, where there are any, by the place of the block.
-    unmoved: BTreeMap<usize, Block>,
-    /// Damping of each particle, then of each boundary \[1/s\].
-    damping: Vec<f64>,
+/// The interaction that limits the time step, and how its bodies move against it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limiter {
+    /// A contact or bond, at work or to come.
+    pub kind: LimiterKind,
+    /// One particle: index into the scene's particles.
+    pub first: u32,
+    /// The other particle: index into the scene's particles.
+    pub second: Option<u32>,
+    /// The boundary that stands for the other particle: index in the scene.
+    pub boundary: Option<u32>,
+    /// How the bodies move.
+    pub mode: Mode,
 }
 
-impl<'a> Network<'a> {
-    /// Without any interaction.
-    pub(crate) fn of(state: &'a State, bodies: &'a [Option<RigidBody>]) -> Self {
-        let count = state.particles.len();
-        Self {
-            state,
-            bodies,
-            stiffness: vec![[0.0; 21]; count],
-            groups: vec![[[0.0; 6]; 6]; bodies.len()],
-            unmoved: BTreeMap::new(),
-            damping: vec![0.0; count + bodies.len()],
+/// What limits the time step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimiterKind {
+    /// A contact.
+    Contact,
+    /// A contact between near bodies that may come before the next look.
+    ComingContact,
+    /// An impact of bodies that are not yet near each other.
+    Impact,
+    /// A bond.
+    Bond,
+    /// A bond that may be made before the next look.
+    ComingBond,
+}
+
+impl LimiterKind {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Contact => "the contact",
+            Self::ComingContact => "a contact to come",
+            Self::Impact => "an impact to come",
+            Self::Bond => "the bond",
+            Self::ComingBond => "a bond to come",
         }
     }
+}
 
-    /// Adds one interaction.
-    pub(crate) fn add(&mut self, link: Link) {
-        let first = self.mover(link.first);
-        let second = link.second.and_then(|second| self.mover(second));
-        if first.is_some() && first == second {
-            return;
-        }
-        let both = first.is_some() && second.is_some();
-        if let Some(mover) = first {
-            self.add_side(mover, link.first, &link, link.first_arm, link.normal, both);
-        }
-        if let (Some(mover), Some(slot)) = (second, link.second) {
-            self.add_side(mover, slot, &link, link.second_arm, -link.normal, both);
+/// How two bodies move against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Along the normal or axis.
+    Normal,
+    /// Across it.
+    Tangential,
+    /// Twisting about it.
+    Torsion,
+    /// Bending.
+    Bending,
+}
+
+impl Mode {
+    /// All, in the order of a link's parts.
+    const ALL: [Self; 4] = [Self::Normal, Self::Tangential, Self::Torsion, Self::Bending];
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Normal => "along the normal",
+            Self::Tangential => "across the normal",
+            Self::Torsion => "twisting",
+            Self::Bending => "bending",
         }
     }
+}
 
-    /// What moves a particle, if forces do: the place of its block.
-    fn mover(&self, slot: u32) -> Option<usize> {
-        match (self.state.particles.owner[slot as usize] as usize).checked_sub(1) {
-            None => Some(slot as usize),
-            Some(group) => {
-                self.bodies[group].as_ref().filter(|body| body.is_free()).map(|_| self.state.particles.len() + group)
-            }
-        }
+/// What the stable time step is found from.
+#[derive(Clone, Copy)]
+pub(crate) struct System<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where everything stands.
+    pub state: &'a State,
+    /// Groups that move.
+    pub bodies: &'a [Option<RigidBody>],
+    /// What acts on each particle by itself.
+    pub fields: &'a Fields,
+    /// Interactions.
+    pub passes: &'a [Box<dyn Pass>],
+}
+
+/// What was found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
+    pub network: f64,
+    /// The same of impacts between bodies that are not yet near each other \[1/s\].
+    pub impacts: f64,
+}
+
+impl Found {
+    /// The stable time step \[s\].
+    pub(crate) fn safe(&self) -> f64 {
+        2.0 / self.network.max(self.impacts)
+    }
+}
+
+impl System<'_> {
+    /// The stable time step of the network as it may get, and of impacts to come at up to this speed \[m/s\].
+    ///
+    /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
+    pub(crate) fn find(&self, ahead: &Ahead, speed: f64, guess: f64, counter: &mut u64, context: &Context) -> Found {
+        let network = self.network(ahead);
+        let bonds = self.state.bonds.iter().any(|list| !list.first.is_empty())
+            || ahead
+                .window
+                .as_ref()
+                .is_some_and(|window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window)));
+        let root = if network.elements.is_empty() {
+            0.0
+        } else if bonds {
+            lanczos::largest_root(&network, guess, counter, context)
+        } else {
+            blocks::largest_root(&network, guess).0
+        };
+        Found { network: root, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
     }
 
-    /// Adds one end of an interaction to what moves there.
-    fn add_side(&mut self, mover: usize, slot: u32, link: &Link, arm: f64, normal: Vector, both: bool) {
-        match mover.checked_sub(self.state.particles.len()) {
-            None => self.add_end(mover, link, arm, normal, both),
-            Some(group) => self.add_to_group(group, slot, link, arm, normal, both),
-        }
+    /// The network, as it may get.
+    fn network(&self, ahead: &Ahead) -> Network<'_> {
+        Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
     }
 
-    /// Adds one end of an interaction to the group of its particle.
-    fn add_to_group(&mut self, group: usize, slot: u32, link: &Link, arm: f64, normal: Vector, both: bool) {
-        let Some(body) = &self.bodies[group] else { return };
-        let moved = &self.state.boundaries[group];
-        let row = self.state.particles.position[slot as usize];
-        let arm = Vector::from(row) - moved.pivot.into() - normal * arm;
-        // The point of action moves with v + w × arm: what unit freedoms give along three axes.
-        let (a, n) = (arm.to_array(), normal.to_array());
-        let across = [[0.0, a[2], -a[1]], [-a[2], 0.0, a[0]], [a[1], -a[0], 0.0]];
-        let gradient = |axis: usize, k: usize| if k < 3 { one_if(k == axis) } else { across[axis][k - 3] };
-        let along = |k: usize| (0..3).map(|axis| n[axis] * gradient(axis, k)).sum::<f64>();
-        let (kn, kt) = (link.response.normal_stiffness, link.response.tangential_stiffness);
-        let mut stiffness = [[0.0; 6]; 6];
-        for (p, row) in stiffness.iter_mut().enumerate() {
-            for (q, entry) in row.iter_mut().enumerate() {
-                let whole = (0..3).map(|axis| gradient(axis, p) * gradient(axis, q)).sum::<f64>();
-                *entry = kt * whole + (kn - kt) * along(p) * along(q);
-                if p >= 3 && q >= 3 {
-                    let twist = n[p - 3] * n[q - 3];
-                    *entry += link.torsion * twist + link.bending * (one_if(p == q) - twist);
+    /// What a step that was found is limited by.
+    pub(crate) fn limiter(
+        &self,
+        ahead: &Ahead,
+        speed: f64,
+        found: &Found,
+        counter: u64,
+        context: &Context,
+    ) -> Option<Limiter> {
+        if found.impacts > found.network {
+            let (_, meeting) = self.impact(speed, ahead)?;
+            let mode = if meeting.across { Mode::Tangential } else { Mode::Normal };
+            return Some(Limiter {
+                kind: LimiterKind::Impact,
+                first: meeting.particle,
+                second: None,
+                boundary: None,
+                mode,
+            });
+        }
+        let network = self.network(ahead);
+        if network.elements.is_empty() {
+            return None;
+        }
+        let motion = lanczos::critical_motion(&network, found.network, counter, context);
+        let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
+        let place = (0..network.elements.len())
+            .map(|place| (place, shares(place).iter().sum::<f64>()))
+            .reduce(|most, next| if next.1 > most.1 { next } else { most })?
+            .0;
+        let parts = shares(place);
+        let part = (0..4).reduce(|most, next| if parts[next] > parts[most] { next } else { most })?;
+        let (link, mut count) = (std::cell::Cell::new(None), 0);
+        for pass in self.passes {
+            pass.stiffness(self.state, ahead, &mut |told| {
+                if network.element(&told).is_some() {
+                    if count == place {
+                        link.set(Some(told));
+                    }
+                    count += 1;
+                }
+            });
+        }
+        let link: Link = link.get()?;
+        let name = |slot: u32| self.state.particles.id[slot as usize];
+        Some(Limiter {
+            kind: match link.kind {
+                Kind::Contact => LimiterKind::Contact,
+                Kind::ComingContact => LimiterKind::ComingContact,
+                Kind::Bond => LimiterKind::Bond,
+                Kind::ComingBond => LimiterKind::ComingBond,
+            },
+            first: name(link.first),
+            second: link.second.map(name),
+            boundary: link.boundary,
+            mode: Mode::ALL[part],
+        })
+    }
+
+    /// The root of impacts still to come between bodies that are in no list: the two smallest particles meeting at twice the
+    /// speed \[m/s\], with what falling over a radius adds; likewise of each group that forces move.
+    fn impact(&self, speed: f64, ahead: &Ahead) -> Option<(f64, Meeting)> {
+        let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            let turn = answer(&body.mobility(moved), body.farthest + body.largest);
+            Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0], across: false })
+        });
+        let mut limit: Option<(f64, Meeting)> = None;
+        for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(groups) {
+            let closing = 2.0 * speed + (2.0 * ahead.acceleration * meeting.radius).sqrt();
+            for pass in self.passes {
+                let Some(root) = meeting.root(pass.as_ref(), closing) else { continue };
+                if root > limit.as_ref().map_or(0.0, |(most, _)| *most) {
+                    limit = Some((root, meeting));
                 }
             }
-        }
-        let (mobility, doubled) = (body.mobility(moved), if both { 2.0 } else { 1.0 });
-        let place = self.state.particles.len() + group;
-        let mut block = [[0.0; 6]; 6];
-        for p in 0..6 {
-            for q in 0..6 {
-                block[p][q] = doubled * (0..6).map(|k| mobility[p][k] * stiffness[k][q]).sum::<f64>();
-            }
-        }
-        add(&mut self.groups[group], &block);
-        if !both {
-            add(self.unmoved.entry(place).or_default(), &block);
-        }
-        let damping = link.response.normal_damping.max(link.response.tangential_damping);
-        self.damping[place] += doubled * damping * answer(&mobility, arm.length());
-    }
-
-    /// Adds one end of an interaction to its particle.
-    fn add_end(&mut self, slot: usize, link: &Link, arm: f64, normal: Vector, both: bool) {
-        let mass = self.state.particles.velocity[slot][3];
-        let inertia = self.state.particles.angular_velocity[slot][3];
-        let doubled = if both { 2.0 } else { 1.0 };
-        // The sliding point moves with v − arm ω × n: its gradient over the scaled freedoms, along three axes.
-        let (v, w) = (1.0 / mass.sqrt(), arm / inertia.sqrt());
-        let n = normal.to_array();
-        let across = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
-        let (kn, kt) = (link.response.normal_stiffness, link.response.tangential_stiffness);
-        let mut triangle = [0.0; 21];
-        let mut place = 0;
-        for a in 0..6 {
-            for b in 0..=a {
-                let mut sum = 0.0;
-                for axis in 0..3 {
-                    let gradient = |k: usize| {
-                        if k < 3 {
-                            v * (f64::from(u8::from(k == axis)) - n[axis] * n[k])
-                        } else {
-                            w * across[axis][k - 3]
-                        }
-                    };
-                    sum += kt * gradient(a) * gradient(b);
-                }
-                if a < 3 && b < 3 {
-                    sum += kn * v * v * n[a] * n[b];
-                }
-                if a >= 3 && b >= 3 {
-                    let along = n[a - 3] * n[b - 3];
-                    let across = f64::from(u8::from(a == b)) - along;
-                    sum += (link.torsion * along + link.bending * across) / inertia;
-                }
-                triangle[place] = doubled * sum;
-                place += 1;
-            }
-        }
-        for (sum, part) in self.stiffness[slot].iter_mut().zip(triangle) {
-            *sum += part;
-        }
-        if !both {
-            add(self.unmoved.entry(slot).or_default(), &whole(&triangle));
-        }
-        let damping = link.response.normal_damping.max(link.response.tangential_damping);
-        let tangential = link.response.tangential_damping * (1.0 / mass + arm * arm / inertia);
-        self.damping[slot] += doubled * (damping / mass).max(tangential);
-    }
-
-    /// The particle at the place of a block, of a group the first: index into the scene's particles.
-    fn named(&self, place: usize) -> Option<u32> {
-        match place.checked_sub(self.state.particles.len()) {
-            None => Some(self.state.particles.id[place]),
-            Some(group) => self.bodies[group].as_ref().map(|body| body.members[0]),
-        }
-    }
-
-    /// The limit over all particles.
-    pub(crate) fn limit(&self) -> Limit {
-        let mut limit = Limit { safe: f64::INFINITY, unstable: f64::INFINITY, particle: None };
-        // Root of k Δt² + 2 c Δt = 4, without cancellation.
-        let step = |k: f64, c: f64| 4.0 / (c + (c * c + 4.0 * k).sqrt());
-        for place in 0..self.damping.len() {
-            let (block, c) = (self.block(place), self.damping[place]);
-            // The eigenvalue is dear; most particles cannot be the one that limits the step.
-            let most = ROOT_OF_SIX * row_sum(&block);
-            if step(most, c) >= limit.safe && 2.0 / most.sqrt() >= limit.unstable {
-                continue;
-            }
-            let k = largest_eigenvalue(&block);
-            if k <= 0.0 && c <= 0.0 {
-                continue;
-            }
-            let safe = step(k, c);
-            if safe < limit.safe {
-                limit.safe = safe;
-                limit.particle = self.named(place);
-            }
-            // Moving this particle alone gives a Rayleigh quotient, hence a bound from below.
-            let alone = largest_eigenvalue(&self.single(place)) / ROOT_OF_SIX;
-            limit.unstable = limit.unstable.min(2.0 / alone.sqrt());
         }
         limit
     }
 
-    /// Stiffness of the own block of a particle or, behind them, a boundary.
-    fn block(&self, place: usize) -> Block {
-        match place.checked_sub(self.stiffness.len()) {
-            None => whole(&self.stiffness[place]),
-            Some(group) => self.groups[group],
-        }
-    }
-
-    /// The same, nothing doubled.
-    fn single(&self, place: usize) -> Block {
-        let mut block = self.block(place);
-        if let Some(unmoved) = self.unmoved.get(&place) {
-            add(&mut block, unmoved);
-        }
-        block.map(|row| row.map(|part| 0.5 * part))
+    /// Largest speed of a particle \[m/s\].
+    pub(crate) fn fastest(&self) -> f64 {
+        let squares = self.state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        squares.fold(0.0, f64::max).sqrt()
     }
 }
 
-/// Adds one block to another.
-fn add(sum: &mut Block, block: &Block) {
-    for (sum, part) in sum.iter_mut().flatten().zip(block.iter().flatten()) {
-        *sum += part;
-    }
-}
-
-/// The matrix of which this is the lower triangle.
-fn whole(triangle: &Triangle) -> Block {
-    let mut block = [[0.0; 6]; 6];
-    let mut place = 0;
-    for a in 0..6 {
-        for b in 0..=a {
-            block[a][b] = triangle[place];
-            block[b][a] = triangle[place];
-            place += 1;
-        }
-    }
-    block
-}
-
-/// The largest sum of magnitudes in a row, which no eigenvalue exceeds (Gershgorin).
-fn row_sum(block: &Block) -> f64 {
-    block.iter().map(|row| row.iter().map(|part| part.abs()).sum::<f64>()).fold(0.0, f64::max)
-}
-
-/// An upper bound of the largest eigenvalue of a positive semidefinite matrix: the 32nd root of the trace of its
-/// 32nd power, at most 6 % above it. Roots are square roots, exactly rounded on every processor.
-fn largest_eigenvalue(block: &Block) -> f64 {
-    let trace: f64 = (0..6).map(|k| block[k][k]).sum();
-    if trace <= 0.0 {
-        return 0.0;
-    }
-    let mut power = block.map(|row| row.map(|part| part / trace));
-    for _ in 0..SQUARINGS {
-        let mut square = [[0.0; 6]; 6];
-        for a in 0..6 {
-            for b in 0..6 {
-                square[a][b] = (0..6).map(|k| power[a][k] * power[k][b]).sum();
-            }
-        }
-        power = square;
-    }
-    let mut root: f64 = (0..6).map(|k| power[k][k]).sum();
-    for _ in 0..SQUARINGS {
-        root = root.sqrt();
-    }
-    trace * root
-}
-
-/// 1 where it holds, 0 otherwise.
-fn one_if(holds: bool) -> f64 {
-    f64::from(u8::from(holds))
+/// The speed up to which impacts are to be foreseen, of particles this fast \[m/s\] and boundaries this fast \[m/s\]: half
+/// of what two of them may meet at.
+pub(crate) fn foreseen_speed(particles: f64, boundaries: f64) -> f64 {
+    FASTER * particles.max(0.5 * (particles + boundaries))
 }
 
 /// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].
-fn answer(mobility: &Block, arm: f64) -> f64 {
+fn answer(mobility: &network::Matrix, arm: f64) -> f64 {
     let (shift, turn) = (0..3)
         .fold((0.0, 0.0), |(shift, turn): (f64, f64), k| (shift.max(mobility[k][k]), turn + mobility[3 + k][3 + k]));
     shift + turn * arm * arm
 }
 
 /// What may meet something else next.
+#[derive(Clone, Copy, Debug)]
 struct Meeting {
     /// Radius \[m\].
     radius: f64,
@@ -313,6 +266,20 @@ struct Meeting {
     turn: f64,
     /// The particle: index into the scene's particles.
     particle: u32,
+    /// Whether sliding limits, rather than pressing.
+    across: bool,
+}
+
+impl Meeting {
+    /// The root while it meets its like at this speed \[m/s\]: both move, their one spring acts on the reduced mass.
+    fn root(&mut self, pass: &dyn Pass, speed: f64) -> Option<f64> {
+        let response = pass.impact(0.5 * self.radius, 0.5 * self.mass, speed)?;
+        let root = |k: f64, c: f64| c + (c * c + 2.0 * k).sqrt();
+        let along = root(response.normal_stiffness / self.mass, response.normal_damping / self.mass);
+        let across = root(response.tangential_stiffness * self.turn, response.tangential_damping * self.turn);
+        self.across = across > along;
+        Some(along.max(across)).filter(|root| *root > 0.0)
+    }
 }
 
 /// The smallest particle that forces move.
@@ -321,41 +288,5 @@ fn smallest_particle(particles: &Particles) -> Option<Meeting> {
     let slot = free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
     let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
     let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
-    Some(Meeting { radius, mass, turn, particle: particles.id[slot] })
-}
-
-/// The bound for impacts still to come: the two smallest particles meeting at twice the largest present speed, with
-/// what gravity adds over a radius; likewise of each group that forces move. Returns the step \[s\] and the particle.
-pub(crate) fn impact_limit(
-    scene: &Scene,
-    state: &State,
-    bodies: &[Option<RigidBody>],
-    passes: &[Box<dyn Pass>],
-) -> Option<(f64, u32)> {
-    let speeds = state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    let fastest = speeds.fold(0.0, f64::max).sqrt();
-    let gravity = Vector::from(scene.gravity).length();
-    let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
-        let body = body.as_ref().filter(|body| body.is_free())?;
-        let turn = answer(&body.mobility(moved), body.farthest + body.largest);
-        Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0] })
-    });
-    let mut limit: Option<(f64, u32)> = None;
-    for meeting in smallest_particle(&state.particles).into_iter().chain(groups) {
-        let speed = 2.0 * fastest + (2.0 * gravity * meeting.radius).sqrt();
-        let safe = passes.iter().filter_map(|pass| bound(pass.as_ref(), &meeting, speed)).fold(f64::INFINITY, f64::min);
-        if safe < limit.map_or(f64::INFINITY, |(least, _)| least) {
-            limit = Some((safe, meeting.particle));
-        }
-    }
-    limit
-}
-
-/// The stable time step while something meets its like at this speed \[m/s\].
-fn bound(pass: &dyn Pass, meeting: &Meeting, speed: f64) -> Option<f64> {
-    let response = pass.impact(0.5 * meeting.radius, 0.5 * meeting.mass, speed)?;
-    // Both move: their one spring acts on the reduced mass.
-    let k = 2.0 * (response.normal_stiffness / meeting.mass).max(response.tangential_stiffness * meeting.turn);
-    let c = 2.0 * (response.normal_damping / meeting.mass).max(response.tangential_damping * meeting.turn);
-    (k > 0.0 || c > 0.0).then(|| 4.0 / (c + (c * c + 4.0 * k).sqrt()))
+    Some(Meeting { radius, mass, turn, particle: particles.id[slot], across: false })
 }

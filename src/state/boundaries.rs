@@ -29,6 +29,8 @@ pub struct BoundaryState {
     pub start_attitude: Attitude,
     /// Rotation vector from there to its end \[rad\].
     pub turn: [f64; 3],
+    /// Largest speed of each driven axis on the way to it, signed \[m/s, rad/s\].
+    pub fastest: [f64; 6],
     /// What free axes need.
     pub inertial: Inertial,
     /// Force at the present time \[N\].

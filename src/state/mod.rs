@@ -7,6 +7,7 @@ pub mod bonds;
 pub mod boundaries;
 pub mod clock;
 pub mod contacts;
+pub mod foresight;
 pub mod hidden;
 pub mod ledger;
 pub mod particles;
@@ -17,6 +18,7 @@ pub use bonds::{BondList, Break};
 pub use boundaries::{Attitude, BoundaryState};
 pub use clock::Clock;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
+pub use foresight::Foresight;
 pub use hidden::{Hidden, HiddenContact};
 pub use ledger::Ledger;
 pub use particles::Particles;
@@ -30,6 +32,8 @@ use serde::{Deserialize, Serialize};
 pub struct State {
     /// Time and counters.
     pub clock: Clock,
+    /// What the stable time step was found for.
+    pub foresight: Foresight,
     /// Positions, velocities, forces.
     pub particles: Particles,
     /// When and for where the lists below were made.

@@ -14,7 +14,7 @@ use crate::neighbours;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
 use crate::state::{
-    BondList, BoundaryState, Clock, ContactList, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
+    BondList, BoundaryState, Clock, ContactList, Foresight, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
 };
 use crate::surface;
 
@@ -25,6 +25,7 @@ pub(super) fn state(scene: &Scene) -> State {
     let lists = Neighbours { skin: scene.run.skin.unwrap_or(neighbours::FIRST_SKIN * mean), ..Neighbours::default() };
     State {
         clock: Clock::default(),
+        foresight: Foresight::default(),
         neighbours: lists,
         coefficients: scene.contacts.iter().map(|law| coefficients::rows(law, scene)).collect(),
         contacts: vec![ContactList::default(); scene.contacts.len()],

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod coefficients;
+mod limits;
 mod observe;
 mod placement;
 mod room;
@@ -10,9 +11,11 @@ mod settled;
 mod taken_over;
 
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
-pub use crate::run_error::RunError;
-pub use crate::stability::Limit;
+pub use crate::run_error::{Cause, RunError};
+pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
+pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
+pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
@@ -23,24 +26,15 @@ use crate::interactions::{Pass, suppression, walls};
 use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
-use crate::scene::{Scene, Step};
+use crate::scene::Scene;
 use crate::state::State;
 use crate::state::ledger::{Loads, Source};
-use crate::threads::{Context, Workers};
-use crate::{books, neighbours, stability};
+use crate::threads::{Context, Team, Workers};
+use crate::{books, neighbours};
 use std::sync::Arc;
-
-/// Time steps between two looks at the stable time step, where it is chosen automatically.
-const STEPS_BETWEEN_LIMITS: u64 = 500;
-
-/// How much longer an automatic time step must have become possible before it is lengthened.
-const LENGTHENING: f64 = 1.1;
 
 /// Intervals this close to a whole number of time steps, over the time step, are taken for that number.
 const WHOLE: f64 = 1e-6;
-
-/// The automatic time step of a scene in which nothing is stiff \[s\].
-pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 
 /// A scene in motion: its state and the passes composed for it.
 pub struct Simulation {
@@ -252,28 +246,52 @@ impl Simulation {
             return Err(RunError::Interval { interval });
         }
         course::begin(&self.scene, &mut self.state, interval)?;
-        self.lengthen_step();
-        let (count, step) = divide(interval, self.state.clock.step);
         self.state.breaks.clear();
         let workers = std::mem::replace(&mut self.workers, Workers::new(Some(1), 0));
-        let width = self.width;
-        let (done, result) = workers.run(|team| self.run(count, step, &Context { step, width, team }));
+        let (elapsed, result) = workers.run(|team| self.run(interval, team));
         self.workers = workers;
-        course::end(&mut self.state, done as f64 * step);
+        course::end(&mut self.state, elapsed);
         result.map_err(|error| self.named(error))
     }
 
-    /// Makes up to `count` time steps. Returns how many, and why it stopped early.
-    fn run(&mut self, count: u64, step: f64, context: &Context) -> (u64, Result<(), RunError>) {
-        for done in 1..=count {
-            if let Err(error) = self.check_way(step) {
-                return (done - 1, Err(error));
+    /// Makes the time steps of a communication step: as many as fit when it begins; where the stable one becomes shorter on
+    /// the way, the rest is divided again. Returns how long they took \[s\], and why they ended early.
+    fn run(&mut self, interval: f64, team: Option<&Team>) -> (f64, Result<(), RunError>) {
+        let width = self.width;
+        let boundaries = self.boundary_speed();
+        let (_, step) = divide(interval, self.state.clock.step);
+        if self.is_due(boundaries, step) {
+            if let Err(error) = self.look(step, &Context { step, width, team }) {
+                return (0.0, Err(error));
             }
-            if let Err(error) = self.step(Progress { done, count, step, time: 0.0 }, context) {
-                return (done, Err(error));
+            self.shorten_step();
+        }
+        self.lengthen_step();
+        let (count, step) = divide(interval, self.state.clock.step);
+        let length = count as f64 * step;
+        let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
+        while progress.done < progress.count {
+            let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
+            if let Err(error) = self.check_way(step) {
+                return (elapsed(progress.done), Err(error));
+            }
+            progress.done += 1;
+            let (context, elapsed) = (Context { step, width, team }, elapsed(progress.done));
+            if let Err(error) = self.step(progress, &context) {
+                return (elapsed, Err(error));
+            }
+            if !self.is_due(boundaries, step) {
+                continue;
+            }
+            if let Err(error) = self.look(step, &context) {
+                return (elapsed, Err(error));
+            }
+            if self.shorten_step() && progress.done < progress.count {
+                let (count, step) = divide(length - elapsed, self.state.clock.step);
+                progress = Progress { done: 0, count, step, passed: elapsed / length, ..progress };
             }
         }
-        (count, self.check_domain())
+        (progress.passed * length + progress.done as f64 * progress.step, self.check_domain())
     }
 
     /// Makes one time step.
@@ -292,6 +310,8 @@ impl Simulation {
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
         self.state.neighbours.travel += (speed * step).max(carried);
+        let farthest = ways.iter().fold(speed * step, |most: f64, way| most.max(way.farthest()));
+        self.state.foresight.travel += farthest;
         let mut result = Ok(());
         if self.search.outdated(&mut self.state, context) {
             result = self.check_domain();
@@ -319,7 +339,7 @@ impl Simulation {
         if !speed.is_finite() {
             result = Err(self.not_finite());
         }
-        result.and_then(|()| self.shorten_step())
+        result
     }
 
     /// Evaluates all forces and torques at the present positions, the fields among them if asked for. Loads of the
@@ -373,59 +393,11 @@ impl Simulation {
             ledger.initial_elastic = elastic;
         }
         result.map_err(|error| self.named(error))?;
-        let limit = self.limit();
-        self.state.clock.stable = limit.safe;
-        match self.scene.run.step {
-            Step::Given(step) => {
-                self.state.clock.step = step;
-                if step > limit.unstable {
-                    return Err(RunError::StepTooLong { step, stable: limit.safe, time: self.time() });
-                }
-            }
-            Step::Automatic { safety } => {
-                self.state.clock.step = (safety * limit.safe).min(LONGEST_AUTOMATIC_STEP);
-            }
-        }
+        self.first_step(&context)?;
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
         Ok(())
-    }
-
-    /// The stable time step of the present network of contacts, and of impacts at the present speeds.
-    pub fn limit(&self) -> Limit {
-        let mut network = stability::Network::of(&self.state, &self.bodies);
-        for pass in &self.passes {
-            pass.stiffness(&self.state, &mut |link| network.add(link));
-        }
-        let mut limit = network.limit();
-        if let Some((safe, particle)) = stability::impact_limit(&self.scene, &self.state, &self.bodies, &self.passes)
-            && safe < limit.safe
-        {
-            limit.safe = safe;
-            limit.particle = Some(particle);
-        }
-        limit
-    }
-
-    /// Shortens an automatic time step at once when it is time to look and the packing has become stiffer.
-    fn shorten_step(&mut self) -> Result<(), RunError> {
-        let Step::Automatic { safety } = self.scene.run.step else { return Ok(()) };
-        if self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LIMITS) {
-            self.state.clock.stable = self.limit().safe;
-            let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
-            self.state.clock.step = self.state.clock.step.min(step);
-        }
-        Ok(())
-    }
-
-    /// Lengthens an automatic time step, between communication steps, where the packing allows a good deal more.
-    fn lengthen_step(&mut self) {
-        let Step::Automatic { safety } = self.scene.run.step else { return };
-        let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
-        if step > LENGTHENING * self.state.clock.step {
-            self.state.clock.step = step;
-        }
     }
 }
 

@@ -3,8 +3,11 @@
 use super::Simulation;
 use crate::bond::Carried;
 use crate::books;
+use crate::boundaries::course;
+use crate::integration;
 use crate::interactions::{BondRecord, ContactRecord};
 use crate::number::Vector;
+use crate::scene::Scene;
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{Row, State};
@@ -46,38 +49,8 @@ impl Simulation {
     /// Largest overlap over the smaller radius of the two (the particle's, at a plane). From positions alone: rows of
     /// a history ask for it often.
     pub fn largest_overlap(&self) -> f64 {
-        let State { particles, contacts, walls, hidden, boundaries, .. } = &self.state;
-        let slot = |index: u32| particles.slot[index as usize];
-        let position = |slot: u32| particles.position[slot as usize];
         let mut largest: f64 = 0.0;
-        let touching =
-            |flags: &[u8]| (0..flags.len()).filter(|&place| flags[place] & TOUCHING != 0).collect::<Vec<_>>();
-        let mut pair = |a: Row, b: Row| {
-            let distance = (Vector::from(a) - Vector::from(b)).length();
-            largest = largest.max((a[3] + b[3] - distance) / a[3].min(b[3]));
-        };
-        for list in contacts {
-            for place in touching(&list.flags) {
-                pair(position(list.first[place]), position(list.second[place]));
-            }
-        }
-        for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0 || entry.is_resting()) {
-            pair(position(slot(entry.first)), position(slot(entry.second.unwrap_or(entry.first))));
-        }
-        for (place, list) in walls.iter().enumerate() {
-            let boundary = list.boundary as usize;
-            let Some(surface::Plane { point, normal, .. }) = self.scene.boundaries[boundary].shifting_plane() else {
-                continue;
-            };
-            let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);
-            let apart = hidden.planes.get(place).into_iter().flatten();
-            let apart = apart.filter(|entry| entry.flags & TOUCHING != 0).map(|entry| slot(entry.first));
-            for slot in touching(&list.flags).into_iter().map(|place| list.particle[place]).chain(apart) {
-                let particle = position(slot);
-                let distance = (Vector::from(particle) - point).dot(normal.into());
-                largest = largest.max((particle[3] - distance) / particle[3]);
-            }
-        }
+        each_overlap(&self.state, &self.scene, &mut |overlap, radius| largest = largest.max(overlap / radius));
         self.passes.iter().fold(largest, |most, pass| most.max(pass.largest_overlap(&self.state)))
     }
 
@@ -113,6 +86,29 @@ impl Simulation {
             Some(mean) if count > 0 => sum / count as f64 / mean,
             _ => f64::INFINITY,
         }
+    }
+
+    /// The same with the forces as they are without global damping. Changes nothing.
+    pub fn undamped_unbalanced_force(&mut self) -> f64 {
+        let kept = self.state.clone();
+        let damped = self.fields.without_damping();
+        course::clear_loads(&mut self.state);
+        integration::clear_loads(&mut self.state.particles);
+        let context = self.standing();
+        // What an evaluation finds wrong the next time step finds, too.
+        let ratio = self.evaluate(true, &context).map_or(f64::INFINITY, |()| self.unbalanced_force());
+        self.fields.damp_as(damped);
+        self.state = kept;
+        ratio
+    }
+
+    /// The fastest of the particles that forces move: its number in the scene, its speed \[m/s\] and its radius \[m\].
+    pub fn fastest(&self) -> Option<(u32, f64, f64)> {
+        let particles = &self.state.particles;
+        let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+        let speed = |slot: usize| Vector::from(particles.velocity[slot]).length();
+        let slot = free.reduce(|most, next| if speed(next) > speed(most) { next } else { most })?;
+        Some((self.number(particles.id[slot]), speed(slot), particles.position[slot][3]))
     }
 
     /// Mean normal force of the contacts, or, where no contact presses, mean force of the bonds \[N\]; none without either.
@@ -154,5 +150,38 @@ impl Simulation {
     /// A context for reading.
     fn quiet(&self) -> Context<'static> {
         Context { step: 0.0, width: self.width, team: None }
+    }
+}
+
+/// Hands out the overlap of each contact between particles and at planes and the smaller radius of the two bodies (the
+/// particle's, at a plane) \[m\]. From positions alone.
+pub(super) fn each_overlap(state: &State, scene: &Scene, hand: &mut dyn FnMut(f64, f64)) {
+    let State { particles, contacts, walls, hidden, boundaries, .. } = state;
+    let slot = |index: u32| particles.slot[index as usize];
+    let position = |slot: u32| particles.position[slot as usize];
+    let mut pair = |a: Row, b: Row| {
+        let distance = (Vector::from(a) - Vector::from(b)).length();
+        hand(a[3] + b[3] - distance, a[3].min(b[3]));
+    };
+    for list in contacts {
+        for place in (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0) {
+            pair(position(list.first[place]), position(list.second[place]));
+        }
+    }
+    for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0 || entry.is_resting()) {
+        pair(position(slot(entry.first)), position(slot(entry.second.unwrap_or(entry.first))));
+    }
+    for (place, list) in walls.iter().enumerate() {
+        let boundary = list.boundary as usize;
+        let Some(surface::Plane { point, normal, .. }) = scene.boundaries[boundary].shifting_plane() else { continue };
+        let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);
+        let touching = (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0);
+        let apart = hidden.planes.get(place).into_iter().flatten();
+        let apart = apart.filter(|entry| entry.flags & TOUCHING != 0).map(|entry| slot(entry.first));
+        for slot in touching.map(|place| list.particle[place]).chain(apart) {
+            let particle = position(slot);
+            let distance = (Vector::from(particle) - point).dot(normal.into());
+            hand(particle[3] - distance, particle[3]);
+        }
     }
 }

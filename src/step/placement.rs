@@ -81,7 +81,8 @@ impl Simulation {
         for spring in &placement.springs {
             put_spring(&simulation.scene, &mut simulation.state, spring);
         }
-        simulation.state.clock.stable = simulation.limit().safe;
+        let context = simulation.standing();
+        simulation.look(simulation.state.clock.step, &context)?;
         Ok(simulation)
     }
 }

@@ -1,9 +1,24 @@
 //! What stops a run before its numbers are nonsense, and how it is told.
 
 use super::{RunError, Simulation};
+use crate::motion::InputCourse;
+use crate::number::Vector;
+use crate::run_error::Cause;
+use crate::state::Clock;
+use crate::state::contacts::TOUCHING;
+use crate::surface;
 
 /// Way of a particle in one time step, over its radius, that is no longer taken for motion.
 const RUNAWAY: f64 = 0.5;
+
+/// Overlap over the smaller radius at which the centre of one particle is inside the other: no contact law means that.
+const DEEPEST: f64 = 1.0;
+
+/// Cohesion energy density over effective modulus from which contacts collapse.
+pub(crate) const COLLAPSING_COHESION: f64 = 0.07;
+
+/// Energy out of nothing, over all that was turned over, that no law and no time step below the stable one makes.
+const LARGEST_GAIN: f64 = 0.25;
 
 impl Simulation {
     /// Refuses a step in which a particle would move further than makes sense.
@@ -19,22 +34,98 @@ impl Simulation {
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
             if way > RUNAWAY * radius {
-                return Err(self.runaway(particles.id[slot], way / radius));
+                let [speed, force] = [velocity, force].map(|row| Vector::from(row).length());
+                let cause = self.cause_of_way(speed, force, step * speed > 0.5 * way);
+                return Err(self.runaway(particles.id[slot], way / radius, cause));
             }
         }
         for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
             let Some(body) = body else { continue };
             let way = step * body.coming_speed(moved, step);
             if way > RUNAWAY * body.smallest {
-                return Err(self.runaway(body.members[0], way / body.smallest));
+                let now = body.coming_speed(moved, 0.0);
+                let force = Vector::from(moved.inertial.load).length();
+                let cause = self.cause_of_way(now, force, step * now > 0.5 * way);
+                return Err(self.runaway(body.members[0], way / body.smallest, cause));
             }
         }
         Ok(())
     }
 
     /// A particle that would move further than makes sense.
-    fn runaway(&self, id: u32, radii: f64) -> RunError {
-        RunError::Runaway { id, radii, time: self.time(), stable: self.state.clock.stable }
+    fn runaway(&self, id: u32, radii: f64, cause: Cause) -> RunError {
+        RunError::Runaway { id, radii, time: self.time(), cause }
+    }
+
+    /// Why a body goes far in one step: the step, its speed \[m/s\] (where it `has` that already) or the force on it \[N\].
+    fn cause_of_way(&self, speed: f64, force: f64, has: bool) -> Cause {
+        let Clock { last_step: step, stable, .. } = self.state.clock;
+        self.step_as_cause().unwrap_or(if has { Cause::Speed { speed, step, stable } } else { Cause::Force { force } })
+    }
+
+    /// The time step as the cause, where it is above the stable one.
+    fn step_as_cause(&self) -> Option<Cause> {
+        let Clock { last_step, step, stable, .. } = self.state.clock;
+        let step = if last_step > 0.0 { last_step } else { step };
+        (step > stable).then_some(Cause::Step { step, stable })
+    }
+
+    /// The step as the cause, or none that is seen.
+    fn step_or_unseen(&self) -> Cause {
+        let Clock { last_step: step, stable, .. } = self.state.clock;
+        self.step_as_cause().unwrap_or(Cause::Unseen { step, stable })
+    }
+
+    /// Stops where cohesion has pulled particles so deep into each other that no law holds, and before energy comes out of
+    /// nothing. Other deep overlaps are what the scene or a jump of a boundary put there.
+    pub(super) fn check_contacts(&self) -> Result<(), RunError> {
+        if self.scene.run.allow_unstable {
+            return Ok(());
+        }
+        if self.scene.contacts.iter().any(|law| law.cohesion.name() != "none") {
+            self.check_collapse()?;
+        }
+        self.check_energy()
+    }
+
+    /// Stops where contacts have collapsed.
+    fn check_collapse(&self) -> Result<(), RunError> {
+        let particles = &self.state.particles;
+        for list in &self.state.contacts {
+            for place in (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0) {
+                let [i, j] = [list.first[place], list.second[place]].map(|slot| slot as usize);
+                let (a, b) = (particles.position[i], particles.position[j]);
+                let apart = Vector::from(a) - Vector::from(b);
+                let overlap = (a[3] + b[3] - apart.length()) / a[3].min(b[3]);
+                let [one, other] = [i, j].map(|slot| particles.material[slot] as usize);
+                let ratio = self.scene.cohesion_ratio(one, other).filter(|ratio| *ratio > COLLAPSING_COHESION);
+                if let Some(ratio) = ratio.filter(|_| overlap > DEEPEST) {
+                    let [first, second] = [i, j].map(|slot| particles.id[slot]);
+                    let cause = Cause::Cohesion { ratio, bound: COLLAPSING_COHESION };
+                    return Err(RunError::Crushed { first, second, overlap, time: self.time(), cause });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Stops where a scene that keeps an energy book sees more energy come out of contacts and bonds than went in. The
+    /// potential of an attraction is in no book: scenes with cohesion are not judged.
+    fn check_energy(&self) -> Result<(), RunError> {
+        let Some(ledger) = &self.state.ledger else { return Ok(()) };
+        let cohesive = self.scene.contacts.iter().any(|law| law.cohesion.name() != "none");
+        // A boundary that jumps loads contacts by a way that no force went along.
+        let jumps = self.scene.boundaries.iter().any(|boundary| boundary.input == InputCourse::Hold);
+        if cohesive || jumps || ledger.turnover <= 0.0 {
+            return Ok(());
+        }
+        let scale = ledger.turnover.max(ledger.initial_kinetic + ledger.initial_elastic);
+        let gained = -self.dissipated_energy().unwrap_or(0.0);
+        if gained <= LARGEST_GAIN * scale {
+            return Ok(());
+        }
+        let cause = self.step_or_unseen();
+        Err(RunError::EnergyGain { gained, turnover: ledger.turnover, time: self.time(), cause })
     }
 
     /// Finds what is not finite.
@@ -50,11 +141,11 @@ impl Simulation {
                 ("angular velocity", &particles.angular_velocity[slot]),
             ];
             if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
-                let (time, stable) = (self.time(), self.state.clock.stable);
-                return RunError::NotFinite { id: particles.id[slot], quantity, time, stable };
+                let (time, cause) = (self.time(), self.step_or_unseen());
+                return RunError::NotFinite { id: particles.id[slot], quantity, time, cause };
             }
         }
-        RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), stable: self.state.clock.stable }
+        RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unseen() }
     }
 
     /// Finds a particle outside the domain.
@@ -70,22 +161,45 @@ impl Simulation {
         Ok(())
     }
 
+    /// Why a particle, by its index, is behind a plane.
+    fn cause_behind(&self, id: u32, plane: &str) -> Cause {
+        if let Some(cause) = self.step_as_cause() {
+            return cause;
+        }
+        let at = self.scene.boundaries.iter().position(|boundary| boundary.name == plane);
+        let slot = self.state.particles.slot.get(id as usize);
+        let (Some(at), Some(&slot)) = (at, slot) else { return Cause::Load };
+        let Some(surface::Plane { normal, .. }) = self.scene.boundaries[at].shape.plane() else { return Cause::Load };
+        let relative = Vector::from(self.state.particles.velocity[slot as usize])
+            - Vector::from(self.state.boundaries[at].velocity);
+        let closing = -relative.dot(normal.into());
+        if closing > 0.0 { Cause::Impact { speed: closing } } else { Cause::Load }
+    }
+
     /// The number in the scene of a particle by its index.
-    fn number(&self, index: u32) -> u32 {
+    pub(super) fn number(&self, index: u32) -> u32 {
         self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0)
     }
 
     /// The error with the particle's number in the scene instead of its index.
     pub(super) fn named(&self, mut error: RunError) -> RunError {
         match &mut error {
-            RunError::Runaway { id, .. }
-            | RunError::NotFinite { id, .. }
-            | RunError::Behind { id, .. }
-            | RunError::Escaped { id, .. } => *id = self.number(*id),
-            RunError::Overbent { first, second, .. } => {
+            RunError::Runaway { id, .. } | RunError::NotFinite { id, .. } | RunError::Escaped { id, .. } => {
+                *id = self.number(*id)
+            }
+            RunError::Behind { id, boundary, cause, .. } => {
+                *cause = self.cause_behind(*id, boundary);
+                *id = self.number(*id);
+            }
+            RunError::Crushed { first, second, .. } => {
+                (*first, *second) = (self.number(*first), self.number(*second));
+            }
+            RunError::Overbent { first, second, cause, .. } => {
+                *cause = self.step_as_cause().unwrap_or(Cause::Unbroken);
                 (*first, *second) = (self.number(*first), second.map(|second| self.number(second)));
             }
             RunError::StepTooLong { .. }
+            | RunError::EnergyGain { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
             | RunError::Interval { .. }

@@ -44,7 +44,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
     Ok(Scene {
-        run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
+        run: Run { step: Step::Given(step), allow_unstable: true, threads: Some(1), ..Run::default() },
         gravity: finite("gravity", case.gravity)?,
         materials,
         pairs,

@@ -108,3 +108,21 @@ fn a_packing_that_does_not_settle_in_time_is_a_failure() {
     assert!(said.contains("not settled after 5000 steps") && said.contains("is asked for"), "{said}");
     assert!(!state.exists());
 }
+
+/// Rolling friction of constant size trembles about rest for ever; settling once went on as long.
+#[test]
+fn what_trembles_for_ever_is_told_with_the_reason() {
+    let place = Place::new("trembling");
+    let scene = place.at("scene.toml");
+    let text = "gravity = [0.0, 0.0, -9.81]\n[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e6\n\
+                poissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 0.2\n\
+                [contact.c.normal.hertz]\n[contact.c.tangential.history]\n[contact.c.rolling.cdt]\n\
+                [particles.p]\nmaterial = \"a\"\nlist = [\n\
+                { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.012, 0.001, 0.0255], radius = 0.01 },\n\
+                { position = [0.021, 0.0, 0.01], radius = 0.01 },\n]\n\
+                [boundary.f]\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nmaterial = \"a\"\n";
+    fs::write(&scene, text).unwrap();
+    let state = place.at("settled.cograin");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap(), 1);
+    assert!(said.contains("comes no nearer") && said.contains("rolling.cdt"), "{said}");
+}

@@ -30,6 +30,11 @@ macro_rules! creations {
                 match self { $(Self::$row $(($value))? => $file::Way::bonds_near_pairs(($($value,)?), moment),)+ }
             }
 
+            /// When near pairs are to be bonded.
+            pub fn due(&self) -> Due {
+                match self { $(Self::$row $(($value))? => $file::Way::due(($($value,)?)),)+ }
+            }
+
             /// Whether near pairs are looked for in every step.
             pub fn is_continual(&self) -> bool {
                 match self { $(Self::$row { .. } => $file::Way::IS_CONTINUAL,)+ }
@@ -71,6 +76,10 @@ trait CreationWay {
     const IS_CONTINUAL: bool = false;
     /// Whether near pairs are bonded at this moment.
     fn bonds_near_pairs(value: Self::Value<'_>, moment: &Moment) -> bool;
+    /// When near pairs are to be bonded.
+    fn due(_value: Self::Value<'_>) -> Due {
+        Due::AtStart
+    }
     /// The pairs that are bonded before the first step, where they are listed.
     fn listed(_value: Self::Value<'_>) -> Option<Listed<'_>> {
         None
@@ -92,6 +101,44 @@ pub enum Listed<'a> {
     Here(&'a [[u32; 2]]),
     /// In a file of this name.
     InFile(&'a str),
+}
+
+/// When near pairs are to be bonded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Due {
+    /// Before the first step, or never.
+    AtStart,
+    /// In every step.
+    Always,
+    /// In the time step of this number.
+    Step(u64),
+    /// In the time step that ends at this time or later \[s\].
+    Time(f64),
+}
+
+/// Time steps to come.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// Number of the time step before the first of them.
+    pub after: u64,
+    /// Number of the last one.
+    pub until: u64,
+    /// Time at their beginning \[s\].
+    pub from: f64,
+    /// Time at their end \[s\].
+    pub to: f64,
+}
+
+impl Creation {
+    /// Whether near pairs may be bonded in a time step of this window.
+    pub fn comes_within(&self, window: &Window) -> bool {
+        match self.due() {
+            Due::AtStart => false,
+            Due::Always => true,
+            Due::Step(number) => window.after < number && number <= window.until,
+            Due::Time(time) => window.from < time && time <= window.to,
+        }
+    }
 }
 
 /// A moment at which bonds may be made.

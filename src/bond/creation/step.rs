@@ -1,6 +1,6 @@
 //! In the time step of a number; the first is 1.
 
-use super::{CreationWay, Moment};
+use super::{CreationWay, Due, Moment};
 
 /// `step`
 pub(super) struct Way;
@@ -14,6 +14,10 @@ impl CreationWay for Way {
 
     fn contradiction((number,): (&u64,)) -> Option<&'static str> {
         (*number == 0).then_some("step 0 found; the first step that can bond is 1, and \"start\" bonds before it")
+    }
+
+    fn due((number,): (&u64,)) -> Due {
+        Due::Step(*number)
     }
 
     fn bonds_near_pairs((number,): (&u64,), moment: &Moment) -> bool {

@@ -1,6 +1,6 @@
 //! The engine's damping, axis by axis of the scene.
 
-use super::{Damped, Damping, Model};
+use super::{Damped, Damping, Model, by_share};
 use crate::bond::elasticity::Parts;
 use crate::bond::keys::PartKeys;
 use crate::bond::{Coefficients, Elastic, Motion, Pair};
@@ -118,5 +118,9 @@ impl Damping for Componentwise {
             torsion: torque(torsion, axis * elastic.torsion, axis * motion.twist_rate),
             bending: torque(bending, elastic.bending, motion.bending_rate),
         }
+    }
+
+    fn linear(&self, _: &Pair, stiffness: Parts) -> [Parts; 2] {
+        by_share(&self.shares, stiffness)
     }
 }

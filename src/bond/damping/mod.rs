@@ -6,6 +6,7 @@ pub mod componentwise;
 pub mod opposing;
 pub mod viscous;
 
+use super::elasticity::Parts;
 use super::{Coefficients, Elastic, Motion, Pair};
 use crate::number::{Number, Vector};
 use serde::Deserialize;
@@ -76,6 +77,15 @@ pub trait Damping: Copy + std::fmt::Debug + Send + Sync + 'static {
         motion: &Motion<N>,
         elastic: &Elastic<N>,
     ) -> Damped<N>;
+    /// What it is to the stable time step: stiffness of each part with what damping adds to it at most \[N/m, N m\], and
+    /// dashpots \[kg/s, N m s\].
+    fn linear(&self, pair: &Pair, stiffness: Parts) -> [Parts; 2];
+}
+
+/// A damping that opposes the motion by a share of each part: where the motion changes its sign in every step, which is
+/// the mode that grows first, the load on the way out is larger by that share.
+fn by_share(shares: &Parts, stiffness: Parts) -> [Parts; 2] {
+    [std::array::from_fn(|part| stiffness[part] * (1.0 + shares[part])), [0.0; 4]]
 }
 
 /// What is to be done with a damping model once its type is known.

@@ -1,6 +1,6 @@
 //! Damping of constant share against the rate.
 
-use super::{Damped, Damping, Model};
+use super::{Damped, Damping, Model, by_share};
 use crate::bond::elasticity::Parts;
 use crate::bond::keys::PartKeys;
 use crate::bond::{Coefficients, Elastic, Motion, Pair};
@@ -65,5 +65,9 @@ impl Damping for Opposing {
             torsion: against(torsion, elastic.torsion.abs(), twist),
             bending: against(bending, elastic.bending.length(), motion.bending_rate),
         }
+    }
+
+    fn linear(&self, _: &Pair, stiffness: Parts) -> [Parts; 2] {
+        by_share(&self.shares, stiffness)
     }
 }

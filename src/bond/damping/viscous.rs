@@ -49,6 +49,18 @@ fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
     N::splat(2.0) * ratio * N::select(moves, square, N::zero()).sqrt()
 }
 
+/// 1/M of the parts that a bond of this length has between two bodies.
+#[inline(always)]
+fn inverse_masses<N: Number>(pair: &Pair<N>, distance: N) -> Parts<N> {
+    let one = N::splat(1.0);
+    let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
+    let (arm_i, arm_j) = (pair.share_i * distance, pair.share_j * distance);
+    let along = one / pair.mass_i + one / pair.mass_j;
+    let across = along + arm_i * arm_i * lighter_i + arm_j * arm_j * lighter_j;
+    let turning = lighter_i + lighter_j;
+    [along, across, turning, turning]
+}
+
 impl Damping for Viscous {
     const NEEDS_MASSES: bool = true;
 
@@ -60,13 +72,8 @@ impl Damping for Viscous {
         motion: &Motion<N>,
         elastic: &Elastic<N>,
     ) -> Damped<N> {
-        let one = N::splat(1.0);
         let section = &motion.section;
-        let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
-        let (arm_i, arm_j) = (pair.share_i * motion.distance, pair.share_j * motion.distance);
-        let along = one / pair.mass_i + one / pair.mass_j;
-        let across = along + arm_i * arm_i * lighter_i + arm_j * arm_j * lighter_j;
-        let turning = lighter_i + lighter_j;
+        let [along, across, turning, _] = inverse_masses(pair, motion.distance);
         let [normal, shear, torsion, bending] = self.ratios.map(N::splat);
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
@@ -76,5 +83,11 @@ impl Damping for Viscous {
                 * -(dashpot(torsion, law.elastic.torsion * section.polar, turning) * motion.twist_rate),
             bending: motion.bending_rate * -dashpot(bending, law.elastic.bending * section.axial, turning),
         }
+    }
+
+    fn linear(&self, pair: &Pair, stiffness: Parts) -> [Parts; 2] {
+        let inverse_masses = inverse_masses(pair, pair.connection.length());
+        let dashpots = std::array::from_fn(|part| dashpot(self.ratios[part], stiffness[part], inverse_masses[part]));
+        [stiffness, dashpots]
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::bond::{Carried, Reaction};
 use crate::neighbours::bonds::remove;
-use crate::run_error::RunError;
+use crate::run_error::{Cause, RunError};
 use crate::state::State;
 use crate::state::bonds::Break;
 
@@ -19,7 +19,7 @@ pub(crate) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<
         gone.extend(done.broken);
         if let Some(bond) = done.overbent {
             let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
-            outcome = outcome.and(Err(RunError::Overbent { first, second, time }));
+            outcome = outcome.and(Err(RunError::Overbent { first, second, time, cause: Cause::Unknown }));
         }
     }
     for &(bond, cause, energy) in &gone {

@@ -11,7 +11,8 @@ mod pipeline_buffer;
 
 pub(crate) use book::{Done, book};
 
-use super::pass::{Link, Pass};
+use super::ahead::{Ahead, Kind, Link};
+use super::pass::Pass;
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::{Body, Carried, Law, OneBond, Pair, Quaternion, Rows};
@@ -91,6 +92,22 @@ impl BondPass {
         }
         let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
         self.law.carried(&pair_of(&state.particles, i, j), &rows)
+    }
+
+    /// Pairs without a bond that may be bonded before the stable time step is found again.
+    fn coming(&self, state: &State, ahead: &Ahead) -> Vec<[u32; 2]> {
+        if !ahead.window.as_ref().is_some_and(|window| self.creation.comes_within(window)) {
+            return Vec::new();
+        }
+        let (particles, list) = (&state.particles, &state.bonds[self.index]);
+        let mut pairs = Vec::new();
+        near_pairs(particles, self.create_distance + ahead.margin.max(ahead.way), |a, b, _| {
+            let [first, second] = [a, b].map(|slot| particles.id[slot as usize]);
+            if self.may_bond(first, second) && !is_bonded(list, a, b) {
+                pairs.push([a, b]);
+            }
+        });
+        pairs
     }
 
     /// Pairs without a bond that are to be bonded at this moment, as slots of i and j; i has the smaller id.
@@ -194,28 +211,17 @@ impl Pass for BondPass {
 
     fn prepare(&self, _state: &mut State) {}
 
-    fn stiffness(&self, state: &State, tell: &mut dyn FnMut(Link)) {
-        let list = &state.bonds[self.index];
-        for (&i, &j) in list.first.iter().zip(&list.second) {
-            let pair = pair_of(&state.particles, i as usize, j as usize);
-            let distance = pair.connection.length();
-            let [normal, shear, torsion, bending] = self.law.elasticity.stiffness(pair.least_radius);
-            let response = Response {
-                normal_stiffness: normal,
-                tangential_stiffness: shear,
-                normal_damping: 0.0,
-                tangential_damping: 0.0,
-            };
-            tell(Link {
-                first: i,
-                second: Some(j),
-                response,
-                first_arm: pair.share_i * distance,
-                second_arm: pair.share_j * distance,
-                normal: pair.connection * (1.0 / distance),
-                torsion,
-                bending,
-            });
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+        let (list, particles) = (&state.bonds[self.index], &state.particles);
+        for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
+            let pair = pair_of(particles, i as usize, j as usize);
+            let bodies = (i, Some(j), None);
+            tell(link_of(&self.law, &pair, bodies, Kind::Bond));
+            stretched(&pair, bodies, self.carried(state, bond).normal, tell);
+        }
+        for [i, j] in self.coming(state, ahead) {
+            let pair = pair_of(particles, i as usize, j as usize);
+            tell(link_of(&self.law, &pair, (i, Some(j), None), Kind::ComingBond));
         }
     }
 
@@ -258,6 +264,37 @@ pub(crate) fn begin_losses(list: &mut BondList, law: &Law) {
             column.push([0.0; 4]);
         }
     }
+}
+
+/// A bond of these bodies (two slots, or a slot and a boundary) as springs and dashpots.
+pub(crate) fn link_of(
+    law: &Law,
+    pair: &Pair,
+    (first, second, boundary): (u32, Option<u32>, Option<u32>),
+    kind: Kind,
+) -> Link {
+    let distance = pair.connection.length();
+    let [stiffness, damping] = law.linear(pair);
+    let normal = pair.connection * (1.0 / distance);
+    let arms = [pair.share_i * distance, pair.share_j * distance];
+    Link { kind, first, second, boundary, normal, arms, stiffness, damping }
+}
+
+/// Tells the stiffness across its axis that a bond has by its tension alone, as a string has: force over length, at the
+/// centres.
+pub(crate) fn stretched(
+    pair: &Pair,
+    (first, second, boundary): (u32, Option<u32>, Option<u32>),
+    normal_force: f64,
+    tell: &mut dyn FnMut(Link),
+) {
+    if normal_force >= 0.0 {
+        return;
+    }
+    let per_distance = 1.0 / pair.connection.length();
+    let (normal, stiffness) = (pair.connection * per_distance, [0.0, -normal_force * per_distance, 0.0, 0.0]);
+    let (kind, arms, damping) = (Kind::Bond, [0.0; 2], [0.0; 4]);
+    tell(Link { kind, first, second, boundary, normal, arms, stiffness, damping });
 }
 
 /// Two particles as bodies of a bond.

@@ -86,6 +86,11 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
         faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
+    if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
+        let (what, right) =
+            ("an automatic step is never above the stable one", "a given step, or leave allow_unstable out");
+        faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    }
     Run {
         end: table.end.map(crate::quantity::Positive::get),
         step: match table.step {
@@ -94,6 +99,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
                 Step::Automatic { safety: table.safety.as_ref().map_or(Run::SAFETY, |safety| safety.0) }
             }
         },
+        allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),
         skin: table.skin.map(crate::quantity::Positive::get),

@@ -46,6 +46,8 @@ pub(in crate::scene) struct RunTable {
     pub(in crate::scene) step: Option<StepKey>,
     /// Fraction of the stable step.
     pub(in crate::scene) safety: Option<Safety>,
+    /// Whether a given step above the stable one may run on.
+    pub(in crate::scene) allow_unstable: Option<bool>,
     /// Threads.
     pub(in crate::scene) threads: Option<NonZeroU32>,
     /// Seed of everything random.

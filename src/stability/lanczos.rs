@@ -1,0 +1,485 @@
+//! The bound of the whole network, for bonds: block bounds cannot come near it, since bonds resist shear, bending and
+//! torsion with opposite signs.
+//!
+//! Lanczos' method finds the largest eigenvalue of S(μ) = M^-½ (K + μ C) M^-½ from below. From a start that is uniform on the
+//! sphere, after k products the chance that it is off by more than the share ε is at most 1.648 √N e^(−√ε (2k − 1)) for
+//! order N (J. Kuczyński & H. Woźniakowski, *SIAM J. Matrix Anal. Appl.* 13 (1992) 1094–1122). The scheme is stable with
+//! Δt = 2/μ while λ_max(S(μ)) < μ², so λ ≤ θ/(1 − ε) ≤ μ² certifies it. The start comes from a hash of particle and counter, sums
+//! are taken piece by piece: the same bits for any number of threads.
+
+use super::network::{Element, Network, UNMOVED};
+use crate::lanes::Shared;
+use crate::threads::{CHUNK, Context};
+use std::f64::consts::PI;
+
+/// Chance that the certified step is above the stable one.
+const CHANCE: f64 = 1e-10;
+
+/// ε without and with dashpots: where μ enters S, the step loses ε, else half of it.
+const SHARES: [f64; 2] = [0.12, 0.07];
+
+/// A product that adds less than this to the tridiagonal matrix, over its eigenvalue, ends the method: the value is then
+/// that of the matrix.
+const ENDED: f64 = 1e-9;
+
+/// What rounding may take, with room.
+const ROUNDING: f64 = 1e-6;
+
+/// Products for a first guess, and most guesses.
+const GUESSES: [usize; 2] = [14, 12];
+
+/// What guesses agree within.
+const AGREEMENT: f64 = 3e-3;
+
+/// Most certificates that are tried.
+const TRIALS: usize = 40;
+
+/// Part of the certified root above which a root that was certified earlier is kept.
+const NEAR: f64 = 0.97;
+
+/// A motion of every body.
+type Motions = Vec<[f64; 6]>;
+
+/// The largest root μ = 2/Δt \[1/s\], certified. `guess` is a root certified earlier, or 0; `counter` chooses the start and
+/// is moved on.
+pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, context: &Context) -> f64 {
+    let mut method = Method::of(network, context);
+    let share = SHARES[usize::from(network.damped)];
+    let products = products(6 * method.bodies, share);
+    let certify = |method: &mut Method, root: f64, counter: &mut u64| {
+        *counter += 1;
+        let (value, exact) = method.value(root, products, *counter);
+        let certain = if exact { value * (1.0 + ROUNDING) } else { value / (1.0 - share) };
+        (value, certain.sqrt())
+    };
+    if !network.damped {
+        return certify(&mut method, 0.0, counter).1;
+    }
+    if guess > 0.0 {
+        let (value, certain) = certify(&mut method, guess, counter);
+        if certain <= guess && certain >= NEAR * guess && value > 0.0 {
+            return guess;
+        }
+    }
+    let mut root = method.guessed(guess, counter) / (1.0 - share);
+    for _ in 0..TRIALS {
+        let (_, certain) = certify(&mut method, root, counter);
+        if certain <= root {
+            break;
+        }
+        root = (1.01 * root).max(certain);
+    }
+    root
+}
+
+/// Products after which a value is certain but for the share.
+fn products(order: usize, share: f64) -> usize {
+    let needed = libm::log(1.648 * (order.max(1) as f64).sqrt() / CHANCE) / share.sqrt();
+    ((needed + 1.0) / 2.0).ceil() as usize
+}
+
+/// What products need.
+struct Method<'a> {
+    /// The network.
+    network: &'a Network<'a>,
+    /// Who works.
+    context: &'a Context<'a>,
+    /// Bodies that interact.
+    bodies: usize,
+    /// First end of each body in `ends`, and behind the last one their number.
+    starts: Vec<u32>,
+    /// Ends of elements, body by body: twice the element, and 1 more for its second end.
+    ends: Vec<u32>,
+    /// Force and couple of each element.
+    loads: Motions,
+}
+
+impl<'a> Method<'a> {
+    /// For this network.
+    fn of(network: &'a Network<'a>, context: &'a Context<'a>) -> Self {
+        let movers = network.movers();
+        let mut starts = vec![0_u32; movers + 1];
+        let bodies_of = |element: &Element| element.slots.map(|slot| network.mover(slot));
+        for element in &network.elements {
+            for mover in bodies_of(element).into_iter().flatten() {
+                starts[mover + 1] += 1;
+            }
+        }
+        let bodies = starts.iter().filter(|count| **count > 0).count();
+        for mover in 0..movers {
+            starts[mover + 1] += starts[mover];
+        }
+        let mut next = starts.clone();
+        let mut ends = vec![0; starts[movers] as usize];
+        for (place, element) in network.elements.iter().enumerate() {
+            for (end, mover) in bodies_of(element).into_iter().enumerate() {
+                let Some(mover) = mover else { continue };
+                ends[next[mover] as usize] = 2 * place as u32 + end as u32;
+                next[mover] += 1;
+            }
+        }
+        Self { network, context, bodies, starts, ends, loads: vec![[0.0; 6]; network.elements.len()] }
+    }
+
+    /// About the root, from below.
+    fn guessed(&mut self, guess: f64, counter: &mut u64) -> f64 {
+        *counter += 1;
+        let mut value = |root: f64| self.value(root, GUESSES[0], *counter).0.sqrt();
+        let mut root = if guess > 0.0 { guess } else { value(0.0) };
+        let mut before: Option<[f64; 2]> = None;
+        for _ in 0..GUESSES[1] {
+            let found = value(root);
+            if (found - root).abs() <= AGREEMENT * root {
+                return found;
+            }
+            // A step of the secant method for √λ(μ) = μ.
+            let slope = before.map_or(0.0, |[root_before, found_before]| (found - found_before) / (root - root_before));
+            before = Some([root, found]);
+            let slope = if slope.is_finite() { slope.clamp(0.0, 0.9) } else { 0.0 };
+            root = (found - slope * root) / (1.0 - slope);
+        }
+        root
+    }
+
+    /// The largest eigenvalue of S(μ) as found after so many products, and whether it is that of the whole.
+    fn value(&mut self, root: f64, products: usize, counter: u64) -> (f64, bool) {
+        let (diagonal, beside, exact) = self.tridiagonal(root, products, counter, None);
+        (largest_eigenvalue(&diagonal, &beside), exact)
+    }
+
+    /// The tridiagonal matrix of so many products; where coefficients are given, the sum of the basis with them, too.
+    fn tridiagonal(
+        &mut self,
+        root: f64,
+        products: usize,
+        counter: u64,
+        mut sum: Option<(&[f64], &mut Motions)>,
+    ) -> (Vec<f64>, Vec<f64>, bool) {
+        let mut now = self.start(counter);
+        let mut before = vec![[0.0; 6]; now.len()];
+        let mut image = vec![[0.0; 6]; now.len()];
+        let (mut diagonal, mut beside) = (Vec::with_capacity(products), Vec::with_capacity(products));
+        let mut last = 0.0;
+        for product in 0..products {
+            if let Some((coefficients, sum)) = &mut sum {
+                for (sum, now) in sum.iter_mut().zip(&now) {
+                    for (sum, now) in sum.iter_mut().zip(now) {
+                        *sum += coefficients[product] * now;
+                    }
+                }
+            }
+            self.multiply(root, &now, &mut image);
+            let along = self.dot(&now, &image);
+            self.each(&mut image, |mover, image| {
+                for k in 0..6 {
+                    image[k] -= along * now[mover][k] + last * before[mover][k];
+                }
+            });
+            diagonal.push(along);
+            let next = self.dot(&image, &image).sqrt();
+            let scale = diagonal.iter().copied().fold(0.0, f64::max);
+            if next <= ENDED * scale || product + 1 >= 6 * self.bodies {
+                return (diagonal, beside, true);
+            }
+            if product + 1 < products {
+                beside.push(next);
+            }
+            let per_next = 1.0 / next;
+            self.each(&mut image, |_, image| *image = image.map(|part| per_next * part));
+            last = next;
+            // The motion before gives its room to the next image.
+            std::mem::swap(&mut before, &mut now);
+            std::mem::swap(&mut now, &mut image);
+        }
+        (diagonal, beside, false)
+    }
+
+    /// The motion that belongs to the largest eigenvalue of S(μ), about.
+    pub(super) fn motion(&mut self, root: f64, products: usize, counter: u64) -> Motions {
+        let (diagonal, beside, _) = self.tridiagonal(root, products, counter, None);
+        let coefficients = eigenvector(&diagonal, &beside, largest_eigenvalue(&diagonal, &beside));
+        let mut sum = vec![[0.0; 6]; self.network.movers()];
+        self.tridiagonal(root, diagonal.len(), counter, Some((&coefficients, &mut sum)));
+        sum
+    }
+
+    /// A start uniform on the sphere of the bodies that interact.
+    fn start(&self, counter: u64) -> Motions {
+        let mut start = vec![[0.0; 6]; self.network.movers()];
+        let state = self.network.state;
+        self.each(&mut start, |mover, motion| {
+            if self.starts[mover] < self.starts[mover + 1] {
+                let name = match mover.checked_sub(self.network.roots.len()) {
+                    None => u64::from(state.particles.id[mover]),
+                    Some(group) => (1 << 32) + group as u64,
+                };
+                *motion = normal_numbers(name, counter);
+            }
+        });
+        let length = self.dot(&start, &start).sqrt();
+        if length > 0.0 {
+            self.each(&mut start, |_, motion| *motion = motion.map(|part| part / length));
+        }
+        start
+    }
+
+    /// S(μ) of a motion.
+    fn multiply(&mut self, root: f64, motion: &Motions, image: &mut Motions) {
+        let (network, context) = (self.network, self.context);
+        let loads = Shared::new(&mut self.loads);
+        context.each(network.elements.len().div_ceil(CHUNK), |piece| {
+            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(network.elements.len()));
+            // SAFETY: pieces do not overlap.
+            let loads = unsafe { loads.part(from, to) };
+            for (load, element) in loads.iter_mut().zip(&network.elements[from..to]) {
+                *load = load_of(network, element, root, motion);
+            }
+        });
+        let (starts, ends, loads) = (&self.starts, &self.ends, &self.loads);
+        let share = |mover: usize, image: &mut [f64; 6]| {
+            let mut sum = [0.0; 6];
+            for &end in &ends[starts[mover] as usize..starts[mover + 1] as usize] {
+                add_load(network, mover, (end / 2) as usize, (end % 2) as usize, loads, &mut sum);
+            }
+            *image = scaled_back(network, mover, &sum);
+        };
+        each(context, image, share);
+    }
+
+    /// Scalar product, summed piece by piece.
+    fn dot(&self, a: &Motions, b: &Motions) -> f64 {
+        let sums = self.context.collect(a.len().div_ceil(CHUNK), |piece| {
+            let range = piece * CHUNK..((piece + 1) * CHUNK).min(a.len());
+            let mut sum = [0.0; 6];
+            for (a, b) in a[range.clone()].iter().zip(&b[range]) {
+                for k in 0..6 {
+                    sum[k] += a[k] * b[k];
+                }
+            }
+            sum.iter().sum::<f64>()
+        });
+        sums.into_iter().sum()
+    }
+
+    /// Does something with each motion.
+    fn each(&self, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
+        each(self.context, motions, work);
+    }
+}
+
+/// Does something with each motion, piece by piece.
+fn each(context: &Context, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
+    let count = motions.len();
+    let motions = Shared::new(motions);
+    context.each(count.div_ceil(CHUNK), |piece| {
+        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
+        // SAFETY: pieces do not overlap.
+        for (mover, motion) in (from..).zip(unsafe { motions.part(from, to) }) {
+            work(mover, motion);
+        }
+    });
+}
+
+/// Velocity of the point at one end of an element, and angular velocity there.
+#[inline(always)]
+fn moved(network: &Network, element: &Element, end: usize, motion: &Motions) -> [[f64; 3]; 2] {
+    let slot = element.slots[end];
+    if slot == UNMOVED {
+        return [[0.0; 3]; 2];
+    }
+    let Some(mover) = network.mover(slot) else { return [[0.0; 3]; 2] };
+    let scaled = &motion[mover];
+    let (velocity, spin, arm) = match mover.checked_sub(network.roots.len()) {
+        None => {
+            let [v, w] = network.roots[mover];
+            let arm = f64::from(element.arms[end]);
+            let normal = element.normal.map(f64::from);
+            (
+                [v * scaled[0], v * scaled[1], v * scaled[2]],
+                [w * scaled[3], w * scaled[4], w * scaled[5]],
+                normal.map(|part| arm * part),
+            )
+        }
+        Some(group) => {
+            let Some(group) = &network.groups[group] else { return [[0.0; 3]; 2] };
+            let freedom: [f64; 6] = std::array::from_fn(|row| (0..6).map(|k| group.root[row][k] * scaled[k]).sum());
+            let [a, b, c, d, e, f] = freedom;
+            ([a, b, c], [d, e, f], network.arm(element, end, group).to_array())
+        }
+    };
+    let by_spin = cross(spin, arm);
+    [[velocity[0] + by_spin[0], velocity[1] + by_spin[1], velocity[2] + by_spin[2]], spin]
+}
+
+/// Force and couple on the first end of an element that moves like this.
+#[inline(always)]
+fn load_of(network: &Network, element: &Element, root: f64, motion: &Motions) -> [f64; 6] {
+    let [[u, w], [v, z]] = [moved(network, element, 0, motion), moved(network, element, 1, motion)];
+    let part = |k: usize| f64::from(element.stiffness[k]) + root * f64::from(element.damping[k]);
+    let n = element.normal.map(f64::from);
+    let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
+    let turn = [w[0] - z[0], w[1] - z[1], w[2] - z[2]];
+    let (across, bending) = (part(1), part(3));
+    let along = (part(0) - across) * dot(slip, n);
+    let twist = (part(2) - bending) * dot(turn, n);
+    [
+        across * slip[0] + along * n[0],
+        across * slip[1] + along * n[1],
+        across * slip[2] + along * n[2],
+        bending * turn[0] + twist * n[0],
+        bending * turn[1] + twist * n[1],
+        bending * turn[2] + twist * n[2],
+    ]
+}
+
+/// Adds the load of one end of an element to the sum of its body.
+#[inline(always)]
+fn add_load(network: &Network, mover: usize, place: usize, end: usize, loads: &Motions, sum: &mut [f64; 6]) {
+    let (element, load) = (&network.elements[place], &loads[place]);
+    let sign = if end == 0 { 1.0 } else { -1.0 };
+    let force = [sign * load[0], sign * load[1], sign * load[2]];
+    let arm = match mover.checked_sub(network.roots.len()).and_then(|group| network.groups[group].as_ref()) {
+        None => {
+            let arm = f64::from(element.arms[end]);
+            element.normal.map(|part| arm * f64::from(part))
+        }
+        Some(group) => network.arm(element, end, group).to_array(),
+    };
+    let couple = cross(arm, force);
+    for k in 0..3 {
+        sum[k] += force[k];
+        sum[3 + k] += couple[k] + sign * load[3 + k];
+    }
+}
+
+/// A load on a body in its scaled freedoms.
+#[inline(always)]
+fn scaled_back(network: &Network, mover: usize, load: &[f64; 6]) -> [f64; 6] {
+    match mover.checked_sub(network.roots.len()) {
+        None => {
+            let [v, w] = network.roots[mover];
+            [v * load[0], v * load[1], v * load[2], w * load[3], w * load[4], w * load[5]]
+        }
+        Some(group) => network.groups[group]
+            .as_ref()
+            .map_or([0.0; 6], |group| std::array::from_fn(|k| (0..6).map(|row| group.root[row][k] * load[row]).sum())),
+    }
+}
+
+/// Scalar product.
+#[inline(always)]
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+#[inline(always)]
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Six numbers of a normal distribution (Box and Muller) that belong to a name and a counter.
+fn normal_numbers(name: u64, counter: u64) -> [f64; 6] {
+    let mut state = name.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ counter.wrapping_mul(0xD1B5_4A32_D192_ED03);
+    let mut uniform = || {
+        // One step of SplitMix64 (G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014).
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut mixed = state;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^= mixed >> 31;
+        ((mixed >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0
+    };
+    let mut numbers = [0.0; 6];
+    for pair in numbers.chunks_exact_mut(2) {
+        let (length, angle) = ((-2.0 * libm::log(uniform())).sqrt(), 2.0 * PI * uniform());
+        let (sine, cosine) = libm::sincos(angle);
+        pair[0] = length * cosine;
+        pair[1] = length * sine;
+    }
+    numbers
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix, by bisection with Sturm's sequence, from above.
+fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
+    let reach = |row: usize| {
+        let before = row.checked_sub(1).map_or(0.0, |row| beside[row]);
+        diagonal[row] + before + beside.get(row).copied().unwrap_or(0.0)
+    };
+    let mut above = (0..diagonal.len()).map(reach).fold(0.0, f64::max) * (1.0 + f64::EPSILON);
+    let mut below = diagonal.iter().copied().fold(0.0, f64::max);
+    // Halving until the ends are neighbours would take 53 turns; what is left is far below every allowance.
+    for _ in 0..46 {
+        let middle = 0.5 * (below + above);
+        if all_below(diagonal, beside, middle) {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    above
+}
+
+/// Whether all eigenvalues of a tridiagonal matrix are below a number: whether every pivot of their difference is positive.
+fn all_below(diagonal: &[f64], beside: &[f64], number: f64) -> bool {
+    let mut pivot = 1.0;
+    for (row, entry) in diagonal.iter().enumerate() {
+        let before = row.checked_sub(1).map_or(0.0, |row| beside[row] * beside[row]);
+        pivot = number - entry - before / pivot;
+        if pivot <= 0.0 || pivot.is_nan() {
+            return false;
+        }
+    }
+    true
+}
+
+/// The eigenvector of a tridiagonal matrix that belongs to its largest eigenvalue: two turns of inverse iteration from just
+/// above it.
+fn eigenvector(diagonal: &[f64], beside: &[f64], value: f64) -> Vec<f64> {
+    let count = diagonal.len();
+    let shift = value * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+    let mut vector = vec![1.0; count];
+    for _ in 0..3 {
+        // value − T is positive definite: no pivoting.
+        let mut pivots = vec![0.0; count];
+        for row in 0..count {
+            let before = row.checked_sub(1).map_or(0.0, |before| beside[before] * beside[before] / pivots[before]);
+            pivots[row] = shift - diagonal[row] - before;
+            if row > 0 {
+                vector[row] += beside[row - 1] / pivots[row - 1] * vector[row - 1];
+            }
+        }
+        for row in (0..count).rev() {
+            let after = if row + 1 < count { beside[row] * vector[row + 1] } else { 0.0 };
+            vector[row] = (vector[row] + after) / pivots[row];
+        }
+        let length = vector.iter().map(|part| part * part).sum::<f64>().sqrt();
+        vector.iter_mut().for_each(|part| *part /= length);
+    }
+    vector
+}
+
+/// The motion that a network is stiffest against: of its own root, or without dashpots.
+pub(super) fn critical_motion(network: &Network, root: f64, counter: u64, context: &Context) -> Motions {
+    /// Products after which it stands out.
+    const PRODUCTS: usize = 60;
+    let at = if network.damped { root } else { 0.0 };
+    Method::of(network, context).motion(at, PRODUCTS, counter)
+}
+
+/// What an element takes of a motion, part by part: along the normal, across it, twisting, bending.
+pub(super) fn shares(network: &Network, place: usize, root: f64, motion: &Motions) -> [f64; 4] {
+    let element = &network.elements[place];
+    let [[u, w], [v, z]] = [moved(network, element, 0, motion), moved(network, element, 1, motion)];
+    let n = element.normal.map(f64::from);
+    let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
+    let turn = [w[0] - z[0], w[1] - z[1], w[2] - z[2]];
+    let part = |k: usize| f64::from(element.stiffness[k]) + root * f64::from(element.damping[k]);
+    let (along, twist) = (dot(slip, n), dot(turn, n));
+    [
+        part(0) * along * along,
+        part(1) * (dot(slip, slip) - along * along),
+        part(2) * twist * twist,
+        part(3) * (dot(turn, turn) - twist * twist),
+    ]
+}

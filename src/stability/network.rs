@@ -1,0 +1,159 @@
+//! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
+
+use crate::boundaries::RigidBody;
+use crate::integration::Fields;
+use crate::interactions::{Ahead, Link, Pass};
+use crate::number::Vector;
+use crate::state::State;
+
+/// Instead of a slot: what does not move by the forces on it.
+pub(super) const UNMOVED: u32 = u32::MAX;
+
+/// A matrix over six freedoms: three translations, three rotations.
+pub(super) type Matrix = [[f64; 6]; 6];
+
+/// A contact or bond between two bodies that forces move, or of one with something else. Single precision: the network of a
+/// million particles is to fit beside them; the bound allows for the rounding.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    /// Particles (slots) at which it acts; the second may be [`UNMOVED`].
+    pub slots: [u32; 2],
+    /// Unit normal.
+    pub normal: [f32; 3],
+    /// From each centre to where the forces act, along the normal \[m\].
+    pub arms: [f32; 2],
+    /// Along the normal, across it, against twisting, against bending \[N/m, N m\].
+    pub stiffness: [f32; 4],
+    /// The same of the dashpots \[kg/s, N m s\].
+    pub damping: [f32; 4],
+}
+
+/// A group that forces move.
+pub(super) struct Group {
+    /// Where its reference point stands \[m\].
+    pub pivot: Vector,
+    /// L of the acceleration L Lᵀ that unit loads give it: what scales its freedoms.
+    pub root: Matrix,
+}
+
+/// What is to be stable.
+pub(crate) struct Network<'a> {
+    /// Where everything stands.
+    pub(super) state: &'a State,
+    /// Of each particle (slot): what scales its translations \[1/√kg\] and its rotations \[1/√(kg m²)\].
+    pub(super) roots: Vec<[f64; 2]>,
+    /// Of each boundary.
+    pub(super) groups: Vec<Option<Group>>,
+    /// The interactions, in the order of the passes.
+    pub(super) elements: Vec<Element>,
+    /// Whether any of them has a dashpot.
+    pub(super) damped: bool,
+}
+
+impl<'a> Network<'a> {
+    /// What is at work or, looking ahead, may be.
+    pub(crate) fn of(
+        state: &'a State,
+        bodies: &[Option<RigidBody>],
+        fields: &Fields,
+        passes: &[Box<dyn Pass>],
+        ahead: &Ahead,
+    ) -> Self {
+        let particles = &state.particles;
+        let root = |slot: usize| {
+            let [linear, angular] = fields.amplification(particles.id[slot]);
+            let (mass, inertia) = (particles.velocity[slot][3], particles.angular_velocity[slot][3]);
+            [(linear / mass).sqrt(), (angular / inertia).sqrt()]
+        };
+        let group = |(body, moved): (&Option<RigidBody>, _)| {
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            let [linear, angular] = fields.amplification(body.members[0]);
+            let mut mobility = body.mobility(moved);
+            for (row, numbers) in mobility.iter_mut().enumerate() {
+                for number in numbers {
+                    *number *= if row < 3 { linear } else { angular };
+                }
+            }
+            Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
+        };
+        let mut network = Self {
+            state,
+            roots: (0..particles.len()).map(root).collect(),
+            groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
+            elements: Vec::new(),
+            damped: false,
+        };
+        for pass in passes {
+            pass.stiffness(state, ahead, &mut |link| network.add(&link));
+        }
+        network
+    }
+
+    /// Adds an interaction, unless nothing moves by it.
+    fn add(&mut self, link: &Link) {
+        if let Some(element) = self.element(link) {
+            self.damped |= element.damping != [0.0; 4];
+            self.elements.push(element);
+        }
+    }
+
+    /// An interaction between what moves, if it moves anything.
+    pub(super) fn element(&self, link: &Link) -> Option<Element> {
+        let moved = |slot: &u32| self.mover(*slot).is_some();
+        let (first, second) = (Some(link.first).filter(moved), link.second.filter(moved));
+        let [x, y, z] = link.normal.to_array();
+        let same = first.is_some_and(|first| second.is_some_and(|second| self.mover(first) == self.mover(second)));
+        let (slots, [a, b]) = match (first, second) {
+            (Some(_), Some(_)) if same => return None,
+            (Some(first), second) => ([first, second.unwrap_or(UNMOVED)], [-link.arms[0], link.arms[1]]),
+            (None, Some(second)) => ([second, UNMOVED], [link.arms[1], 0.0]),
+            (None, None) => return None,
+        };
+        Some(Element {
+            slots,
+            normal: [x as f32, y as f32, z as f32],
+            arms: [a as f32, b as f32],
+            stiffness: link.stiffness.map(|part| part as f32),
+            damping: link.damping.map(|part| part as f32),
+        })
+    }
+
+    /// How many bodies there may be: particles, then boundaries.
+    pub(super) fn movers(&self) -> usize {
+        self.roots.len() + self.groups.len()
+    }
+
+    /// The body that moves a particle, if forces move it: the particle itself, or behind all particles its group.
+    pub(super) fn mover(&self, slot: u32) -> Option<usize> {
+        match (*self.state.particles.owner.get(slot as usize)? as usize).checked_sub(1) {
+            None => Some(slot as usize),
+            Some(group) => self.groups[group].as_ref().map(|_| self.roots.len() + group),
+        }
+    }
+
+    /// From what moves a particle to where an element acts on it \[m\].
+    pub(super) fn arm(&self, element: &Element, end: usize, group: &Group) -> Vector {
+        let [x, y, z] = element.normal.map(f64::from);
+        let center = Vector::from(self.state.particles.position[element.slots[end] as usize]);
+        center - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
+    }
+}
+
+/// L of a positive semidefinite matrix L Lᵀ (Cholesky); directions that do not move have zeros.
+fn root_of(matrix: &Matrix) -> Matrix {
+    let mut root = [[0.0; 6]; 6];
+    for a in 0..6 {
+        for b in 0..=a {
+            let known: f64 = (0..b).map(|k| root[a][k] * root[b][k]).sum();
+            let rest = matrix[a][b] - known;
+            root[a][b] = if a == b {
+                if rest > 1e-12 * matrix[a][a] { rest.sqrt() } else { 0.0 }
+            } else if root[b][b] > 0.0 {
+                rest / root[b][b]
+            } else {
+                0.0
+            };
+        }
+    }
+    root
+}

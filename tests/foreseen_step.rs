@@ -1,0 +1,127 @@
+//! Contacts and bonds that come are foreseen by the time step, and what stops a run is named.
+//!
+//! What was wrong: the automatic step took no notice of the speed of planes, of dashpots of bonds and of bonds made later;
+//! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
+//! the messages blamed the step where speed or load was the cause.
+
+use cograin::quantity::BoundaryIndex;
+use cograin::scene::{Scene, Source};
+use cograin::step::{Cause, RunError, Simulation};
+use std::sync::Arc;
+
+/// A scene at time 0.
+fn start(text: &str) -> Simulation {
+    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(scene)).expect("the scene starts")
+}
+
+/// An elastic sphere at rest and a plane that comes at it as this motion says.
+fn plane_hits_sphere(run: &str, motion: &str) -> String {
+    format!(
+        "[run]\nthreads = 1\n{run}\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e8\npoissons_ratio = 0.3\n\
+         [pair.a.a]\nrestitution = 1.0\n[contact.c.normal.hertz]\n[particles.p]\nmaterial = \"a\"\n\
+         list = [ {{ position = [0.0, 0.0, 0.02], radius = 0.01 }} ]\n\
+         [boundary.h]\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}\nmaterial = \"a\"\n\
+         motion = {{ {motion} }}\n[output]\nenergy = true\n"
+    )
+}
+
+/// How fast the sphere is when a plane at 0.1 m/s has hit it \[m/s\].
+fn speed_after(text: &str, driven: bool, interval: f64) -> f64 {
+    let mut simulation = start(text);
+    let count = (0.3 / interval).round() as usize;
+    for done in 1..=count {
+        if driven {
+            simulation.set_displacement(BoundaryIndex(0), 2, 0.1 * done as f64 * interval);
+        }
+        simulation.advance(interval).expect("it runs");
+    }
+    simulation.state().particles.velocity[0][2]
+}
+
+#[test]
+fn a_plane_that_hits_a_sphere_gives_it_twice_its_speed() {
+    let prescribed = plane_hits_sphere("safety = 0.2", "prescribed = { z = 0.1 }");
+    let driven = plane_hits_sphere("safety = 0.2", "driven = [\"z\"]");
+    // In one communication step, and in many.
+    for interval in [0.3, 0.075, 1e-3] {
+        for (text, is_driven) in [(&prescribed, false), (&driven, true)] {
+            let speed = speed_after(text, is_driven, interval);
+            // Two in a hundred: ten time steps to a collision.
+            assert!((speed / 0.2 - 1.0).abs() < 0.02, "{speed} m/s in steps of {interval} s, 0.2 m/s expected");
+        }
+    }
+}
+
+#[test]
+fn a_given_step_is_refused_before_numbers_are_nonsense_and_the_bound_is_renewed() {
+    let mut simulation = start(&plane_hits_sphere("step = 1e-3", "driven = [\"z\"]"));
+    simulation.advance(0.01).expect("nothing moves yet");
+    let resting = simulation.state().clock.stable;
+    simulation.set_displacement(BoundaryIndex(0), 2, 0.1);
+    let error = simulation.advance(0.1).expect_err("the plane comes at 1 m/s");
+    let RunError::StepTooLong { step, stable, by, .. } = &error else { panic!("{error}") };
+    assert!(*step == 1e-3 && *stable < 1e-3 && *stable < resting, "{error}");
+    assert!(by.contains("particle 1"), "{error}");
+    assert_eq!(simulation.state().particles.velocity[0][2], 0.0, "nothing has happened yet");
+}
+
+#[test]
+fn an_unstable_step_runs_where_the_scene_allows_it() {
+    let mut simulation = start(&plane_hits_sphere("step = 1e-3\nallow_unstable = true", "prescribed = { z = 0.1 }"));
+    simulation.advance(0.3).expect("it runs");
+    assert!(simulation.state().clock.stable < 1e-3, "{:e} s", simulation.state().clock.stable);
+}
+
+/// Two bonded spheres that move against each other, their bond with these dashpots.
+fn damped_pair(ratio: f64) -> String {
+    format!(
+        "[run]\nthreads = 1\nsafety = 0.7\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+         list = [ {{ position = [0.0, 0.0, 0.0], radius = 0.01, velocity = [1e-6, 0.0, 0.0] }}, \
+         {{ position = [0.02, 0.0, 0.0], radius = 0.01, velocity = [-1e-6, 0.0, 0.0] }} ]\n\
+         [bond.b]\nbetween = [\"p\", \"p\"]\ncreate_distance = 0.0205\nnormal_stiffness = 1e10\n\
+         tangential_stiffness = 4e9\n[bond.b.damping.viscous]\nnormal_force = {ratio:?}\n"
+    )
+}
+
+#[test]
+fn strongly_damped_bonds_come_to_rest() {
+    for ratio in [0.3, 1.0, 2.0, 5.0] {
+        let mut simulation = start(&damped_pair(ratio));
+        let begun = simulation.kinetic_energy();
+        simulation.advance(0.02).expect("it runs");
+        let left = simulation.kinetic_energy() / begun;
+        assert!(left < 1e-3, "{left:e} of the energy is left at a damping ratio of {ratio}");
+    }
+}
+
+#[test]
+fn bonds_made_later_are_foreseen() {
+    for create in ["\"always\"", "{ step = 100 }", "{ time = 2e-3 }"] {
+        let text = format!(
+            "gravity = [0.0, 0.0, -9.81]\n[run]\nthreads = 1\nmax_overlap = 0.3\n[material.a]\ndensity = 2500.0\n\
+             youngs_modulus = 1e7\npoissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\n\
+             [contact.c.normal.hertz]\n[contact.c.tangential.history]\n[particles.p]\nmaterial = \"a\"\n\
+             lattice = {{ kind = \"simple_cubic\", radius = 0.01, origin = [0.0, 0.0, 0.00999], spacing = 0.01998, counts = [3, 3, 3] }}\n\
+             [boundary.f]\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}\nmaterial = \"a\"\n\
+             [bond.b]\nformulation = \"finite_rotation\"\nbetween = [\"p\", \"p\"]\ncreate_distance = 0.0205\n\
+             create = {create}\nnormal_stiffness = 1e10\ntangential_stiffness = 4e9\n"
+        );
+        let mut simulation = start(&text);
+        simulation.advance(0.02).expect("it runs");
+        assert!(!simulation.bonds().is_empty(), "no bond was made with create = {create}");
+        // What falls over the height of the block, at most.
+        let energy: f64 = simulation.state().particles.velocity.iter().map(|v| v[3] * 9.81 * 0.06).sum();
+        assert!(simulation.kinetic_energy() < energy, "{} J with create = {create}", simulation.kinetic_energy());
+    }
+}
+
+#[test]
+fn a_sphere_that_is_too_fast_for_a_step_below_the_stable_one_is_told_so() {
+    let text = "[run]\nstep = 1e-2\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                list = [ { position = [0.0, 0.0, 0.0], radius = 0.01, velocity = [10.0, 0.0, 0.0] } ]\n";
+    let error = start(text).advance(0.1).expect_err("it moves ten radii in a step");
+    let RunError::Runaway { cause: Cause::Speed { speed, .. }, .. } = &error else { panic!("{error}") };
+    assert_eq!(*speed, 10.0);
+}
