@@ -132,6 +132,7 @@ const LANES: Rule = Rule {
         "src/integration",
         "src/books",
         "src/step",
+        "src/stability",
     ],
     searched: &["src", "fmu/src"],
     words: &["lanes::", "Width::", "Shared<", "Lane>", ": Lane", "rayon"],
