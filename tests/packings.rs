@@ -94,15 +94,15 @@ fn a_packing_that_cannot_be_is_refused_at_once() {
 
 #[test]
 fn regions_of_any_shape_are_filled_or_refused_in_words() {
-    let lengths = ["1e-3", "0.1", "0.9", "3.0", "1e3", "1e12", "1e200"];
+    let lengths = ["1e-3", "0.9", "3.0", "1e12", "1e200"];
     for x in lengths {
         for y in lengths {
-            for amount in ["count = 40", "solid_fraction = 1e-18", "solid_fraction = 0.3", "solid_fraction = 1e-30"] {
+            for amount in ["count = 40", "solid_fraction = 1e-18", "solid_fraction = 0.1"] {
                 for radius in ["0.01", "[0.1, 0.4]", "1e-120"] {
-                    for z in ["0.9", "1e15"] {
+                    for z in ["2.0", "1e15"] {
                         let text = format!("box = [[0, 0, 0], [{x}, {y}, {z}]], {amount}, radius = {radius}");
                         // As many spheres as that would only take long.
-                        if amount == "solid_fraction = 0.3" && radius == "0.01" {
+                        if amount == "solid_fraction = 0.1" && radius == "0.01" {
                             continue;
                         }
                         match packed(1, &text) {
