@@ -119,7 +119,7 @@ fn cannot_be_hidden(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
 fn cannot_meet_features(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
     let count = scene.materials.len();
     let meets = |boundary: &&Boundary| {
-        let material = boundary.shape.material().filter(|_| boundary.shape.features().is_some());
+        let material = boundary.shape.material().filter(|_| boundary.shifting_plane().is_none());
         material.is_some_and(|material| (0..count).any(|other| law.between[other * count + material.index()]))
     };
     let boundary = scene.boundaries.iter().find(meets)?;
@@ -127,8 +127,8 @@ fn cannot_meet_features(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
         return None;
     }
     let message = format!(
-        "a surface that is no plane found at a material of [contact.{}], whose normal model, {}, pulls beyond touch; \
-         a plane, or another law for this material, is right",
+        "a surface that is no plane, or a plane that turns, found at a material of [contact.{}], whose normal model, {}, pulls beyond touch; \
+         a plane that does not turn, or another law for this material, is right",
         law.name,
         law.normal.name()
     );
