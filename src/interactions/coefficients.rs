@@ -38,6 +38,17 @@ pub(crate) struct CoefficientTable {
     single: Option<u32>,
     /// Whether the law governs these two materials.
     governed: Vec<bool>,
+    /// How many particles of the scene are of each material.
+    particles: Vec<usize>,
+}
+
+/// Bodies that may meet under a law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Partners {
+    /// Two particles.
+    Particles,
+    /// A particle and a boundary of this material.
+    Boundary(u32),
 }
 
 impl CoefficientTable {
@@ -47,7 +58,11 @@ impl CoefficientTable {
         let (count, materials) = (Law::of(&law.choice()).places().count, scene.materials.len());
         let mut present = scene.particles.iter().map(|particle| particle.material.0);
         let single = present.next().filter(|&first| present.all(|other| other == first));
-        Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone() }
+        let mut particles = vec![0; materials];
+        for particle in &scene.particles {
+            particles[particle.material.index()] += 1;
+        }
+        Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone(), particles }
     }
 
     /// Takes over the coefficients of a state.
@@ -59,7 +74,8 @@ impl CoefficientTable {
     #[cfg(test)]
     pub(crate) fn of_rows(rows: Vec<f64>, materials: usize) -> Self {
         let count = rows.len() / (materials * materials);
-        Self { rows, count, materials, single: None, governed: vec![true; materials * materials] }
+        let (governed, particles) = (vec![true; materials * materials], vec![2; materials]);
+        Self { rows, count, materials, single: None, governed, particles }
     }
 
     /// The one row that all particles have with each other, if it is one.
@@ -91,11 +107,26 @@ impl CoefficientTable {
         unsafe { N::gather(self.rows.as_ptr().add(place), entry, self.count) }
     }
 
-    /// The stiffest response of an impact between any two of the materials.
-    pub(crate) fn stiffest(&self, law: &Law, radius: f64, mass: f64, speed: f64) -> Option<Response> {
-        let rows = self.rows.chunks_exact(self.count.max(1));
-        let responses = rows.zip(&self.governed).filter(|(_, governed)| **governed);
-        let responses = responses.map(|(row, _)| impact(law, row, radius, mass, speed));
+    /// The stiffest response of an impact between bodies that the scene has.
+    pub(crate) fn stiffest(
+        &self,
+        law: &Law,
+        partners: Partners,
+        radius: f64,
+        mass: f64,
+        speed: f64,
+    ) -> Option<Response> {
+        let meet = |entry: usize| {
+            let (a, b) = (entry / self.materials, entry % self.materials);
+            let there = match partners {
+                Partners::Particles if a == b => self.particles[a] > 1,
+                Partners::Particles => self.particles[a] > 0 && self.particles[b] > 0,
+                Partners::Boundary(material) => a == material as usize && self.particles[b] > 0,
+            };
+            there && self.governed[entry]
+        };
+        let rows = self.rows.chunks_exact(self.count.max(1)).enumerate().filter(|(entry, _)| meet(*entry));
+        let responses = rows.map(|(_, row)| impact(law, row, radius, mass, speed));
         responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
     }
 

@@ -5,7 +5,7 @@
 
 use super::ahead::{Ahead, Kind, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
-use super::coefficients::CoefficientTable;
+use super::coefficients::{CoefficientTable, Partners};
 use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use super::sphere_geometry::SpherePair;
@@ -107,7 +107,7 @@ impl Pass for ContactPass {
     }
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
-        self.table.stiffest(&self.law.law, radius, mass, speed)
+        self.table.stiffest(&self.law.law, Partners::Particles, radius, mass, speed)
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {

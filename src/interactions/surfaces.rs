@@ -6,7 +6,7 @@
 //! thread, and its contacts in the order of the features; loads on the surface are summed piece by piece, in order.
 
 use super::ahead::{Ahead, Link};
-use super::coefficients::CoefficientTable;
+use super::coefficients::{CoefficientTable, Partners};
 use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use super::surface_history::{Past, carry};
@@ -394,7 +394,7 @@ impl Pass for SurfacePass {
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
         // The effective radius and mass are the particle's own, twice those of an equal pair.
-        self.table.stiffest(&self.law, 2.0 * radius, 2.0 * mass, speed)
+        self.table.stiffest(&self.law, Partners::Boundary(self.material), 2.0 * radius, 2.0 * mass, speed)
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {

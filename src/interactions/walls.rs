@@ -5,7 +5,7 @@
 
 use super::ahead::{Ahead, Kind, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
-use super::coefficients::CoefficientTable;
+use super::coefficients::{CoefficientTable, Partners};
 use super::pass::Pass;
 use super::records::{self, ContactRecord};
 use crate::contact::{Contact, Needs, Response};
@@ -332,7 +332,7 @@ impl Pass for WallPass {
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
         // Against a plane the effective radius and mass are the particle's own, twice those of an equal pair.
-        self.table.stiffest(&self.law.law, 2.0 * radius, 2.0 * mass, speed)
+        self.table.stiffest(&self.law.law, Partners::Boundary(self.material), 2.0 * radius, 2.0 * mass, speed)
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
