@@ -3,17 +3,17 @@
 //! Forces and moments are those *of the particles on the boundary*; moments are taken about the boundary's
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
-mod meaning;
+mod findings;
 mod quantity;
+mod rows;
 
+pub use findings::Findings;
 pub use quantity::Quantity;
 
-use crate::motion::Seen;
-use crate::quantity::BoundaryIndex;
-use crate::scene::{Boundary, Scene};
+use crate::scene::Scene;
 use crate::state::State;
-use crate::step::{RunError, Simulation};
-use meaning::Meaning;
+use crate::step::Simulation;
+use rows::Present;
 
 /// Whether a variable is given from outside or computed here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,8 +83,8 @@ pub struct Variable {
     pub minimum: Option<f64>,
     /// Whether its value at the start follows from the start values of the inputs.
     pub follows_inputs_at_start: bool,
-    /// Where its value is found.
-    meaning: Meaning,
+    /// How it is read and written.
+    source: rows::Source,
 }
 
 /// Why a variable was not set.
@@ -128,33 +128,14 @@ pub struct Interface {
 impl Interface {
     /// The variables of a scene.
     pub fn of(scene: &Scene) -> Self {
-        let mut variables = Vec::new();
-        for (index, boundary) in scene.boundaries.iter().enumerate() {
-            let index = BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX));
-            variables.extend(of_boundary(scene, boundary, index).into_iter().map(|meaning| meaning.variable(scene)));
-        }
-        let mut whole = vec![Meaning::KineticEnergy];
-        if !(scene.contacts.is_empty() && scene.bonds.is_empty()) {
-            whole.push(Meaning::ElasticEnergy);
-        }
-        if scene.output.energy {
-            whole.extend([Meaning::DissipatedEnergy, Meaning::EnergyResidual]);
-        }
-        whole.extend([Meaning::ContactCount, Meaning::LargestOverlap]);
-        if !scene.bonds.is_empty() {
-            let energies = [Meaning::BondElasticEnergy, Meaning::BondDissipatedEnergy];
-            whole.extend([Meaning::IntactBonds, Meaning::BrokenBonds].into_iter().chain(energies));
-        }
-        whole.extend([Meaning::TimeStep, Meaning::StableStep]);
-        variables.extend(whole.into_iter().map(|meaning| meaning.variable(scene)));
-        Self { variables }
+        Self { variables: rows::variables(scene) }
     }
 
     /// The same variables, with the start values of a scene that begins in this state.
     pub fn starting_in(mut self, state: &State) -> Self {
         for variable in &mut self.variables {
-            if let (Causality::Input, Some((boundary, axis))) = (variable.causality, variable.meaning.axis()) {
-                variable.start = Some(state.boundaries[boundary.index()].target[axis]);
+            if let Some(write) = variable.source.row.write {
+                variable.start = Some((write.held)(state, variable.source.at));
             }
         }
         self
@@ -193,7 +174,13 @@ impl Interface {
 
     /// The present value of the variable at an index of the table.
     pub fn value(&self, simulation: &Simulation, index: usize) -> Value {
-        self.variables[index].meaning.value(simulation)
+        self.value_with(simulation, &Findings::default(), index)
+    }
+
+    /// The same, where several values are asked for: what was found for one serves the others.
+    pub fn value_with(&self, simulation: &Simulation, findings: &Findings, index: usize) -> Value {
+        let rows::Source { row, at } = self.variables[index].source;
+        (row.read)(Present { simulation, findings }, at)
     }
 
     /// Whether the variable at an index may be set to a value.
@@ -211,8 +198,9 @@ impl Interface {
     /// Sets an input; it takes effect in the next communication step.
     pub fn set(&self, simulation: &mut Simulation, index: usize, value: Value) -> Result<(), InterfaceError> {
         self.check(index, value.number())?;
-        if let Some((boundary, axis)) = self.variables[index].meaning.axis() {
-            simulation.set_displacement(boundary, axis, value.number());
+        let rows::Source { row, at } = self.variables[index].source;
+        if let Some(write) = row.write {
+            (write.set)(simulation, at, value.number());
         }
         Ok(())
     }
@@ -221,49 +209,12 @@ impl Interface {
     /// \[unit of the input/s\].
     pub fn set_rate(&self, simulation: &mut Simulation, index: usize, rate: f64) -> Result<(), InterfaceError> {
         self.check(index, rate)?;
-        if let Some((boundary, axis)) = self.variables[index].meaning.axis() {
-            simulation.set_displacement_rate(boundary, axis, rate);
+        let rows::Source { row, at } = self.variables[index].source;
+        if let Some(write) = row.write {
+            (write.set_rate)(simulation, at, rate);
         }
         Ok(())
     }
-
-    /// Takes the boundaries to the present values of the inputs without motion, before the first communication
-    /// step. If the scene cannot start so, nothing has changed.
-    pub fn place(&self, simulation: &mut Simulation) -> Result<(), RunError> {
-        let before = simulation.state().clone();
-        let mut starts = Vec::new();
-        for (_, variable) in self.inputs() {
-            if let Some((boundary, axis)) = variable.meaning.axis() {
-                starts.push((boundary, axis, before.boundaries[boundary.index()].target[axis]));
-            }
-        }
-        simulation.place(&starts).inspect_err(|_| simulation.restore(&before))
-    }
-}
-
-/// What the outside gives to and gets from one boundary, inputs first.
-fn of_boundary(scene: &Scene, boundary: &Boundary, index: BoundaryIndex) -> Vec<Meaning> {
-    let axes = &scene.boundaries[index.index()].axes;
-    let place = |axis: usize| match axis {
-        0..3 => Meaning::Displacement(index, axis),
-        _ => Meaning::Rotation(index, axis - 3),
-    };
-    let rate = |axis: usize| match axis {
-        0..3 => Meaning::Velocity(index, axis),
-        _ => Meaning::AngularVelocity(index, axis - 3),
-    };
-    let of = |seen: &'static [Seen]| (0..6).filter(move |&axis| seen.contains(&axes[axis].seen()));
-    let mut list: Vec<Meaning> = of(&[Seen::Input]).map(place).collect();
-    list.extend(of(&[Seen::Place, Seen::PlaceAndRate]).map(place));
-    list.extend(of(&[Seen::PlaceAndRate]).map(rate));
-    for load in [Meaning::Force, Meaning::Moment, Meaning::MeanForce, Meaning::MeanMoment] {
-        list.extend((0..3).map(|axis| load(index, axis)));
-    }
-    list.push(Meaning::Work(index));
-    if !boundary.shape.members().is_empty() {
-        list.push(Meaning::Mass(index));
-    }
-    list
 }
 
 #[cfg(test)]

@@ -225,6 +225,12 @@ pub enum RunError {
         /// How far it would jump \[m\].
         way: f64,
     },
+    /// Whoever asked for it wants no more of it.
+    #[error("stopped at t = {time} s, as asked for")]
+    Stopped {
+        /// Time \[s\].
+        time: f64,
+    },
     /// An interval that is no interval.
     #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
     Interval {

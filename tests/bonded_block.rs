@@ -116,7 +116,7 @@ fn a_state_that_went_through_bytes_continues_with_the_same_bits() {
         let bytes = unbroken.state().to_bytes(scene.fingerprint);
         run(&mut unbroken, 12);
         let state = State::from_bytes(&bytes, scene.fingerprint).expect("the bytes are whole");
-        let mut resumed = Simulation::resume(scene, state);
+        let mut resumed = Simulation::resume(scene, state).unwrap();
         run(&mut resumed, 12);
         assert_eq!(resumed.state().fingerprint(), unbroken.state().fingerprint(), "{formulation}");
     }

@@ -70,11 +70,11 @@ fn coefficients_are_saved_and_restored_and_the_run_continues_bit_for_bit() {
     simulation.advance(1e-3).unwrap();
     let bytes = simulation.state().to_bytes(7);
     simulation.advance(1e-3).unwrap();
-    let mut resumed = Simulation::resume(scene.clone(), State::from_bytes(&bytes, 7).unwrap());
+    let mut resumed = Simulation::resume(scene.clone(), State::from_bytes(&bytes, 7).unwrap()).unwrap();
     resumed.advance(1e-3).unwrap();
     assert_eq!(resumed.state().fingerprint(), simulation.state().fingerprint());
     // Back to before the change, friction is the scene's again.
-    simulation.restore(&before);
+    simulation.restore(&before).unwrap();
     simulation.advance(1e-3).unwrap();
     let mut untouched = Simulation::new(scene).unwrap();
     untouched.advance(1e-3).unwrap();

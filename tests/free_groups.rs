@@ -452,7 +452,7 @@ fn a_saved_free_group_continues_bit_for_bit() {
         whole.advance(5e-3).expect("it runs");
         let bytes = whole.state().to_bytes(7);
         let saved = State::from_bytes(&bytes, 7).expect("it reads back");
-        let mut resumed = Simulation::resume(Arc::clone(whole.scene()), saved);
+        let mut resumed = Simulation::resume(Arc::clone(whole.scene()), saved).unwrap();
         for simulation in [&mut whole, &mut resumed] {
             simulation.set_displacement(FIRST, 2, -1e-5);
             simulation.set_displacement(FIRST, 3, 0.1);

@@ -294,7 +294,7 @@ fn threads_widths_and_saved_states_give_the_same_bits_and_the_book_closes() {
     assert!(residual.abs() < 1e-12 * turnover, "{residual:e} J of {turnover:e} J");
 
     let state = State::from_bytes(&bytes, first.scene().fingerprint).expect("the bytes are whole");
-    let mut resumed = Simulation::resume(first.scene().clone(), state);
+    let mut resumed = Simulation::resume(first.scene().clone(), state).unwrap();
     run(&mut resumed, 12);
     assert_eq!(resumed.state().fingerprint(), expected, "through bytes");
     for threads in 2..=4 {

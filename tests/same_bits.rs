@@ -129,11 +129,11 @@ fn a_state_that_went_through_bytes_continues_with_the_same_bits() {
     run(&mut unbroken, 8..15);
 
     let state = State::from_bytes(&bytes, scene.fingerprint).expect("the bytes are whole");
-    let mut resumed = Simulation::resume(scene, state.clone());
+    let mut resumed = Simulation::resume(scene, state.clone()).unwrap();
     run(&mut resumed, 8..15);
     assert_eq!(resumed.state().fingerprint(), unbroken.state().fingerprint());
 
-    unbroken.restore(&state);
+    unbroken.restore(&state).unwrap();
     run(&mut unbroken, 8..15);
     assert_eq!(unbroken.state().fingerprint(), resumed.state().fingerprint());
 }

@@ -381,7 +381,8 @@ fn a_plane_that_turns_carries_a_sphere_like_one_that_stood_there_before() {
     let (sine, cosine) = 0.3_f64.sin_cos();
     let near = RADIUS - 5e-5;
     let mut simulation = Simulation::new(scene(&[[near * sine, 0.0, near * cosine]], SMOOTH, turned, &[])).unwrap();
-    simulation.place(&[(BoundaryIndex(0), 4, 0.3)]).unwrap();
+    simulation.set_displacement(BoundaryIndex(0), 4, 0.3);
+    simulation.place(None).unwrap();
     let [x, y, z, _] = simulation.state().particles.force[0];
     assert_same([x, y, z], [sine, 0.0, cosine].map(|part| part * hertz(5e-5)), 1e-11);
 }
@@ -489,7 +490,7 @@ fn threads_and_a_saved_state_give_the_same_bits() {
     let mut two = Simulation::new(tumbling(2)).unwrap();
     run(&mut two, 1..100);
     assert_eq!(one.state().fingerprint(), two.state().fingerprint());
-    let mut again = Simulation::resume(tumbling(1), middle);
+    let mut again = Simulation::resume(tumbling(1), middle).unwrap();
     run(&mut again, 60..100);
     assert_eq!(one.state().fingerprint(), again.state().fingerprint());
 }

@@ -1,16 +1,17 @@
 //! Between C and the instance: null, wrong calls and panics become a status.
 
 use crate::calls::Call;
+use crate::floating_point;
 use crate::instance::Instance;
 use crate::logger::Logger;
 use crate::refusal::Refusal;
-use crate::types::{Component, Status, Text};
+use crate::types::{Component, Status};
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::ffi::CStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, Once, PoisonError, RwLock, TryLockError};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, Once, PoisonError, TryLockError, TryLockResult};
+use std::time::{Duration, Instant};
 
 /// An instance and where it reports to.
 pub(crate) struct Guarded {
@@ -18,10 +19,51 @@ pub(crate) struct Guarded {
     pub(crate) instance: Mutex<Instance>,
     /// Its logger.
     pub(crate) logger: Logger,
+    /// Set to end the communication step under way.
+    pub(crate) stop: Arc<AtomicBool>,
+}
+
+impl Guarded {
+    /// An instance that reports to a logger.
+    pub(crate) fn new(instance: Instance, logger: Logger) -> Self {
+        let stop = instance.stop();
+        Self { instance: Mutex::new(instance), logger, stop }
+    }
 }
 
 /// All instances, by the numbers that hosts know them by. Those of freed and foreign ones are not in it.
-static INSTANCES: RwLock<BTreeMap<usize, Arc<Guarded>>> = RwLock::new(BTreeMap::new());
+static INSTANCES: Mutex<BTreeMap<usize, Arc<Guarded>>> = Mutex::new(BTreeMap::new());
+
+/// How long the table of instances is waited for. It is held for a moment at a time, unless the process was forked in
+/// just that moment: then nobody is left to give it back, and calls are refused.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Does something with the table of instances; `None` if it cannot be had.
+fn with_instances<T>(action: impl FnOnce(&mut BTreeMap<usize, Arc<Guarded>>) -> T) -> Option<T> {
+    let mut action = Some(action);
+    let mut attempt = |table: TryLockResult<_>| {
+        let mut table: std::sync::MutexGuard<'_, _> = match table {
+            Ok(table) => table,
+            Err(TryLockError::Poisoned(poisoned)) => PoisonError::into_inner(poisoned),
+            Err(TryLockError::WouldBlock) => return None,
+        };
+        action.take().map(|action| action(&mut table))
+    };
+    let mut result = attempt(INSTANCES.try_lock());
+    if result.is_none() {
+        let begun = Instant::now();
+        while result.is_none() && begun.elapsed() < PATIENCE {
+            std::thread::yield_now();
+            result = attempt(INSTANCES.try_lock());
+        }
+    }
+    result
+}
+
+/// The instance that a host knows by this.
+fn find(component: Component) -> Option<Arc<Guarded>> {
+    with_instances(|instances| instances.get(&component.addr()).map(Arc::clone)).flatten()
+}
 
 /// A number by which a host knows an instance or a state: none is given out twice, not even after it was freed,
 /// and other libraries in the process, those of other units included, give out others.
@@ -31,18 +73,36 @@ pub(crate) fn fresh_address() -> usize {
     (&raw const COUNT).addr().wrapping_add(COUNT.fetch_add(1, Ordering::Relaxed))
 }
 
-/// Enters an instance; yields what the host is to know it by.
+/// Enters an instance; yields what the host is to know it by, null if it cannot be entered.
 pub(crate) fn enter(guarded: Guarded) -> Component {
     let address = fresh_address();
-    INSTANCES.write().unwrap_or_else(PoisonError::into_inner).insert(address, Arc::new(guarded));
-    std::ptr::without_provenance_mut(address)
+    match with_instances(|instances| instances.insert(address, Arc::new(guarded))) {
+        Some(_) => std::ptr::without_provenance_mut(address),
+        None => std::ptr::null_mut(),
+    }
 }
 
-/// Removes and drops an instance, which ends its threads.
+/// Removes and drops an instance, which ends its threads. A communication step under way on another thread ends after
+/// its present time step.
 pub(crate) fn leave(component: Component) {
-    let guarded = INSTANCES.write().unwrap_or_else(PoisonError::into_inner).remove(&component.addr());
-    // a host must not see a panic, and there is nobody left to tell
-    let _ = catch_unwind(AssertUnwindSafe(|| drop(guarded)));
+    floating_point::standard(|| {
+        let guarded = with_instances(|instances| instances.remove(&component.addr())).flatten();
+        if let Some(guarded) = &guarded {
+            guarded.stop.store(true, Ordering::Relaxed);
+        }
+        // a host must not see a panic, and there is nobody left to tell
+        let _ = catch_unwind(AssertUnwindSafe(|| drop(guarded)));
+    });
+}
+
+/// Ends the communication step under way on another thread; refused where there is none.
+pub(crate) fn cancel(component: Component, function: &Call) -> Status {
+    let Some(guarded) = find(component) else { return Status::Error };
+    if matches!(guarded.instance.try_lock(), Err(TryLockError::WouldBlock)) {
+        guarded.stop.store(true, Ordering::Relaxed);
+        return Status::Ok;
+    }
+    call(component, function, |_, _| Err(Refusal::NothingToCancel))
 }
 
 /// Runs a function on an instance. Whatever goes wrong is reported to the host's logger.
@@ -51,15 +111,16 @@ pub(crate) fn call(
     call: &Call,
     action: impl FnOnce(&mut Instance, &Logger) -> Result<(), Refusal>,
 ) -> Status {
-    let found = INSTANCES.read().unwrap_or_else(PoisonError::into_inner).get(&component.addr()).map(Arc::clone);
-    let Some(guarded) = found else { return Status::Error };
-    match run(&guarded, call, action) {
-        Ok(()) => Status::Ok,
-        Err(refusal) => {
-            guarded.logger.refused(call.name, &refusal);
-            refusal.status()
+    floating_point::standard(|| {
+        let Some(guarded) = find(component) else { return Status::Error };
+        match run(&guarded, call, action) {
+            Ok(()) => Status::Ok,
+            Err(refusal) => {
+                guarded.logger.refused(call.name, &refusal);
+                refusal.status()
+            }
         }
-    }
+    })
 }
 
 /// Runs a function on an instance, if it may be called now.
@@ -99,61 +160,4 @@ pub(crate) fn silence_panics() {
             std::panic::set_hook(Box::new(|_| ()));
         }
     });
-}
-
-/// The elements of a C array, which may be null if there are none.
-///
-/// # Safety
-/// `length` elements must stand at `pointer` if it is not null, and nobody may write them during `'a`.
-pub(crate) unsafe fn slice<'a, T>(
-    argument: &'static str,
-    pointer: *const T,
-    length: usize,
-) -> Result<&'a [T], Refusal> {
-    fits::<T>(argument, pointer.is_null(), length)?;
-    // SAFETY: as the caller promises; the size was checked above.
-    Ok(if length == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, length) } })
-}
-
-/// The elements of a C array to be written, which may be null if there are none.
-///
-/// # Safety
-/// `length` elements must stand at `pointer` if it is not null, and nobody else may use them during `'a`.
-pub(crate) unsafe fn slice_mut<'a, T>(
-    argument: &'static str,
-    pointer: *mut T,
-    length: usize,
-) -> Result<&'a mut [T], Refusal> {
-    fits::<T>(argument, pointer.is_null(), length)?;
-    // SAFETY: as the caller promises; the size was checked above.
-    Ok(if length == 0 { &mut [] } else { unsafe { std::slice::from_raw_parts_mut(pointer, length) } })
-}
-
-/// Whether an array can be.
-fn fits<T>(argument: &'static str, is_null: bool, length: usize) -> Result<(), Refusal> {
-    if length > 0 && is_null {
-        return Err(Refusal::Null { argument });
-    }
-    if length > isize::MAX.unsigned_abs() / size_of::<T>().max(1) {
-        return Err(Refusal::Length { argument, length });
-    }
-    Ok(())
-}
-
-/// What a pointer points to, to be written.
-///
-/// # Safety
-/// A `T` must stand at `pointer` if it is not null, and nobody else may use it during `'a`.
-pub(crate) unsafe fn target<'a, T>(argument: &'static str, pointer: *mut T) -> Result<&'a mut T, Refusal> {
-    // SAFETY: as the caller promises.
-    unsafe { pointer.as_mut() }.ok_or(Refusal::Null { argument })
-}
-
-/// A C string; none if it is null.
-///
-/// # Safety
-/// A string that ends in a zero must stand at `text` if it is not null.
-pub(crate) unsafe fn text(text: Text) -> Option<String> {
-    // SAFETY: as the caller promises.
-    (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
 }

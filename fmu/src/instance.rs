@@ -2,21 +2,27 @@
 
 use crate::calls::Phase;
 use crate::guard;
+use crate::host_memory::{Items, Target};
 use crate::location::{self, LocationError};
 use crate::refusal::Refusal;
-use crate::saved::{Course, Saved};
+use crate::saved::{BlobError, Course, Saved};
 use crate::types::{Reference, Status};
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Interface, Value, Variable};
+use cograin::interface::{Findings, Interface, Value, Variable};
 use cograin::scene::{Scene, SceneErrors};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
 use cograin::step::{RunError, Simulation};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Time steps in one communication step beyond which the host is taken to be in error: days of computing.
-const MOST_STEPS: f64 = 1e12;
+/// What one communication step may take: time steps times particles, with [`SMALL`] more particles for what a time step
+/// costs whatever is in it. Some hours of computing; a host that asks for more is taken to be in error.
+const MOST_WORK: f64 = 1e12;
+
+/// As many particles cost as much as everything else in a time step of a small scene.
+const SMALL: f64 = 1000.0;
 
 /// Why there is no instance.
 #[derive(Debug, thiserror::Error)]
@@ -111,10 +117,15 @@ impl Unit {
     }
 
     /// A simulation at its beginning.
-    fn begin(&self) -> Result<Simulation, RunError> {
+    fn begin(&self) -> Result<Simulation, StartError> {
         match &self.start {
-            Some(state) => Ok(Simulation::resume(Arc::clone(&self.scene), state.clone())),
-            None => Simulation::new(Arc::clone(&self.scene)),
+            Some(state) => {
+                let resumed = Simulation::resume(Arc::clone(&self.scene), state.clone());
+                let mut simulation = resumed.map_err(SnapshotError::from)?;
+                simulation.open_books();
+                Ok(simulation)
+            }
+            None => Ok(Simulation::new(Arc::clone(&self.scene))?),
         }
     }
 }
@@ -137,6 +148,12 @@ pub(crate) struct Instance {
     course: Course,
     /// Saved states, by the numbers that the host knows them by.
     kept: BTreeMap<usize, Kept>,
+    /// What has been found of the simulation since it last changed.
+    findings: Findings,
+    /// The values that are being handed out.
+    values: Vec<Value>,
+    /// Set to end the communication step under way.
+    stop: Arc<AtomicBool>,
 }
 
 impl Instance {
@@ -145,7 +162,23 @@ impl Instance {
         let unit = Unit::read(request)?;
         let simulation = unit.begin()?;
         let course = Self::at_the_beginning(&simulation);
-        Ok(Self { unit, simulation, course, kept: BTreeMap::new() })
+        let stop = Arc::<AtomicBool>::default();
+        let mut instance = Self {
+            unit,
+            simulation,
+            course,
+            kept: BTreeMap::new(),
+            findings: Findings::default(),
+            values: Vec::new(),
+            stop,
+        };
+        instance.simulation.stop_when(&instance.stop);
+        Ok(instance)
+    }
+
+    /// What ends the communication step under way when it is set.
+    pub(crate) fn stop(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.stop)
     }
 
     /// Before anything was set.
@@ -215,7 +248,9 @@ impl Instance {
 
     /// `fmi2Reset`. Saved states stay.
     pub(crate) fn reset(&mut self) -> Result<(), Refusal> {
-        self.simulation = self.unit.begin().map_err(Refusal::Start)?;
+        self.simulation = self.unit.begin().map_err(|error| Refusal::Reset { error: error.to_string() })?;
+        self.simulation.stop_when(&self.stop);
+        self.findings = Findings::default();
         self.course = Self::at_the_beginning(&self.simulation);
         Ok(())
     }
@@ -223,7 +258,8 @@ impl Instance {
     /// Takes the boundaries to the start values of the inputs, without motion.
     fn place(&mut self) -> Result<(), Refusal> {
         if !self.course.placed {
-            self.unit.interface.place(&mut self.simulation).map_err(Refusal::Start)?;
+            self.findings = Findings::default();
+            self.simulation.place(self.unit.start.as_ref()).map_err(Refusal::Start)?;
             self.course.placed = true;
         }
         Ok(())
@@ -242,18 +278,24 @@ impl Instance {
     }
 
     /// Values of variables of one type.
-    pub(crate) fn values(&mut self, references: &[Reference], kind: &'static str) -> Result<Vec<Value>, Refusal> {
-        for &reference in references {
+    pub(crate) fn values(&mut self, references: Items<Reference>, kind: &'static str) -> Result<&[Value], Refusal> {
+        for reference in references.iter() {
             self.variable(reference, kind)?;
         }
         self.place()?;
-        references.iter().map(|&reference| self.value(reference, kind)).collect()
+        let mut values = std::mem::take(&mut self.values);
+        values.clear();
+        for reference in references.iter() {
+            values.push(self.value(reference, kind)?);
+        }
+        self.values = values;
+        Ok(&self.values)
     }
 
     /// Value of one variable, if it is a number.
     fn value(&self, reference: Reference, kind: &'static str) -> Result<Value, Refusal> {
         let (index, variable) = self.variable(reference, kind)?;
-        let value = self.unit.interface.value(&self.simulation, index);
+        let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
         if value.number().is_finite() {
             Ok(value)
         } else {
@@ -262,23 +304,23 @@ impl Instance {
     }
 
     /// `fmi2SetReal`: all or nothing.
-    pub(crate) fn set_reals(&mut self, references: &[Reference], values: &[f64]) -> Result<(), Refusal> {
-        for (&reference, &value) in references.iter().zip(values) {
+    pub(crate) fn set_reals(&mut self, references: Items<Reference>, values: Items<f64>) -> Result<(), Refusal> {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let (index, _) = self.variable(reference, "Real")?;
             self.unit.interface.check(index, value)?;
         }
-        for (&reference, &value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             self.unit.interface.set(&mut self.simulation, reference as usize, Value::Real(value))?;
-        }
-        if matches!(self.course.phase, Phase::Instantiated | Phase::Initialization) && !references.is_empty() {
-            self.course.placed = false;
+            if matches!(self.course.phase, Phase::Instantiated | Phase::Initialization) {
+                self.course.placed = false;
+            }
         }
         Ok(())
     }
 
     /// The other setters: there are no inputs of these types, so every reference is a wrong one.
-    pub(crate) fn refuse_to_set(&self, references: &[Reference], kind: &'static str) -> Result<(), Refusal> {
-        for &reference in references {
+    pub(crate) fn refuse_to_set(&self, references: Items<Reference>, kind: &'static str) -> Result<(), Refusal> {
+        for reference in references.iter() {
             let (index, _) = self.variable(reference, kind)?;
             self.unit.interface.check(index, 0.0)?;
         }
@@ -286,15 +328,20 @@ impl Instance {
     }
 
     /// `fmi2SetRealInputDerivatives`: all or nothing.
-    pub(crate) fn set_rates(&mut self, references: &[Reference], orders: &[i32], rates: &[f64]) -> Result<(), Refusal> {
-        for ((&reference, &order), &rate) in references.iter().zip(orders).zip(rates) {
+    pub(crate) fn set_rates(
+        &mut self,
+        references: Items<Reference>,
+        orders: Items<i32>,
+        rates: Items<f64>,
+    ) -> Result<(), Refusal> {
+        for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
             if order != 1 {
                 return Err(Refusal::Order { order, reference, name: variable.name.clone() });
             }
             self.unit.interface.check(index, rate)?;
         }
-        for (&reference, &rate) in references.iter().zip(rates) {
+        for (reference, rate) in references.iter().zip(rates.iter()) {
             self.unit.interface.set_rate(&mut self.simulation, reference as usize, rate)?;
         }
         Ok(())
@@ -320,18 +367,18 @@ impl Instance {
             return Err(Refusal::Stop { end: present + length, stop });
         }
         let step = self.simulation.state().clock.step;
-        if length / step > MOST_STEPS {
-            return Err(Refusal::TooMany { length, count: length / step, step, most: MOST_STEPS });
+        let most = (MOST_WORK / (SMALL + self.unit.scene.particles.len() as f64)).floor();
+        if length / step > most {
+            return Err(Refusal::TooMany { length, count: length / step, step, most });
         }
-        // a time step that fails may leave numbers behind that are none; nobody is to read them
-        let before = self.simulation.state().clone();
-        match self.simulation.advance(length) {
+        self.stop.store(false, Ordering::Relaxed);
+        self.findings = Findings::default();
+        match self.simulation.advance_or_return(length) {
             Ok(()) => {
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);
                 Ok(())
             }
             Err(cause) => {
-                self.simulation.restore(&before);
                 (self.course.phase, self.course.last_step) = (Phase::Discarded, Status::Discard);
                 Err(Refusal::Discarded { cause, time: self.time() })
             }
@@ -361,7 +408,8 @@ impl Instance {
     /// `fmi2SetFMUstate`
     pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
         let kept = self.kept.get(&address).ok_or(Refusal::Handle)?;
-        self.simulation.restore(&kept.saved.state);
+        self.findings = Findings::default();
+        self.simulation.restore(&kept.saved.state).map_err(|fault| BlobError::State(fault.into()))?;
         self.course = kept.saved.course;
         Ok(())
     }
@@ -389,13 +437,15 @@ impl Instance {
     }
 
     /// `fmi2SerializeFMUstate`: a large buffer is filled to the number of bytes there are.
-    pub(crate) fn serialize(&mut self, address: usize, buffer: &mut [u8]) -> Result<(), Refusal> {
+    pub(crate) fn serialize(&mut self, address: usize, buffer: &Target<u8>) -> Result<(), Refusal> {
         let given = buffer.len();
         let kept = self.bytes(address)?;
         let needed = kept.as_ref().map_or(0, Vec::len);
-        let Some(target) = buffer.get_mut(..needed) else { return Err(Refusal::Size { given, needed }) };
+        if given < needed {
+            return Err(Refusal::Size { given, needed });
+        }
         // the bytes are as large as the state; they are made again if they are asked for again
-        target.copy_from_slice(&kept.take().unwrap_or_default());
+        buffer.put_all(&kept.take().unwrap_or_default());
         Ok(())
     }
 
@@ -405,6 +455,7 @@ impl Instance {
             return Err(Refusal::Handle);
         }
         let saved = Saved::from_bytes(bytes, &self.unit.identity, self.unit.scene.fingerprint)?;
+        self.simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
         Ok(self.keep(saved, address))
     }
 }

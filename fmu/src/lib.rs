@@ -9,7 +9,9 @@
 #![allow(clippy::missing_safety_doc, reason = "the demands are those of FMI 2.0, stated above once for all functions")]
 
 mod calls;
+mod floating_point;
 mod guard;
+mod host_memory;
 mod instance;
 mod location;
 mod logger;
@@ -19,19 +21,15 @@ mod types;
 pub mod values;
 
 use cograin::export::LIBRARY_MARK;
-use guard::{Guarded, call, slice, slice_mut, target, text};
+use guard::{Guarded, call};
+use host_memory::{Items, Target, text};
 use instance::{Instance, Request};
 use logger::Logger;
 use refusal::Refusal;
 use std::ffi::{CStr, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, null_mut};
-use std::sync::Mutex;
 use types::{Boolean, Callbacks, Component, StateHandle, Status, Text};
-
-/// Large arrays begin at different places of a page.
-#[global_allocator]
-static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
 
 /// Tells `cograin export` that this is the right library.
 #[used]
@@ -65,16 +63,20 @@ pub unsafe extern "C" fn fmi2Instantiate(
     logging: Boolean,
 ) -> Component {
     guard::silence_panics();
-    // SAFETY: demands of FMI 2.0.
-    let (callbacks, label) = unsafe { (functions.as_ref(), if name.is_null() { c"" } else { CStr::from_ptr(name) }) };
+    // SAFETY: demands of FMI 2.0. The callbacks are copied: the host may free its own after this call.
+    let (callbacks, label) = unsafe {
+        let callbacks = if functions.is_null() { None } else { Some(functions.read_unaligned()) };
+        (callbacks, if name.is_null() { c"" } else { CStr::from_ptr(name) })
+    };
     let Some(callbacks) = callbacks else { return null_mut() };
-    let logger = Logger::new(*callbacks, label, logging != 0);
+    let logger = Logger::new(callbacks, label, logging != 0);
     // SAFETY: demands of FMI 2.0.
     let request = unsafe { Request { name: text(name), kind, identity: text(guid), location: text(location) } };
-    match catch_unwind(AssertUnwindSafe(|| Instance::new(&request))) {
+    let made = || catch_unwind(AssertUnwindSafe(|| Instance::new(&request)));
+    match floating_point::standard(made) {
         Ok(Ok(instance)) => {
             logger.event(|| format!("fmi2Instantiate: {}", instance.about()));
-            guard::enter(Guarded { instance: Mutex::new(instance), logger })
+            guard::enter(Guarded::new(instance, logger))
         }
         Ok(Err(error)) => {
             logger.failed("fmi2Instantiate", &error.to_string());
@@ -103,7 +105,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     call(component, &calls::SET_DEBUG_LOGGING, |_, logger| {
         // SAFETY: demands of FMI 2.0.
-        let names = unsafe { slice("categories", categories, count)?.iter().map(|&name| text(name)) };
+        let names = unsafe { Items::new("categories", categories, count)?.iter().map(|name| text(name)) };
         let names = names.collect::<Option<Vec<_>>>().ok_or(Refusal::Null { argument: "a category" })?;
         logger.want(on != 0, &names)
     })
@@ -164,8 +166,12 @@ pub extern "C" fn fmi2Reset(component: Component) -> Status {
 pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut StateHandle) -> Status {
     call(component, &calls::GET_STATE, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let handle = unsafe { target("FMUstate", state)? };
-        *handle = ptr::without_provenance_mut(instance.save(handle.addr())?);
+        let (target, handle) = unsafe {
+            let target = Target::one("FMUstate", state)?;
+            let handle = target.first();
+            (target, handle)
+        };
+        target.put(0, ptr::without_provenance_mut(instance.save(handle.addr())?));
         Ok(())
     })
 }
@@ -184,9 +190,13 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut Stat
             return Ok(());
         }
         // SAFETY: demands of FMI 2.0.
-        let handle = unsafe { target("FMUstate", state)? };
+        let (target, handle) = unsafe {
+            let target = Target::one("FMUstate", state)?;
+            let handle = target.first();
+            (target, handle)
+        };
         instance.forget(handle.addr())?;
-        *handle = null_mut();
+        target.put(0, null_mut());
         Ok(())
     })
 }
@@ -200,7 +210,8 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     call(component, &calls::SERIALIZED_SIZE, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        *unsafe { target("size", size)? } = instance.serialized_size(state.addr())?;
+        let target = unsafe { Target::one("size", size)? };
+        target.put(0, instance.serialized_size(state.addr())?);
         Ok(())
     })
 }
@@ -215,8 +226,8 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> Status {
     call(component, &calls::SERIALIZE, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let buffer = unsafe { slice_mut("serializedState", bytes.cast::<u8>(), size)? };
-        instance.serialize(state.addr(), buffer)
+        let buffer = unsafe { Target::array("serializedState", bytes.cast::<u8>(), size)? };
+        instance.serialize(state.addr(), &buffer)
     })
 }
 
@@ -230,9 +241,12 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> Status {
     call(component, &calls::DESERIALIZE, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (bytes, handle) =
-            unsafe { (slice("serializedState", bytes.cast::<u8>(), size)?, target("FMUstate", state)?) };
-        *handle = ptr::without_provenance_mut(instance.deserialize(bytes, handle.addr())?);
+        let (bytes, target, handle) = unsafe {
+            let target = Target::one("FMUstate", state)?;
+            let handle = target.first();
+            (Items::new("serializedState", bytes.cast::<u8>(), size)?, target, handle)
+        };
+        target.put(0, ptr::without_provenance_mut(instance.deserialize(&bytes.to_vec(), handle.addr())?));
         Ok(())
     })
 }

@@ -107,7 +107,10 @@ pub(crate) enum Refusal {
         stop: f64,
     },
     /// A communication step that nobody would see the end of.
-    #[error("a step of {length} s is {count:.1e} time steps of {step:.2e} s; at most {most:.0e} are right")]
+    #[error(
+        "a step of {length} s is {count:.1e} time steps of {step:.2e} s, days of computing in which the host cannot \
+         stop; at most {most:.1e} in one fmi2DoStep are right"
+    )]
     TooMany {
         /// Length of the communication step \[s\].
         length: f64,
@@ -145,11 +148,19 @@ pub(crate) enum Refusal {
         kind: i32,
     },
     /// `fmi2CancelStep`
-    #[error("no communication step is under way: fmi2DoStep returns when it is done")]
+    #[error(
+        "no communication step is under way: fmi2DoStep returns when it is done; a call from another thread while it runs is right"
+    )]
     NothingToCancel,
     /// The scene cannot start so.
     #[error(transparent)]
     Start(RunError),
+    /// The unit does not begin anew.
+    #[error("{error}")]
+    Reset {
+        /// Why.
+        error: String,
+    },
     /// A communication step failed.
     #[error("{cause}; the state is that of {time} s")]
     Discarded {

@@ -112,6 +112,9 @@ impl Saved {
             let found = String::from_utf8_lossy(found).into_owned();
             return Err(BlobError::Unit { found, expected: identity.to_owned() });
         }
+        if !origin.is_finite() || stop.is_nan() || stop == f64::NEG_INFINITY || placed > 1 {
+            return Err(BlobError::Damaged);
+        }
         let course = Course {
             phase: phase_of(phase)?,
             placed: placed != 0,

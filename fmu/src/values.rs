@@ -1,7 +1,8 @@
 //! The functions that read and set variables, derivatives and status.
 
 use crate::calls::{self, Call};
-use crate::guard::{call, slice, slice_mut, target};
+use crate::guard::{call, cancel};
+use crate::host_memory::{Items, Target};
 use crate::refusal::Refusal;
 use crate::types::{
     Boolean, Component, LAST_SUCCESSFUL_TIME, PENDING_STATUS, Reference, STEP_STATUS, Status, TERMINATED, Text,
@@ -13,7 +14,7 @@ use std::ffi::c_int;
 ///
 /// # Safety
 /// As FMI 2.0 demands of the arrays.
-unsafe fn get<T>(
+unsafe fn get<T: Copy>(
     component: Component,
     function: &Call,
     kind: &'static str,
@@ -22,10 +23,10 @@ unsafe fn get<T>(
 ) -> Status {
     call(component, function, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (references, targets) = unsafe { (slice("vr", references, count)?, slice_mut("value", values, count)?) };
-        let values = instance.values(references, kind)?;
-        for (target, value) in targets.iter_mut().zip(values) {
-            *target = convert(value);
+        let (references, targets) =
+            unsafe { (Items::new("vr", references, count)?, Target::array("value", values, count)?) };
+        for (place, value) in instance.values(references, kind)?.iter().enumerate() {
+            targets.put(place, convert(*value));
         }
         Ok(())
     })
@@ -93,7 +94,8 @@ pub unsafe extern "C" fn fmi2SetReal(
 ) -> Status {
     call(component, &calls::SET_REAL, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (references, values) = unsafe { (slice("vr", references, count)?, slice("value", values, count)?) };
+        let (references, values) =
+            unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
         instance.set_reals(references, values)
     })
 }
@@ -102,7 +104,7 @@ pub unsafe extern "C" fn fmi2SetReal(
 ///
 /// # Safety
 /// As FMI 2.0 demands of the arrays.
-unsafe fn refuse_to_set<T>(
+unsafe fn refuse_to_set<T: Copy>(
     component: Component,
     function: &Call,
     kind: &'static str,
@@ -111,8 +113,8 @@ unsafe fn refuse_to_set<T>(
     call(component, function, |instance, _| {
         // SAFETY: demands of FMI 2.0.
         let references = unsafe {
-            slice("value", values, count)?;
-            slice("vr", references, count)?
+            Items::new("value", values, count)?;
+            Items::new("vr", references, count)?
         };
         instance.refuse_to_set(references, kind)
     })
@@ -166,7 +168,11 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     call(component, &calls::SET_INPUT_DERIVATIVES, |instance, _| {
         // SAFETY: demands of FMI 2.0.
         let (references, orders, values) = unsafe {
-            (slice("vr", references, count)?, slice("order", orders, count)?, slice("value", values, count)?)
+            (
+                Items::new("vr", references, count)?,
+                Items::new("order", orders, count)?,
+                Items::new("value", values, count)?,
+            )
         };
         instance.set_rates(references, orders, values)
     })
@@ -202,10 +208,10 @@ pub extern "C" fn fmi2GetDirectionalDerivative(
     })
 }
 
-/// `fmi2CancelStep`: there is never a step to cancel.
+/// `fmi2CancelStep`: from another thread it ends the `fmi2DoStep` under way, which then returns `fmi2Discard`.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2CancelStep(component: Component) -> Status {
-    call(component, &calls::CANCEL_STEP, |_, _| Err(Refusal::NothingToCancel))
+    cancel(component, &calls::CANCEL_STEP)
 }
 
 /// `fmi2GetStatus`
@@ -213,9 +219,9 @@ pub extern "C" fn fmi2CancelStep(component: Component) -> Status {
 pub unsafe extern "C" fn fmi2GetStatus(component: Component, kind: c_int, value: *mut Status) -> Status {
     call(component, &calls::GET_STATUS, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let target = unsafe { target("value", value)? };
+        let target = unsafe { Target::one("value", value)? };
         of_kind(kind, STEP_STATUS)?;
-        *target = instance.last_step();
+        target.put(0, instance.last_step());
         Ok(())
     })
 }
@@ -225,9 +231,9 @@ pub unsafe extern "C" fn fmi2GetStatus(component: Component, kind: c_int, value:
 pub unsafe extern "C" fn fmi2GetRealStatus(component: Component, kind: c_int, value: *mut f64) -> Status {
     call(component, &calls::GET_REAL_STATUS, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let target = unsafe { target("value", value)? };
+        let target = unsafe { Target::one("value", value)? };
         of_kind(kind, LAST_SUCCESSFUL_TIME)?;
-        *target = instance.time();
+        target.put(0, instance.time());
         Ok(())
     })
 }
@@ -243,9 +249,9 @@ pub extern "C" fn fmi2GetIntegerStatus(component: Component, kind: c_int, _value
 pub unsafe extern "C" fn fmi2GetBooleanStatus(component: Component, kind: c_int, value: *mut Boolean) -> Status {
     call(component, &calls::GET_BOOLEAN_STATUS, |_, _| {
         // SAFETY: demands of FMI 2.0.
-        let target = unsafe { target("value", value)? };
+        let target = unsafe { Target::one("value", value)? };
         of_kind(kind, TERMINATED)?;
-        *target = 0;
+        target.put(0, 0);
         Ok(())
     })
 }
@@ -255,9 +261,9 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(component: Component, kind: c_int,
 pub unsafe extern "C" fn fmi2GetStringStatus(component: Component, kind: c_int, value: *mut Text) -> Status {
     call(component, &calls::GET_STRING_STATUS, |_, _| {
         // SAFETY: demands of FMI 2.0.
-        let target = unsafe { target("value", value)? };
+        let target = unsafe { Target::one("value", value)? };
         of_kind(kind, PENDING_STATUS)?;
-        *target = c"".as_ptr();
+        target.put(0, c"".as_ptr());
         Ok(())
     })
 }

@@ -1,5 +1,7 @@
 //! The C functions themselves: call orders, refusals, saved states, several instances.
 
+mod cost;
+mod environment;
 mod host;
 mod order;
 mod refusals;

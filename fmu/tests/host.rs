@@ -127,16 +127,22 @@ impl Unpacked {
 
     /// A scene, in a folder whose name ends so.
     pub(super) fn of(source: &Source, name: &str) -> Self {
+        Self::begun(source, None, name)
+    }
+
+    /// A scene that begins in a state, if there is one, in a folder whose name ends so.
+    pub(super) fn begun(source: &Source, state: Option<Vec<u8>>, name: &str) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("cograin-unit-{}-{number} {name}", std::process::id()));
-        for entry in resources(source, None) {
+        let identity = identity(source, state.as_deref());
+        for entry in resources(source, state) {
             let path = folder.join("resources").join(&entry.path);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, entry.bytes()).unwrap();
         }
         let scene = Scene::from_source(source).unwrap();
-        Self { folder, identity: identity(source, None), interface: Interface::of(&scene) }
+        Self { folder, identity, interface: Interface::of(&scene) }
     }
 
     /// The URI of its resources.

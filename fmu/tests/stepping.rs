@@ -2,6 +2,7 @@
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;
+use crate::values::fmi2CancelStep;
 use crate::*;
 use cograin::scene::Source;
 use std::thread;
@@ -134,4 +135,56 @@ fn the_energy_book_closes() {
     host.shake(0, 40);
     let (residual, work) = (host.get("energy.residual"), host.get("floor.work").abs());
     assert!(residual.abs() < 1e-12 * work, "{residual} J left over of {work} J");
+}
+
+#[test]
+fn a_step_under_way_is_cancelled_from_another_thread() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    host.refused(fmi2CancelStep(host.component), &["no communication step is under way"]);
+    host.shake(0, 3);
+    let before = host.outputs();
+    let address = host.component.addr();
+    let canceller = thread::spawn(move || {
+        // long enough for the step to be under way
+        thread::sleep(std::time::Duration::from_millis(500));
+        fmi2CancelStep(ptr::without_provenance_mut(address))
+    });
+    let time = 3.0 * 2.0e-4;
+    // a hundred million time steps
+    assert_eq!(host.step(time, 1.0e3), Status::Discard, "{}", host.said());
+    assert_eq!(canceller.join().unwrap(), Status::Ok);
+    assert!(host.said().contains("stopped at t = "), "{}", host.said());
+    assert_eq!(host.outputs(), before, "the state is that of the step's beginning");
+    assert_eq!(host.step(time, 2.0e-4), Status::Ok);
+}
+
+#[test]
+fn a_step_that_nobody_would_see_the_end_of_is_refused_with_the_count() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    host.refused(host.step(0.0, 1.0e5), &["1.0e10 time steps of 1.00e-5 s", "at most 9.9e8"]);
+    assert_eq!(host.step(0.0, 1.0e-4), Status::Ok);
+}
+
+#[test]
+fn a_unit_that_begins_in_a_state_counts_from_there_whatever_is_set() {
+    let source = source();
+    let scene = std::sync::Arc::new(cograin::scene::Scene::from_source(&source).unwrap());
+    let mut simulation = cograin::step::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
+    simulation.advance(2.0e-3).unwrap();
+    assert!(simulation.dissipated_energy().unwrap() != 0.0);
+    let state = simulation.state().to_bytes(scene.fingerprint);
+    let unit = Unpacked::begun(&source, Some(state), "begun");
+    for start in [None, Some(1.0e-5)] {
+        let host = Host::instantiated(&unit);
+        if let Some(start) = start {
+            assert_eq!(host.set("floor.displacement.z", start), Status::Ok);
+        }
+        assert_eq!(fmi2EnterInitializationMode(host.component), Status::Ok);
+        assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok);
+        for name in ["floor.work", "energy.dissipated", "energy.residual"] {
+            assert_eq!(host.get(name), 0.0, "{name} with a start value of {start:?}");
+        }
+    }
 }

@@ -16,7 +16,7 @@ pub(crate) fn kinetic(state: &State, bodies: &[Option<RigidBody>], context: &Con
 /// Kinetic energy of the particles that move by the forces on them \[J\].
 fn of_particles(particles: &Particles, context: &Context) -> f64 {
     let count = particles.len();
-    let sums = context.collect(count.div_ceil(CHUNK), |piece| {
+    let of_piece = |piece: usize| {
         let mut sum = 0.0;
         for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
             if particles.owner[slot] == 0 {
@@ -25,8 +25,8 @@ fn of_particles(particles: &Particles, context: &Context) -> f64 {
             }
         }
         sum
-    });
-    sums.into_iter().sum()
+    };
+    context.fold(count.div_ceil(CHUNK), of_piece, 0.0, |sum, part| sum + part)
 }
 
 /// Scalar product of the first three numbers of two rows.
@@ -68,7 +68,7 @@ pub(crate) fn book(state: &mut State, fields: &Fields, bodies: &[Option<RigidBod
     let particles = &state.particles;
     let count = particles.len();
     let loads = &ledger.loads;
-    let sums = context.collect(count.div_ceil(CHUNK), |piece| {
+    let of_piece = |piece: usize| {
         let mut sum = [0.0; 6];
         let slots = piece * CHUNK..((piece + 1) * CHUNK).min(count);
         for slot in slots.filter(|&slot| particles.owner[slot] == 0) {
@@ -85,17 +85,20 @@ pub(crate) fn book(state: &mut State, fields: &Fields, bodies: &[Option<RigidBod
             sum[Source::Applied as usize] += 0.5 * step * dot(&[x, y, z, 0.0], &drift);
         }
         sum
-    });
+    };
     let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
         let body = body.as_ref().filter(|body| body.is_free())?;
         Some(of_group(body, moved, particles, loads, fields, step))
     });
-    for sum in sums.into_iter().chain(groups.collect::<Vec<_>>()) {
-        for (work, part) in ledger.work.iter_mut().zip(sum) {
+    let add = |(mut work, mut turnover): ([f64; 6], f64), sum: [f64; 6]| {
+        for (work, part) in work.iter_mut().zip(sum) {
             *work += part;
-            ledger.turnover += part.abs();
+            turnover += part.abs();
         }
-    }
+        (work, turnover)
+    };
+    let booked = context.fold(count.div_ceil(CHUNK), of_piece, (ledger.work, ledger.turnover), add);
+    (ledger.work, ledger.turnover) = groups.fold(booked, add);
 }
 
 /// Work of each kind of force on the free axes of a group in the half kick that is about to be made \[J\].

@@ -14,11 +14,12 @@ const HALF_A_TURN: f64 = std::f64::consts::PI - 1e-9;
 /// Begins a communication step of `interval` \[s\]: driven axes now know where they go. Refuses half a turn
 /// or more about several axes; nothing has changed then.
 pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(), RunError> {
-    let mut turns = Vec::with_capacity(state.boundaries.len());
+    let time = state.clock.time;
     for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
-        turns.push(turn_ahead(boundary, moved, interval, state.clock.time)?);
+        turn_ahead(boundary, moved, interval, time)?;
     }
-    for ((moved, turn), boundary) in state.boundaries.iter_mut().zip(turns).zip(&scene.boundaries) {
+    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
+        let turn = turn_ahead(boundary, moved, interval, time)?;
         for axis in 0..6 {
             moved.target[axis] += moved.target_rate[axis] * interval;
         }
@@ -57,14 +58,14 @@ fn six([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 6] {
 /// The rotation vector that driven axes turn by in a communication step from `time` on \[rad\]: about one axis by
 /// the change of its angle, about several at once by less than half a turn.
 fn turn_ahead(boundary: &Boundary, moved: &BoundaryState, interval: f64, time: f64) -> Result<[f64; 3], RunError> {
-    let driven: Vec<usize> = (0..3).filter(|axis| boundary.axes[3 + axis].is_driven()).collect();
+    let driven = || (0..3_usize).filter(|axis| boundary.axes[3 + axis].is_driven());
     let target = |axis: usize| moved.target[3 + axis] + moved.target_rate[3 + axis] * interval;
     let mut turn = [0.0; 3];
-    if let [axis] = driven[..] {
+    if let (Some(axis), 1) = (driven().next(), driven().count()) {
         turn[axis] = target(axis) - moved.rotation[axis];
-    } else if !driven.is_empty() {
+    } else if driven().next().is_some() {
         let mut rotation = [0.0; 3];
-        for axis in driven {
+        for axis in driven() {
             rotation[axis] = target(axis);
         }
         let way = rotation::between(Quaternion::from(moved.attitude), rotation::attitude(rotation.into()));
@@ -125,9 +126,15 @@ pub(crate) fn speeds<'a>(
     })
 }
 
-/// Moves every boundary to where it stands at the end of the present time step.
-pub(crate) fn advance(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State, progress: Progress) -> Vec<Way> {
-    let mut ways = Vec::with_capacity(state.boundaries.len());
+/// Moves every boundary to where it stands at the end of the present time step, and notes its way.
+pub(crate) fn advance(
+    scene: &Scene,
+    bodies: &[Option<RigidBody>],
+    state: &mut State,
+    progress: Progress,
+    ways: &mut Vec<Way>,
+) {
+    ways.clear();
     for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&mut state.boundaries) {
         let before = moved.displacement;
         let mut way = Way::default();
@@ -159,7 +166,6 @@ pub(crate) fn advance(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut S
         }
         ways.push(way);
     }
-    ways
 }
 
 /// Turns a group. Returns the rotation vector of the time step \[rad\].
@@ -246,14 +252,14 @@ pub(crate) fn put_prescribed(scene: &Scene, state: &mut State, time: f64) {
     }
 }
 
-/// Sets the loads of all boundaries to zero. Returns what they were: force and moment of each.
-pub(crate) fn clear_loads(state: &mut State) -> Vec<[[f64; 3]; 2]> {
-    let before = state.boundaries.iter().map(|boundary| [boundary.force, boundary.moment]).collect();
+/// Sets the loads of all boundaries to zero, and notes what they were: force and moment of each.
+pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<[[f64; 3]; 2]>) {
+    before.clear();
+    before.extend(state.boundaries.iter().map(|boundary| [boundary.force, boundary.moment]));
     for boundary in &mut state.boundaries {
         boundary.force = [0.0; 3];
         boundary.moment = [0.0; 3];
     }
-    before
 }
 
 /// Sums the loads of the particles in groups, as the passes left them, onto their boundary.

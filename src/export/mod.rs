@@ -14,7 +14,6 @@ pub use resources::{Contents, Resource, ResourceError, identity, read_resources,
 use crate::interface::Interface;
 use crate::scene::{Scene, Source};
 use crate::state::State;
-use crate::state::ledger::Source as Kind;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -46,12 +45,11 @@ pub fn export(
 ) -> Result<(), PackageError> {
     let platform = library::Platform::of_this_program()?;
     let binary = library::read(library)?;
-    let begun = state.map(as_start);
-    let interface = match &begun {
+    let interface = match state {
         Some(state) => Interface::of(scene).starting_in(state),
         None => Interface::of(scene),
     };
-    let bytes = begun.map(|state| state.to_bytes(scene.fingerprint));
+    let bytes = state.map(|state| state.to_bytes(scene.fingerprint));
     let identifier = identifier(output);
     let written = |cause| PackageError::Write { path: output.to_owned(), cause };
     let model = description::Model {
@@ -71,25 +69,6 @@ pub fn export(
     ];
     entries.extend(resources(source, bytes).into_iter().map(|entry| entry.inside("resources")));
     archive::write(&entries, output).map_err(written)
-}
-
-/// The state as a start: work and the energy book count from there, and mean loads are the present ones. Dissipated
-/// energy goes on counting.
-fn as_start(state: &State) -> State {
-    let mut state = state.clone();
-    let given: f64 = state.boundaries.iter().map(|boundary| boundary.work).sum();
-    for boundary in &mut state.boundaries {
-        boundary.work = 0.0;
-        boundary.mean_force = boundary.force;
-        boundary.mean_moment = boundary.moment;
-    }
-    if let Some(ledger) = &mut state.ledger {
-        let returned = ledger.total() - ledger.work_of(Kind::Gravity) - ledger.work_of(Kind::Applied);
-        ledger.initial_elastic += given - returned;
-        ledger.initial_kinetic += ledger.total();
-        ledger.work = Default::default();
-    }
-    state
 }
 
 /// The unit's identifier, which is also its library's name: the file's name as C would have it.

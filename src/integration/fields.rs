@@ -127,7 +127,7 @@ impl Fields {
         }
         let ids = std::mem::take(&mut state.particles.id);
         let rows = Rows::of(&mut state.particles);
-        let sums = context.collect(rows.pieces(), |piece| {
+        let of_piece = |piece| {
             let mut sum = [0.0; 3];
             rows.each_free(piece, |body| {
                 let id = ids[body.slot];
@@ -147,9 +147,11 @@ impl Fields {
                 add(body.force, after);
             });
             sum
-        });
+        };
+        let plus = |sum: [f64; 3], part: [f64; 3]| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]];
+        let sum = context.fold(rows.pieces(), of_piece, [0.0; 3], plus);
         state.particles.id = ids;
-        sums.into_iter().fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
+        sum
     }
 
     /// Puts the whole load on each group that forces move: that of the particles, weight, applied forces and damping.

@@ -13,12 +13,12 @@ use crate::threads::{CHUNK, Context};
 /// speed \[m/s\].
 pub(crate) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
     let rows = Rows::of(particles);
-    let squares = context.collect(rows.pieces(), |piece| {
+    let square = |piece| {
         let mut fastest = 0.0;
         lanes::run(context.width, First { rows, piece, step, turning, fastest: &mut fastest });
         fastest
-    });
-    squares.into_iter().fold(0.0_f64, f64::max).sqrt()
+    };
+    context.fold(rows.pieces(), square, 0.0, f64::max).sqrt()
 }
 
 /// The first half of a kick and the drift, on one piece.
@@ -89,12 +89,13 @@ pub(crate) fn kick_again(
     context: &Context,
 ) -> f64 {
     let rows = Rows::of(particles);
-    let squares = context.collect(rows.pieces(), |piece| {
+    let square = |piece| {
         let mut fastest = 0.0;
         lanes::run(context.width, Second { rows, piece, gravity, step, turning, fastest: &mut fastest });
         fastest
-    });
-    squares.into_iter().fold(0.0_f64, |most, one| if one > most || one.is_nan() { one } else { most }).sqrt()
+    };
+    let larger = |most: f64, one: f64| if one > most || one.is_nan() { one } else { most };
+    context.fold(rows.pieces(), square, 0.0, larger).sqrt()
 }
 
 /// The second half of a kick, on one piece.

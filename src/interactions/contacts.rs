@@ -15,7 +15,7 @@ use crate::number::Vector;
 use crate::run_error::RunError;
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{ContactList, Particles, Row, State};
+use crate::state::{ContactList, Particles, Row, State, StateFault};
 use crate::threads::Context;
 use std::ops::Range;
 
@@ -60,6 +60,10 @@ impl Pass for ContactPass {
         });
         self.apply_hidden(state, context.step);
         Ok(())
+    }
+
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.contacts[self.index].check_columns(self.law.law.history().len(), self.law.law.has_pair_constant())
     }
 
     fn has_torque(&self) -> bool {

@@ -6,8 +6,8 @@ use super::walls::PlanePass;
 use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::run_error::RunError;
-use crate::state::State;
 use crate::state::ledger::Source;
+use crate::state::{State, StateFault};
 use crate::threads::Context;
 
 /// One kind of interaction, composed for the scene.
@@ -37,6 +37,10 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Takes over the coefficients of contact laws that a state has.
     fn take_coefficients(&mut self, _state: &State) {}
+
+    /// Whether its part of a state from outside has the columns that the law trusts. Slots, order and finite numbers have
+    /// been looked at.
+    fn check(&self, state: &State) -> Result<(), StateFault>;
 
     /// Prepares its part of the state after the neighbour lists were made anew.
     fn prepare(&self, state: &mut State);

@@ -97,9 +97,12 @@ impl Hiding {
         self.laws.iter().any(Option::is_some)
     }
 
-    /// How many bonds each law has.
-    pub(crate) fn bonds(&self, state: &State) -> Vec<usize> {
-        if self.any() { state.bonds.iter().map(|list| list.first.len()).collect() } else { Vec::new() }
+    /// Notes how many bonds each law has.
+    pub(crate) fn count_bonds(&self, state: &State, counts: &mut Vec<usize>) {
+        counts.clear();
+        if self.any() {
+            counts.extend(state.bonds.iter().map(|list| list.first.len()));
+        }
     }
 
     /// Where the contact of the bodies of a bond stands; none where no contact law governs it.

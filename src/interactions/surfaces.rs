@@ -18,7 +18,7 @@ use crate::run_error::{Cause, RunError};
 use crate::scene::{Boundary, Shape};
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, WallContacts};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault, WallContacts};
 use crate::surface::{Features, Feet, Foot};
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
@@ -309,6 +309,11 @@ fn present(particles: &Particles) -> impl Fn(usize) -> Body + '_ {
 }
 
 impl Pass for SurfacePass {
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        let counts = self.shape.features().map_or([0; 2], |features| features.counts());
+        state.walls[self.index].check_features(self.law.history().len(), self.law.has_pair_constant(), counts)
+    }
+
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let State { walls, particles, boundaries, clock, .. } = state;
         let list = &mut walls[self.index];

@@ -17,7 +17,7 @@ use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Row, State};
+use crate::state::{BoundaryState, Row, State, StateFault};
 use crate::threads::{CHUNK, Context};
 
 /// The pass of one bond law at a plane.
@@ -243,7 +243,7 @@ impl Pass for WallBondPass {
         for done in &mut results {
             done.release(context.step, |bond| self.carried(state, bond));
         }
-        book(state, self.index, results)
+        book(state, self.index, &results)
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
@@ -265,6 +265,11 @@ impl Pass for WallBondPass {
         }
         state.bonds[self.index].made += wanted.len() as u64;
         !wanted.is_empty()
+    }
+
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.bonds[self.index].check_columns(self.one_bond.rows, self.law.dissipates(), true)?;
+        state.bonds[self.index].check_damping(self.law.damping.is_some())
     }
 
     fn has_torque(&self) -> bool {

@@ -14,7 +14,7 @@ use crate::number::{Number, Vector};
 use crate::run_error::{Cause, RunError};
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, WallContacts};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault, WallContacts};
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -283,6 +283,10 @@ impl Pass for WallPass {
 
     fn at_plane(&self) -> Option<&dyn PlanePass> {
         Some(self)
+    }
+
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.walls[self.index].check_columns(self.law.law.history().len(), self.law.law.has_pair_constant())
     }
 
     fn has_torque(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::{AxisMotion, InputCourse, Output, Particle, Shape};
+use crate::scene::{AxisMotion, Boundary, InputCourse, Output, Particle, Shape};
 use crate::state::BoundaryState;
 use crate::surface::{Group, Plane};
 
@@ -119,4 +119,26 @@ fn setting_an_output_or_no_number_is_refused_by_name() {
     let count = interface.variables().len();
     let message = interface.check(count, 1.0).unwrap_err().to_string();
     assert_eq!(message, format!("{count} is no variable; 0 to {} are", count - 1));
+}
+
+#[test]
+fn the_page_of_the_unit_lists_every_kind_of_variable_with_its_unit() {
+    let page = include_str!("../../docs/fmu.md");
+    for row in rows::all() {
+        let unit = row.quantity.unit().unwrap_or("");
+        let lines: Vec<&str> = page.lines().filter(|line| line.starts_with('|') && line.contains(row.name)).collect();
+        let listed = lines.iter().any(|line| line.split('|').any(|cell| cell.trim() == unit));
+        assert!(listed, "{} with the unit {unit:?} is missing: {lines:?}", row.name);
+    }
+}
+
+#[test]
+fn what_was_found_for_one_value_serves_the_others() {
+    let scene = Scene { output: Output { energy: true, ..Output::default() }, ..scene() };
+    let simulation = Simulation::new(std::sync::Arc::new(scene)).unwrap();
+    let (interface, findings) = (Interface::of(simulation.scene()), Findings::default());
+    for index in 0..interface.variables().len() {
+        let alone = interface.value(&simulation, index);
+        assert_eq!(interface.value_with(&simulation, &findings, index), alone, "{index}");
+    }
 }

@@ -21,7 +21,7 @@ use crate::contact::{HistoryRow, Law};
 use crate::geometry::{Frame, Quaternion, rotation};
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene, Shape};
-use crate::state::{Particles, State};
+use crate::state::{Particles, State, StateFault, demand};
 use crate::surface;
 use crate::threads::{CHUNK, Context};
 use grid::Grid;
@@ -124,6 +124,24 @@ impl Search {
     /// Radius of the smallest particle \[m\].
     pub(crate) fn smallest_radius(&self) -> f64 {
         self.smallest
+    }
+
+    /// Whether a state from outside, which has been looked through otherwise, has the lists that the search makes.
+    pub(crate) fn check(&self, state: &State) -> Result<(), StateFault> {
+        let lists = &state.neighbours;
+        demand(!self.needed || !lists.slabs.is_empty(), "slabs", 0, "slabs of particles")?;
+        if !self.touching {
+            return Ok(());
+        }
+        let there = lists.reference.x.len();
+        demand(
+            there == state.particles.len() + order::BEYOND,
+            "reference",
+            there,
+            "a place for each particle and room",
+        )?;
+        let there = lists.boundary_reference.len();
+        demand(there == state.boundaries.len(), "boundary_reference", there, "one for each boundary")
     }
 
     /// Whether the lists no longer hold every pair that can touch. Chooses the skin of the next ones, if so.
@@ -278,15 +296,15 @@ fn present(scene: &Scene) -> Vec<bool> {
 /// How far the particle that has moved most since the lists were made is from where it was \[m\].
 fn farthest(state: &State, context: &Context) -> f64 {
     let (position, then) = (&state.particles.position, &state.neighbours.reference);
-    let squares = context.collect(position.len().div_ceil(CHUNK), |piece| {
+    let square = |piece: usize| {
         let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(position.len()));
         let moved = position[from..to].iter().zip(&then.x[from..]).zip(&then.y[from..]).zip(&then.z[from..]);
         moved.fold(0.0, |most: f64, (((now, x), y), z)| {
             let (x, y, z) = (now[0] - x, now[1] - y, now[2] - z);
             most.max(x * x + y * y + z * z)
         })
-    });
-    squares.into_iter().fold(0.0, f64::max).sqrt()
+    };
+    context.fold(position.len().div_ceil(CHUNK), square, 0.0, f64::max).sqrt()
 }
 
 /// Hands out every two particles (slots) that are not further apart than `reach` \[m\], with their distance.

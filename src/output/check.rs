@@ -62,7 +62,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&simulation);
-    simulation.restore(&present);
+    simulation.restore(&present).expect("a state of this simulation");
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
     remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));

@@ -10,7 +10,7 @@ use super::summary::{self, Meter, Summary};
 use super::writer::{Writer, opened};
 use super::{CHECKPOINT, SUMMARY};
 use super::{momentum, replacement};
-use crate::interface::Interface;
+use crate::interface::{Findings, Interface};
 use crate::scene::Scene;
 use crate::step::Simulation;
 use std::fs;
@@ -154,7 +154,9 @@ impl<'a> Session<'a> {
                 let saved = state.clock.time;
                 let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
                 let origin = if time > 0.0 { origin } else { Origin::Anew };
-                (Simulation::resume(Arc::clone(order.scene), state), time, origin)
+                let resumed = Simulation::resume(Arc::clone(order.scene), state);
+                let source = |fault: crate::state::StateFault| ResumeError::Snapshot { path, source: fault.into() };
+                (resumed.map_err(source)?, time, origin)
             }
             None => {
                 let start = |source| Refusal::Start { scene: scene_name(), source };
@@ -328,7 +330,8 @@ impl First<'_> {
 
 /// The row of the history at the present time.
 pub(super) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
-    let values = interface.outputs().map(|(index, _)| interface.value(simulation, index)).collect();
+    let found = Findings::default();
+    let values = interface.outputs().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
     Job::Row { time, values }
 }
 

@@ -1,10 +1,11 @@
 //! Living bonds, and what became of the others.
 
+use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// Living bonds of one law: between particles ordered by slab and first particle, at a plane by particle.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BondList {
     /// First bond of each slab, and behind the last one the number of bonds. A bond belongs to the slab of the
     /// particle that stands first in memory, and reaches no further than the next.
@@ -39,7 +40,16 @@ pub struct BondList {
     pub released: f64,
 }
 
+clone_in_place!(BondList { slabs, first, second, foot, rows, damping, lost, made, broken, relaxed, damped, released });
+
 impl BondList {
+    /// Counts the living bonds as made, and what left them from here.
+    pub(super) fn begin_counting(&mut self) {
+        (self.made, self.broken) = (self.first.len() as u64, 0);
+        (self.relaxed, self.damped, self.released) = (0.0, 0.0, 0.0);
+        self.lost.fill(0.0);
+    }
+
     /// Energy that left the bonds so far: by damping, by relaxation, and with those that broke \[J\].
     pub fn dissipated(&self) -> f64 {
         self.damped + self.relaxed + self.released

@@ -51,6 +51,13 @@ pub struct BoundaryState {
     pub work: f64,
 }
 
+impl BoundaryState {
+    /// Counts impulse and work from here.
+    pub(super) fn begin_counting(&mut self) {
+        (self.total_impulse, self.work) = ([0.0; 3], 0.0);
+    }
+}
+
 /// What moves the free axes of a boundary, and what it gave them. Zero where none is free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Inertial {

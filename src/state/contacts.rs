@@ -1,10 +1,11 @@
 //! Pairs that may touch, with the history of those that do.
 
+use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// When the neighbour lists were made, and for where.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Neighbours {
     /// How far beyond touch pairs are listed \[m\].
     pub skin: f64,
@@ -28,9 +29,20 @@ pub struct Neighbours {
     pub made_at: u64,
 }
 
+clone_in_place!(Neighbours {
+    skin,
+    travel,
+    reference,
+    boundary_reference,
+    boundary_orientation,
+    boundary_extent,
+    slabs,
+    made_at
+});
+
 /// Positions and radii in columns, for tests of several particles that stand side by side. Each column has room behind
 /// the last particle for a register that begins there.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Columns {
     /// Along x \[m\].
     #[serde(with = "plain")]
@@ -46,8 +58,10 @@ pub struct Columns {
     pub radius: Vec<f64>,
 }
 
+clone_in_place!(Columns { x, y, z, radius });
+
 /// Near pairs of one contact law: a half list ordered by the first particle, then the second.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactList {
     /// First pair of each slab, and behind the last one the number of pairs.
     #[serde(with = "plain")]
@@ -69,6 +83,8 @@ pub struct ContactList {
     pub pair_constant: Vec<f64>,
 }
 
+clone_in_place!(ContactList { slabs, first, second, flags, history, pair_constant });
+
 /// The two bodies overlapped in the last evaluation.
 pub const TOUCHING: u8 = 1;
 
@@ -79,7 +95,7 @@ pub const SLIDING: u8 = 2;
 pub const REVERSE: u8 = 32;
 
 /// Particles near one plane, for one contact law.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WallContacts {
     /// Index of the boundary.
     pub boundary: u32,
@@ -105,7 +121,7 @@ pub struct WallContacts {
 }
 
 /// Particles near a surface of features, and which of its parts are near each.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NearParts {
     /// The particles (slots), ascending.
     #[serde(with = "plain")]
@@ -117,6 +133,10 @@ pub struct NearParts {
     #[serde(with = "plain")]
     pub parts: Vec<u32>,
 }
+
+clone_in_place!(WallContacts { boundary, law, particle, flags, history, pair_constant, feature, near });
+
+clone_in_place!(NearParts { particle, starts, parts });
 
 impl ContactList {
     /// Takes pairs out, keeping the order of the others.

@@ -2,6 +2,7 @@
 
 use super::Row;
 use super::contacts::TOUCHING;
+use super::in_place::clone_in_place;
 use crate::contact::MOST_HISTORY;
 use serde::{Deserialize, Serialize};
 
@@ -65,7 +66,7 @@ impl HiddenContact {
 }
 
 /// The hidden contacts, each list ascending by its bodies. Without a bond that hides contacts there is no list.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {
     /// Between particles, a list for each contact law.
     pub pairs: Vec<Vec<HiddenContact>>,
@@ -76,6 +77,8 @@ pub struct Hidden {
     /// At planes, a list for each of [`State::walls`](super::State::walls).
     pub planes: Vec<Vec<HiddenContact>>,
 }
+
+clone_in_place!(Hidden { pairs, active, settling, planes });
 
 impl Hidden {
     /// All of them, between particles first.

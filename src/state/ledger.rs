@@ -1,5 +1,6 @@
 //! The algorithmic energy book.
 
+use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +41,7 @@ impl Source {
 }
 
 /// Loads of one kind on each particle.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Force \[N\]; empty where the scene has no such kind.
     #[serde(with = "plain")]
@@ -50,10 +51,20 @@ pub struct Loads {
     pub torque: Vec<Row>,
 }
 
+impl Loads {
+    /// Forgets them, and keeps their room.
+    pub(crate) fn clear(&mut self) {
+        self.force.clear();
+        self.torque.clear();
+    }
+}
+
+clone_in_place!(Loads { force, torque });
+
 /// Work of each kind of force on the particles that move by the forces on them, as the integrator does it: each half
 /// kick times the mean of the velocities before and after. The sum is the change of kinetic energy, to rounding,
 /// unless a force is forgotten.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Kinetic energy when the book was opened \[J\].
     pub initial_kinetic: f64,
@@ -67,7 +78,14 @@ pub struct Ledger {
     pub loads: [Loads; Source::RECORDED],
 }
 
+clone_in_place!(Ledger { initial_kinetic, initial_elastic, work, turnover, loads });
+
 impl Ledger {
+    /// Counts work from here.
+    pub(super) fn begin_counting(&mut self) {
+        (self.work, self.turnover) = ([0.0; 6], 0.0);
+    }
+
     /// Work of one kind of force \[J\].
     pub fn work_of(&self, source: Source) -> f64 {
         self.work[source as usize]

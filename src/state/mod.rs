@@ -5,10 +5,13 @@
 
 pub mod bonds;
 pub mod boundaries;
+mod check;
 pub mod clock;
 pub mod contacts;
 pub mod foresight;
 pub mod hidden;
+mod in_place;
+mod layout;
 pub mod ledger;
 pub mod particles;
 mod plain;
@@ -16,6 +19,8 @@ pub mod snapshot;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{Attitude, BoundaryState};
+pub use check::StateFault;
+pub(crate) use check::demand;
 pub use clock::Clock;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use foresight::Foresight;
@@ -25,10 +30,11 @@ pub use particles::Particles;
 
 pub use crate::number::Row;
 
+use in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
 /// Everything that changes while a scene runs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Time and counters.
     pub clock: Clock,
@@ -59,4 +65,43 @@ pub struct State {
     pub damping_force: [f64; 3],
     /// Impulse of global damping on the particles since time 0 \[N s\].
     pub damping_impulse: [f64; 3],
+}
+
+clone_in_place!(State {
+    clock,
+    foresight,
+    particles,
+    neighbours,
+    coefficients,
+    contacts,
+    walls,
+    hidden,
+    bonds,
+    breaks,
+    boundaries,
+    ledger,
+    damping_force,
+    damping_impulse
+});
+
+impl State {
+    /// Lets every count and sum that began at time 0 begin anew: bonds made and broken, what left them, impulses, work.
+    /// The energies that an energy book begins with, and mean loads, are to be set by who knows them.
+    pub fn begin_counting(&mut self) {
+        self.breaks.clear();
+        self.damping_impulse = [0.0; 3];
+        self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.begin_counting();
+        }
+        self.particles.bonds.fill([0; 2]);
+        for list in &mut self.bonds {
+            list.begin_counting();
+            for &slot in list.first.iter().chain(&list.second) {
+                self.particles.count_bond([self.particles.id[slot as usize]]);
+            }
+        }
+        // bonds that were foreseen by their number are counted anew
+        self.foresight.bonds = [self.bonds.iter().map(|list| list.made).sum(), 0];
+    }
 }

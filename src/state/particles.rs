@@ -1,10 +1,11 @@
 //! The particles, laid out for the loops that read them.
 
+use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// Particles in the order of the neighbour list, rows of 32 bytes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
     /// x, y, z, radius \[m\].
     #[serde(with = "plain")]
@@ -40,6 +41,20 @@ pub struct Particles {
     #[serde(with = "plain")]
     pub bonds: Vec<[u32; 2]>,
 }
+
+clone_in_place!(Particles {
+    position,
+    velocity,
+    angular_velocity,
+    force,
+    torque,
+    attitude,
+    material,
+    owner,
+    id,
+    slot,
+    bonds
+});
 
 impl Particles {
     /// Counts a bond of these of the scene's particles as made.

@@ -102,7 +102,7 @@ impl<T: Plain> Visitor<'_> for Bytes<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        write!(formatter, "bytes, {} for each item", T::SIZE)
+        write!(formatter, "bytes, {} for each item: {}", T::SIZE, std::any::type_name::<T>())
     }
 
     fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Vec<T>, E> {

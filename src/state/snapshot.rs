@@ -1,17 +1,25 @@
 //! State as bytes: versioned, checksummed, tied to its scene.
 
-use super::State;
+use super::{State, StateFault, layout};
 use std::io::{self, Seek, SeekFrom, Write};
+use std::sync::OnceLock;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 /// What every snapshot starts with.
 const MAGIC: &[u8; 8] = b"cograin\0";
 
-/// Version of the layout; a change of any field of the state raises it.
-const VERSION: u32 = 6;
+/// Version of what stands before the payload.
+const VERSION: u32 = 7;
 
-/// Length of what stands before the payload: magic, version, scene fingerprint, checksum.
-const HEADER: usize = 8 + 4 + 8 + 8;
+/// Length of what stands before the payload: magic, version, layout, scene fingerprint, checksum.
+const HEADER: usize = 8 + 4 + 8 + 8 + 8;
+
+/// A number that differs when any field of the state differs in name, type or place.
+fn layout() -> u64 {
+    /// It is the same for a whole process.
+    static LAYOUT: OnceLock<u64> = OnceLock::new();
+    *LAYOUT.get_or_init(|| xxh3_64(layout::of::<State>().as_bytes()))
+}
 
 /// Why serialising a state into memory cannot fail.
 const WRITABLE: &str = "a state holds nothing that postcard cannot write";
@@ -21,8 +29,9 @@ fn header(scene_fingerprint: u64, checksum: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
     header[..8].copy_from_slice(MAGIC);
     header[8..12].copy_from_slice(&VERSION.to_le_bytes());
-    header[12..20].copy_from_slice(&scene_fingerprint.to_le_bytes());
-    header[20..].copy_from_slice(&checksum.to_le_bytes());
+    header[12..20].copy_from_slice(&layout().to_le_bytes());
+    header[20..28].copy_from_slice(&scene_fingerprint.to_le_bytes());
+    header[28..].copy_from_slice(&checksum.to_le_bytes());
     header
 }
 
@@ -40,6 +49,17 @@ pub enum SnapshotError {
         /// Version of this program.
         expected: u32,
     },
+    /// Of a program whose state has other fields.
+    #[error("state of another build of this program: layout {found:016x} found, {expected:016x} is right")]
+    Layout {
+        /// Layout in the bytes.
+        found: u64,
+        /// Layout of this program.
+        expected: u64,
+    },
+    /// Whole, and yet none of the scene.
+    #[error(transparent)]
+    Fault(#[from] StateFault),
     /// Another scene.
     #[error("state of another scene: fingerprint {found:016x} found, {expected:016x} is right")]
     Scene {
@@ -139,7 +159,9 @@ impl State {
         file.write_all(&header(scene_fingerprint, checksum))
     }
 
-    /// Reads what [`State::to_bytes`] wrote for the same scene.
+    /// Reads what [`State::to_bytes`] wrote for the same scene. Whether the state can be one of it is looked at by
+    /// [`Simulation::resume`](crate::step::Simulation::resume) and
+    /// [`Simulation::check`](crate::step::Simulation::check).
     pub fn from_bytes(bytes: &[u8], scene_fingerprint: u64) -> Result<Self, SnapshotError> {
         let number = |from: usize| {
             bytes.get(from..from + 8).map(|part| u64::from_le_bytes(part.try_into().expect("eight bytes")))
@@ -152,11 +174,15 @@ impl State {
         if version != VERSION {
             return Err(SnapshotError::Version { found: version, expected: VERSION });
         }
-        let scene = number(12).ok_or(SnapshotError::Damaged)?;
+        let found = number(12).ok_or(SnapshotError::Damaged)?;
+        if found != layout() {
+            return Err(SnapshotError::Layout { found, expected: layout() });
+        }
+        let scene = number(20).ok_or(SnapshotError::Damaged)?;
         if scene != scene_fingerprint {
             return Err(SnapshotError::Scene { found: scene, expected: scene_fingerprint });
         }
-        let checksum = number(20).ok_or(SnapshotError::Damaged)?;
+        let checksum = number(28).ok_or(SnapshotError::Damaged)?;
         let payload = bytes.get(HEADER..).ok_or(SnapshotError::Damaged)?;
         if xxh3_64(payload) != checksum {
             return Err(SnapshotError::Damaged);

@@ -20,6 +20,7 @@ impl Simulation {
         let governing = self.scene.contacts.iter().enumerate().filter(|(_, law)| law.between[a * count + b]);
         let rows = governing.map(|(index, law)| Ok((index, law.choice().coefficients(&pair)?)));
         let rows: Vec<(usize, Vec<f64>)> = rows.collect::<Result<_, Vec<Missing>>>()?;
+        self.way_back.forget();
         for (law, row) in rows {
             for entry in [a * count + b, b * count + a] {
                 self.state.coefficients[law][entry * row.len()..][..row.len()].copy_from_slice(&row);

@@ -7,13 +7,16 @@ mod observe;
 mod placement;
 mod room;
 mod run_checks;
-mod settled;
+mod start;
+mod state_check;
 mod taken_over;
+mod way_back;
 
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use limits::LONGEST_AUTOMATIC_STEP;
+pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use taken_over::Description;
@@ -27,11 +30,13 @@ use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::State;
 use crate::state::ledger::{Loads, Source};
+use crate::state::{State, StateFault};
 use crate::threads::{Context, Team, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use way_back::WayBack;
 
 /// Intervals this close to a whole number of time steps, over the time step, are taken for that number.
 const WHOLE: f64 = 1e-6;
@@ -58,35 +63,53 @@ pub struct Simulation {
     width: Width,
     /// Threads.
     workers: Workers,
-    /// Where the state came from.
-    origin: Origin,
+    /// Room for what is noted within a time step.
+    room: Room,
+    /// The way back to the beginning of a communication step that fails.
+    way_back: WayBack,
+    /// Set from outside to end the interval under way.
+    stop: Option<Arc<AtomicBool>>,
     /// Who is told what has just been done, in benchmarks.
     watch: Option<Watch>,
+}
+
+/// What is noted within a time step. It is kept so that no step asks for memory.
+#[derive(Default)]
+struct Room {
+    /// Ways of the boundaries.
+    ways: Vec<course::Way>,
+    /// Their loads in the last step: force and moment.
+    loads: Vec<[[f64; 3]; 2]>,
+    /// Loads that have been booked.
+    seen: Loads,
+    /// Bonds of each law before some were made.
+    bonds: Vec<usize>,
 }
 
 /// Is told the name of each part of a time step when it is done.
 pub type Watch = Box<dyn FnMut(&'static str) + Send>;
 
-/// Where the state of a simulation came from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
-    /// From the scene: before the first step it can be made anew.
-    Scene,
-    /// From an earlier simulation: its contacts and bonds are not the scene's.
-    Reached,
-}
-
 impl Simulation {
     /// The scene at time 0: bonds made, forces evaluated, springs unmoved.
     pub fn new(scene: Arc<Scene>) -> Result<Self, RunError> {
         let state = assemble::state(&scene);
-        let mut simulation = Self { origin: Origin::Scene, ..Self::resume(scene, state) };
+        let mut simulation = Self::with(scene, state);
         simulation.begin()?;
         Ok(simulation)
     }
 
-    /// The scene in a state saved earlier. The state must be of this scene ([`State::from_bytes`] sees to it).
-    pub fn resume(scene: Arc<Scene>, state: State) -> Self {
+    /// The scene in a state saved earlier, which is looked through before ([`Simulation::check`]).
+    pub fn resume(scene: Arc<Scene>, state: State) -> Result<Self, StateFault> {
+        let first = assemble::state(&scene);
+        let mut simulation = Self::with(scene, first);
+        simulation.check(&state)?;
+        simulation.state = state;
+        simulation.take_coefficients();
+        Ok(simulation)
+    }
+
+    /// The scene in a state of its own.
+    fn with(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
         let mut simulation = Self {
             turning: passes.iter().any(|pass| pass.has_torque()),
@@ -99,15 +122,23 @@ impl Simulation {
             workers: Workers::new(scene.run.threads, scene.particles.len()),
             scene,
             state,
-            origin: Origin::Reached,
+            room: Room::default(),
+            way_back: WayBack::default(),
+            stop: None,
             watch: None,
         };
         simulation.take_coefficients();
         simulation
     }
 
-    /// Makes the lists and the first bonds, and evaluates the forces, springs unmoved.
+    /// Builds the scene and evaluates the forces, springs unmoved.
     fn begin(&mut self) -> Result<(), RunError> {
+        self.build()?;
+        self.start()
+    }
+
+    /// Makes the lists and the first bonds.
+    fn build(&mut self) -> Result<(), RunError> {
         self.give_attitudes();
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         self.check_room()?;
@@ -115,7 +146,7 @@ impl Simulation {
         self.rebuild(&context);
         let time = self.state.clock.time;
         self.bond(&Moment { number: self.state.clock.steps, from: time, to: time }, &context);
-        self.start()
+        Ok(())
     }
 
     /// Gives the particles the attitude of time 0, where a bond needs one and they have none.
@@ -127,19 +158,21 @@ impl Simulation {
 
     /// Makes the bonds that are to be made at this moment.
     fn bond(&mut self, moment: &Moment, context: &Context) {
-        let (mut made, before) = (false, self.hiding.bonds(&self.state));
+        let mut made = false;
+        self.hiding.count_bonds(&self.state, &mut self.room.bonds);
         for pass in &self.passes {
             made |= pass.create(&mut self.state, moment, context.step);
         }
         if made {
-            self.hiding.made(&mut self.state, &before, moment);
+            self.hiding.made(&mut self.state, &self.room.bonds, moment);
             self.rebuild(context);
         }
     }
 
     /// Makes the neighbour lists anew, as motion does from time to time: results change by rounding only.
     pub fn renew_lists(&mut self) {
-        let workers = std::mem::replace(&mut self.workers, Workers::new(Some(1), 0));
+        self.way_back.forget();
+        let mut workers = std::mem::take(&mut self.workers);
         workers.run(|team| self.rebuild(&Context { step: 0.0, width: self.width, team }));
         self.workers = workers;
     }
@@ -158,13 +191,17 @@ impl Simulation {
         }
     }
 
-    /// Puts back a state of this simulation; it continues from there bit for bit.
-    pub fn restore(&mut self, state: &State) {
+    /// Puts back a state of this simulation, which is looked through before ([`Simulation::check`]); it continues from
+    /// there bit for bit.
+    pub fn restore(&mut self, state: &State) -> Result<(), StateFault> {
+        self.check(state)?;
+        self.way_back.forget();
         let same = self.state.coefficients == state.coefficients;
         self.state.clone_from(state);
         if !same {
             self.take_coefficients();
         }
+        Ok(())
     }
 
     /// Works in this lane width from now on. Every width gives the same bits.
@@ -174,7 +211,18 @@ impl Simulation {
 
     /// Damps every particle that the scene does not damp by this fraction (Cundall), gravity included.
     pub fn damp_rest(&mut self, fraction: f64) {
+        self.way_back.forget();
         self.fields.damp_rest(fraction, self.scene.particles.len());
+    }
+
+    /// From now on an interval ends after its present time step when this is set ([`RunError::Stopped`]).
+    pub fn stop_when(&mut self, stop: &Arc<AtomicBool>) {
+        self.stop = Some(Arc::clone(stop));
+    }
+
+    /// Whether the interval under way is to end.
+    fn is_stopped(&self) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     /// Has somebody told, from now on, what has just been done in a time step: to see what each part costs.
@@ -212,25 +260,6 @@ impl Simulation {
         boundary.target_rate[axis] = 0.0;
     }
 
-    /// Puts driven axes where they are to start, without motion: boundary, axis (0 to 5) and value \[m, rad\] of each.
-    /// Springs stay as they are; forces are evaluated anew. For use before the first interval only.
-    pub fn place(&mut self, starts: &[(BoundaryIndex, usize, f64)]) -> Result<(), RunError> {
-        let from_scene = self.origin == Origin::Scene && self.state.clock.steps == 0;
-        if from_scene {
-            let coefficients = std::mem::take(&mut self.state.coefficients);
-            self.state = State { coefficients, ..assemble::state(&self.scene) };
-        }
-        for &(boundary, axis, value) in starts {
-            course::put(&mut self.state.boundaries[boundary.index()], axis, value);
-        }
-        if from_scene {
-            return self.begin();
-        }
-        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
-        self.rebuild(&self.standing());
-        self.start()
-    }
-
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s, rad/s\].
     pub fn set_displacement_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
@@ -247,7 +276,7 @@ impl Simulation {
         }
         course::begin(&self.scene, &mut self.state, interval)?;
         self.state.breaks.clear();
-        let workers = std::mem::replace(&mut self.workers, Workers::new(Some(1), 0));
+        let mut workers = std::mem::take(&mut self.workers);
         let (elapsed, result) = workers.run(|team| self.run(interval, team));
         self.workers = workers;
         course::end(&mut self.state, elapsed);
@@ -274,6 +303,9 @@ impl Simulation {
             let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
             if let Err(error) = self.check_way(step) {
                 return (elapsed(progress.done), Err(error));
+            }
+            if self.is_stopped() {
+                return (elapsed(progress.done), Err(RunError::Stopped { time: self.time() }));
             }
             progress.done += 1;
             let (context, elapsed) = (Context { step, width, team }, elapsed(progress.done));
@@ -306,8 +338,10 @@ impl Simulation {
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
         let time = self.state.clock.time;
-        let ways = course::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress });
+        let Room { ways, .. } = &mut self.room;
+        course::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress }, ways);
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+        let ways = &self.room.ways;
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
         self.state.neighbours.travel += (speed * step).max(carried);
         let farthest = ways.iter().fold(speed * step, |most: f64, way| most.max(way.farthest()));
@@ -322,7 +356,7 @@ impl Simulation {
             self.bond(&Moment { number, from: earlier, to: time }, context);
         }
         self.done("lists and boundaries");
-        let before = course::clear_loads(&mut self.state);
+        course::clear_loads(&mut self.state, &mut self.room.loads);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
         result = result.and(self.evaluate(gravity.is_none(), context));
@@ -332,7 +366,7 @@ impl Simulation {
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
         self.done("kick");
-        course::book(&self.scene, &mut self.state, &before, &ways, step);
+        course::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
         }
@@ -346,7 +380,8 @@ impl Simulation {
     /// particles must be zero.
     fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
         let (mut result, told) = (Ok(()), self.state.breaks.len());
-        let mut seen = Loads::default();
+        let mut seen = std::mem::take(&mut self.room.seen);
+        seen.clear();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
             result = result.and(match pass.at_plane() {
@@ -373,25 +408,19 @@ impl Simulation {
         for (sum, part) in state.damping_force.iter_mut().zip(braking) {
             *sum += part;
         }
+        self.room.seen = seen;
         self.done("fields");
         result
     }
 
     /// The evaluation before the first step, and what follows from it.
     fn start(&mut self) -> Result<(), RunError> {
-        course::clear_loads(&mut self.state);
+        self.state.begin_counting();
+        course::clear_loads(&mut self.state, &mut self.room.loads);
         let context = self.standing();
         integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);
-        for boundary in &mut self.state.boundaries {
-            boundary.mean_force = boundary.force;
-            boundary.mean_moment = boundary.moment;
-        }
-        let energies = self.state.ledger.is_some().then(|| (self.kinetic_energy(), self.elastic_energy()));
-        if let (Some(ledger), Some((kinetic, elastic))) = (&mut self.state.ledger, energies) {
-            ledger.initial_kinetic = kinetic;
-            ledger.initial_elastic = elastic;
-        }
+        self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         self.first_step(&context)?;
         let step = self.state.clock.step;

@@ -14,6 +14,15 @@ use crate::state::{Row, State};
 use crate::surface;
 use crate::threads::Context;
 
+/// Elastic energy of a simulation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElasticEnergy {
+    /// Of contacts and bonds \[J\].
+    pub all: f64,
+    /// Of bonds alone \[J\].
+    pub bonds: f64,
+}
+
 impl Simulation {
     /// Kinetic energy of the particles and groups that move by the forces on them \[J\].
     pub fn kinetic_energy(&self) -> f64 {
@@ -57,13 +66,26 @@ impl Simulation {
     /// Elastic energy of contacts and bonds \[J\]: of contacts that of normal force and tangential spring, not the
     /// potential of an attraction.
     pub fn elastic_energy(&self) -> f64 {
-        self.passes.iter().map(|pass| pass.elastic_energy(&self.state)).sum()
+        self.elastic_energies().all
     }
 
     /// Elastic energy of bonds alone \[J\].
     pub fn bond_elastic_energy(&self) -> f64 {
         let bonds = self.passes.iter().filter(|pass| pass.source() == Source::Bonds);
         bonds.map(|pass| pass.elastic_energy(&self.state)).sum()
+    }
+
+    /// Both at once.
+    pub fn elastic_energies(&self) -> ElasticEnergy {
+        let mut sum = ElasticEnergy::default();
+        for pass in &self.passes {
+            let energy = pass.elastic_energy(&self.state);
+            sum.all += energy;
+            if pass.source() == Source::Bonds {
+                sum.bonds += energy;
+            }
+        }
+        sum
     }
 
     /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts, or, where no
@@ -92,7 +114,7 @@ impl Simulation {
     pub fn undamped_unbalanced_force(&mut self) -> f64 {
         let kept = self.state.clone();
         let damped = self.fields.without_damping();
-        course::clear_loads(&mut self.state);
+        course::clear_loads(&mut self.state, &mut self.room.loads);
         integration::clear_loads(&mut self.state.particles);
         let context = self.standing();
         // What an evaluation finds wrong the next time step finds, too.
@@ -125,8 +147,14 @@ impl Simulation {
     /// Potential energy of gravity is not counted: this is the sum over the energy book of what was not accounted
     /// for \[J\]; `None` where the scene keeps no book.
     pub fn energy_residual(&self) -> Option<f64> {
+        self.state.ledger.as_ref()?;
+        self.energy_residual_beside(self.kinetic_energy())
+    }
+
+    /// The same, where the kinetic energy is known \[J\].
+    pub fn energy_residual_beside(&self, kinetic: f64) -> Option<f64> {
         let ledger = self.state.ledger.as_ref()?;
-        Some(self.kinetic_energy() - ledger.initial_kinetic - ledger.total())
+        Some(kinetic - ledger.initial_kinetic - ledger.total())
     }
 
     /// Energy that contacts, bonds and global damping took in since the book was opened and do not hold as elastic
@@ -135,11 +163,17 @@ impl Simulation {
     /// The difference of what boundaries put into the particles and what the forces gave back to them as work, less
     /// the growth of the elastic energy. It holds the error of the time stepping, of the second order in the step.
     pub fn dissipated_energy(&self) -> Option<f64> {
+        self.state.ledger.as_ref()?;
+        self.dissipated_energy_beside(self.elastic_energy())
+    }
+
+    /// The same, where the elastic energy is known \[J\].
+    pub fn dissipated_energy_beside(&self, elastic: f64) -> Option<f64> {
         let ledger = self.state.ledger.as_ref()?;
         let given: f64 = self.state.boundaries.iter().map(|boundary| boundary.work).sum();
         let kinds = [Source::Contacts, Source::Bonds, Source::Walls, Source::Damping];
         let returned: f64 = kinds.into_iter().map(|kind| ledger.work_of(kind)).sum();
-        Some(given - returned - (self.elastic_energy() - ledger.initial_elastic))
+        Some(given - returned - (elastic - ledger.initial_elastic))
     }
 
     /// Threads at work.

@@ -73,7 +73,7 @@ impl Simulation {
         for bond in &placement.bonds {
             put_bond(&scene, &mut state, bond);
         }
-        let mut simulation = Self::resume(scene, state);
+        let mut simulation = Self::with(scene, state);
         simulation.give_attitudes();
         let Self { scene, hiding, state, .. } = &mut simulation;
         hiding.placed(scene, state, &placement.springs);

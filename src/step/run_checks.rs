@@ -202,6 +202,7 @@ impl Simulation {
             | RunError::EnergyGain { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
+            | RunError::Stopped { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
             | RunError::Memory { .. } => {}

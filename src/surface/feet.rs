@@ -77,6 +77,9 @@ pub trait Features: Debug + Send + Sync {
     /// Adds the parts within reach of a centre, ascending. A surface of few parts adds one whenever any is.
     fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>);
 
+    /// How many parts, and how many features, there are: those of a saved contact are below.
+    fn counts(&self) -> [usize; 2];
+
     /// Finds the feet on these parts that are nearer to a centre than `radius` \[m\].
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet);
 

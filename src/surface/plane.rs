@@ -66,6 +66,10 @@ impl Features for Plane {
         }
     }
 
+    fn counts(&self) -> [usize; 2] {
+        [1, 1]
+    }
+
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let distance = self.height(centre.to_array());
         if distance <= radius {

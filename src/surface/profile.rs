@@ -132,6 +132,10 @@ impl Features for Revolution {
         }
     }
 
+    fn counts(&self) -> [usize; 2] {
+        [1, self.segments.len() + self.corners.len()]
+    }
+
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let (place, outwards) = self.in_profile(centre);
         let foot = |feature: usize, nearest: &Nearest, weight: i32| {

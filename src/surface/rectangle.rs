@@ -77,6 +77,10 @@ impl Features for Rectangle {
         }
     }
 
+    fn counts(&self) -> [usize; 2] {
+        [1, 1]
+    }
+
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let (distance, normal) = self.nearest(centre);
         if distance <= radius {

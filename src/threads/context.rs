@@ -37,6 +37,28 @@ impl Context<'_> {
         }
     }
 
+    /// Joins what the pieces 0 to `count` − 1 give, in order, without asking for memory.
+    pub(crate) fn fold<T: Send, A>(
+        &self,
+        count: usize,
+        piece: impl Fn(usize) -> T + Sync + Send,
+        start: A,
+        mut join: impl FnMut(A, T) -> A,
+    ) -> A {
+        /// Pieces that are done before their results are joined.
+        const ROUND: usize = 128;
+        let Some(team) = self.team.filter(|_| count > 1) else { return (0..count).map(piece).fold(start, join) };
+        let mut sum = start;
+        for from in (0..count).step_by(ROUND) {
+            let mut results = [const { None }; ROUND];
+            let places = Shared::new(&mut results);
+            // SAFETY: each piece has a place of its own.
+            team.each(ROUND.min(count - from), &|number| unsafe { *places.at(number) = Some(piece(from + number)) });
+            sum = results.into_iter().flatten().fold(sum, &mut join);
+        }
+        sum
+    }
+
     /// What the pieces 0 to `count` − 1 give, in order.
     pub(crate) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
         let Some(team) = self.team.filter(|_| count > 1) else { return (0..count).map(piece).collect() };

@@ -31,7 +31,7 @@ const LOOP: u32 = 32;
 /// What is to be done with each piece of a loop.
 type Work<'a> = dyn Fn(usize) + Sync + 'a;
 
-/// The first thread of a simulation and its helpers, during a communication step.
+/// The first thread of a simulation and its helpers. Between communication steps the helpers sleep.
 pub(crate) struct Team {
     /// Number of the loop, helpers at work, and whether pieces may be taken.
     gate: AtomicU64,
@@ -39,6 +39,11 @@ pub(crate) struct Team {
     work: UnsafeCell<Option<&'static Work<'static>>>,
     /// The share of each thread, the first one's first.
     shares: Vec<Share>,
+    /// The same of slabs of even number.
+    even: Vec<Share>,
+    /// How many neighbours of each slab of odd number are done. Locked by the first thread, which lends it to the
+    /// helpers for a loop.
+    done: Mutex<Vec<AtomicU8>>,
     /// Whether helpers may go.
     dismissed: AtomicBool,
     /// Whether a piece of work panicked.
@@ -58,13 +63,6 @@ unsafe impl Sync for Team {}
 struct Share(AtomicU64);
 
 impl Share {
-    /// The share of one of some threads.
-    fn of(count: usize, place: usize, threads: usize) -> Self {
-        let share = Self(AtomicU64::new(0));
-        share.give(count, place, threads);
-        share
-    }
-
     /// Becomes the share of one of some threads.
     fn give(&self, count: usize, place: usize, threads: usize) {
         let [from, to] = [place, place + 1].map(|place| (count * place / threads) as u64);
@@ -116,28 +114,32 @@ impl Drop for Open<'_> {
     }
 }
 
-/// Lets the helpers go when it is dropped.
-pub(crate) struct Dismissal<'a>(pub &'a Team);
-
-impl Drop for Dismissal<'_> {
-    fn drop(&mut self) {
-        self.0.dismissed.store(true, SeqCst);
-        self.0.wake();
-    }
-}
-
 impl Team {
     /// A team of so many threads.
     pub(crate) fn of(threads: usize) -> Self {
+        let shares = || (0..threads).map(|_| Share(AtomicU64::new(0))).collect();
         Self {
             gate: AtomicU64::new(0),
             work: UnsafeCell::new(None),
-            shares: (0..threads).map(|_| Share(AtomicU64::new(0))).collect(),
+            shares: shares(),
+            even: shares(),
+            done: Mutex::default(),
             dismissed: AtomicBool::new(false),
             failed: AtomicBool::new(false),
             asleep: AtomicUsize::new(0),
             sleepers: Mutex::default(),
         }
+    }
+
+    /// How many threads work.
+    pub(crate) fn threads(&self) -> usize {
+        self.shares.len()
+    }
+
+    /// Lets the helpers go.
+    pub(crate) fn dismiss(&self) {
+        self.dismissed.store(true, SeqCst);
+        self.wake();
     }
 
     /// Does pieces 0 to `count` − 1 of a loop with the helpers that are awake. For the first thread, and not from
@@ -162,9 +164,14 @@ impl Team {
     /// Does slabs 0 to `count` − 1: those of even number in any order, each of odd number when both its neighbours are
     /// done. Who is through with the even ones does odd ones that others have not yet come to.
     pub(crate) fn slabs(&self, count: usize, work: &Work) {
-        let (even, threads) = (count.div_ceil(2), self.shares.len());
-        let shares: Vec<Share> = (0..threads).map(|place| Share::of(even, place, threads)).collect();
-        let done: Vec<AtomicU8> = (0..count).map(|_| AtomicU8::new(0)).collect();
+        let threads = self.shares.len();
+        for (place, share) in self.even.iter().enumerate() {
+            share.give(count.div_ceil(2), place, threads);
+        }
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.clear();
+        done.resize_with(count, || AtomicU8::new(0));
+        let (shares, done) = (&self.even, &done[..]);
         let awaited = |odd: usize| if odd + 1 < count { 2 } else { 1 };
         let do_if_ready = |odd: usize| {
             if done[odd].compare_exchange(awaited(odd), TAKEN, AcqRel, Acquire).is_ok() {
@@ -172,7 +179,7 @@ impl Team {
             }
         };
         self.each(threads, &|place| {
-            take_all(&shares, place, &|piece| {
+            take_all(shares, place, &|piece| {
                 work(2 * piece);
                 let neighbours = [(2 * piece).wrapping_sub(1), 2 * piece + 1];
                 let neighbours = neighbours.into_iter().filter(|&odd| odd < count);
@@ -209,7 +216,7 @@ impl Team {
                 if looks < LOOKS {
                     std::hint::spin_loop();
                 } else {
-                    self.sleep(done);
+                    self.sleep(gate >> LOOP);
                     looks = 0;
                 }
             } else if self.gate.compare_exchange(gate, gate + INSIDE, AcqRel, Relaxed).is_ok() {
@@ -223,12 +230,12 @@ impl Team {
         }
     }
 
-    /// Sleeps until there is another loop than this, or for less.
-    fn sleep(&self, done: u64) {
+    /// Sleeps until there is another loop than this, which is over or done here, or for less.
+    fn sleep(&self, last: u64) {
         self.sleepers.lock().unwrap_or_else(PoisonError::into_inner).push(std::thread::current());
         self.asleep.fetch_add(1, SeqCst);
         // Whoever opens the gate after this look sees that somebody sleeps.
-        if self.gate.load(SeqCst) >> LOOP == done && !self.dismissed.load(SeqCst) {
+        if self.gate.load(SeqCst) >> LOOP == last && !self.dismissed.load(SeqCst) {
             std::thread::park();
         }
         self.asleep.fetch_sub(1, SeqCst);
@@ -265,8 +272,9 @@ mod tests {
             for place in 1..threads {
                 scope.spawn(move || team.help(place));
             }
-            let _dismissal = Dismissal(team);
-            act(team);
+            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| act(team)));
+            team.dismiss();
+            result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         });
     }
 
@@ -284,6 +292,25 @@ mod tests {
                     std::thread::sleep(std::time::Duration::from_millis(2));
                 }
             }
+        });
+    }
+
+    /// It looked for the next loop for ever: the number of the last loop was not that of the last one that it had done.
+    #[test]
+    fn a_helper_that_came_too_late_for_the_last_loop_sleeps() {
+        let team = &Team::of(2);
+        for _ in 0..3 {
+            team.each(5, &|_| ());
+        }
+        std::thread::scope(|scope| {
+            scope.spawn(|| team.help(1));
+            let begun = std::time::Instant::now();
+            while team.asleep.load(SeqCst) == 0 && begun.elapsed().as_secs() < 20 {
+                std::thread::yield_now();
+            }
+            let asleep = team.asleep.load(SeqCst);
+            team.dismiss();
+            assert_eq!(asleep, 1);
         });
     }
 

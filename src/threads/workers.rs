@@ -1,67 +1,87 @@
 //! The threads of one simulation.
 
-use super::helpers::{Dismissal, Team};
-use std::thread::JoinHandle;
+use super::helpers::Team;
+use std::sync::Arc;
+use std::thread::{Builder, JoinHandle};
 
 /// Fewer particles than this are not worth a second thread.
 const FEW: usize = 2000;
 
-/// A thread pool of its own, so that two simulations in one process do not disturb each other; joined when dropped.
+/// Threads of its own, so that two simulations in one process do not disturb each other; joined when dropped.
+#[derive(Default)]
 pub(crate) struct Workers {
-    /// The pool of the helpers; none where one thread works.
-    pool: Option<rayon::ThreadPool>,
-    /// Its threads.
+    /// The helpers; none where one thread works.
+    helpers: Option<Helpers>,
+}
+
+/// The first thread's helpers.
+struct Helpers {
+    /// What they are called to work by.
+    team: Arc<Team>,
+    /// The threads.
     handles: Vec<JoinHandle<()>>,
+    /// The process that they run in. A child made by `fork` has a copy of everything but them.
+    process: u32,
+}
+
+impl Helpers {
+    /// Starts the helpers of so many threads; none where the system refuses one of them.
+    fn start(threads: usize) -> Option<Self> {
+        let team = Arc::new(Team::of(threads));
+        let mut helpers = Self { team, handles: Vec::new(), process: std::process::id() };
+        for place in 1..threads {
+            let team = Arc::clone(&helpers.team);
+            helpers.handles.push(Builder::new().name("cograin".into()).spawn(move || team.help(place)).ok()?);
+        }
+        Some(helpers)
+    }
+
+    /// Whether they run in this process.
+    fn are_here(&self) -> bool {
+        self.process == std::process::id()
+    }
+}
+
+impl Drop for Helpers {
+    fn drop(&mut self) {
+        let here = self.are_here();
+        if here {
+            self.team.dismiss();
+        }
+        for handle in self.handles.drain(..) {
+            if here {
+                // A helper that panicked has told so already, where its work was waited for.
+                drop(handle.join());
+            } else {
+                // Whoever waited for a thread of another process would wait for ever.
+                std::mem::forget(handle);
+            }
+        }
+    }
 }
 
 impl Workers {
     /// As many threads as asked for, or as the machine offers; one for a few particles.
     pub(crate) fn new(threads: Option<usize>, particles: usize) -> Self {
-        let alone = Self { pool: None, handles: Vec::new() };
         let offered = || std::thread::available_parallelism().map_or(1, usize::from);
+        if particles < FEW {
+            return Self::default();
+        }
         let threads = threads.filter(|&threads| threads > 0).unwrap_or_else(offered);
-        if threads < 2 || particles < FEW {
-            return alone;
-        }
-        let mut handles = Vec::new();
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads - 1)
-            .spawn_handler(|thread| {
-                handles.push(std::thread::Builder::new().name("cograin".into()).spawn(|| thread.run())?);
-                Ok(())
-            })
-            .build();
-        match pool {
-            Ok(pool) => Self { pool: Some(pool), handles },
-            Err(_) => alone,
-        }
+        Self { helpers: if threads < 2 { None } else { Helpers::start(threads) } }
     }
 
     /// How many threads work.
     pub(crate) fn count(&self) -> usize {
-        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads() + 1)
+        self.helpers.as_ref().map_or(1, |helpers| helpers.team.threads())
     }
 
-    /// Does work to which helpers come, if there are any.
-    pub(crate) fn run<T>(&self, work: impl FnOnce(Option<&Team>) -> T) -> T {
-        let Some(pool) = &self.pool else { return work(None) };
-        let team = &Team::of(self.count());
-        pool.in_place_scope(|scope| {
-            for place in 1..self.count() {
-                scope.spawn(move |_| team.help(place));
-            }
-            let _dismissal = Dismissal(team);
-            work(Some(team))
-        })
-    }
-}
-
-impl Drop for Workers {
-    fn drop(&mut self) {
-        drop(self.pool.take());
-        for handle in self.handles.drain(..) {
-            // A worker that panicked has told so already, where its work was waited for.
-            drop(handle.join());
+    /// Does work to which helpers come, if there are any. In a child made by `fork` they are started anew, or, where
+    /// that is refused, one thread does all: the same bits.
+    pub(crate) fn run<T>(&mut self, work: impl FnOnce(Option<&Team>) -> T) -> T {
+        if self.helpers.as_ref().is_some_and(|helpers| !helpers.are_here()) {
+            self.helpers = Helpers::start(self.count());
         }
+        work(self.helpers.as_ref().map(|helpers| &*helpers.team))
     }
 }

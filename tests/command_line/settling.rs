@@ -41,8 +41,8 @@ fn a_unit_that_begins_settled_keeps_the_packing_when_its_boundaries_are_placed()
     complaint(&cograin(&[&"settle", &path, &"-o", &file]).output().unwrap(), 0);
     let (scene, _) = Scene::read(&path).unwrap();
     let state = read_checkpoint(&file, &scene).unwrap();
-    let mut simulation = Simulation::resume(Arc::new(scene), state.clone());
-    simulation.place(&[]).unwrap();
+    let mut simulation = Simulation::resume(Arc::new(scene), state.clone()).unwrap();
+    simulation.place(Some(&state)).unwrap();
     let particles = &simulation.state().particles;
     for (index, slot) in particles.slot.iter().enumerate() {
         let before = state.particles.slot[index] as usize;

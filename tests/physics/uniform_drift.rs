@@ -120,9 +120,9 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
         slid = slid.max(damped.contacts().iter().filter(|contact| contact.sliding).count());
     }
     damped.advance(20_000.0 * STEP).expect("it comes to rest");
-    still.restore(damped.state());
+    still.restore(damped.state()).unwrap();
     let mut drifting = simulation();
-    drifting.restore(damped.state());
+    drifting.restore(damped.state()).unwrap();
 
     // A tenth of a radius in each step, askew.
     let way = [0.8, 0.48, -0.36].map(|part| part * 0.05 * DIAMETER);
@@ -132,7 +132,7 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
             state.particles.velocity[slot][axis] += way[axis] / STEP;
         }
     }
-    drifting.restore(&state);
+    drifting.restore(&state).unwrap();
     let first = forces(&still);
     let largest = first.iter().flatten().fold(0.0_f64, |most, part| most.max(part.abs()));
     let lists = &drifting.state().contacts[0];
@@ -156,7 +156,7 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
         if step % 40 == 0 {
             let mut state = drifting.state().clone();
             state.neighbours.skin = SKINS[step as usize / 40 % SKINS.len()] * DIAMETER;
-            drifting.restore(&state);
+            drifting.restore(&state).unwrap();
             drifting.renew_lists();
         }
         let now = &drifting.state().particles.id;

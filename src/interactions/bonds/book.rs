@@ -7,7 +7,7 @@ use crate::state::State;
 use crate::state::bonds::Break;
 
 /// Sums energies of the bonds of a law, takes out what broke and tells of it.
-pub(crate) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<(), RunError> {
+pub(crate) fn book(state: &mut State, law: usize, results: &[Done]) -> Result<(), RunError> {
     let (list, particles, time) = (&mut state.bonds[law], &state.particles, state.clock.time);
     let mut outcome = Ok(());
     let mut gone = Vec::new();
@@ -16,7 +16,7 @@ pub(crate) fn book(state: &mut State, law: usize, results: Vec<Done>) -> Result<
     for done in results {
         list.relaxed += done.relaxed;
         list.damped += done.damped;
-        gone.extend(done.broken);
+        gone.extend_from_slice(&done.broken);
         if let Some(bond) = done.overbent {
             let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
             outcome = outcome.and(Err(RunError::Overbent { first, second, time, cause: Cause::Unknown }));

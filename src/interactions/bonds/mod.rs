@@ -26,7 +26,7 @@ use crate::quantity::SetIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
-use crate::state::{BondList, Particles, Row, State};
+use crate::state::{BondList, Particles, Row, State, StateFault};
 use crate::threads::Context;
 use after::After;
 use batch::{SlabOf, TakeSlabs, Work};
@@ -56,6 +56,8 @@ pub(crate) struct BondPass {
     pairs: Vec<[u32; 2]>,
     /// Pairs that may be near, where bonds are made in every step.
     near: Mutex<PairCache>,
+    /// Room for what each slab came to.
+    results: Mutex<Vec<Done>>,
 }
 
 impl BondPass {
@@ -74,6 +76,7 @@ impl BondPass {
             between: bond.between,
             pairs: bond.pairs.clone(),
             near: Mutex::default(),
+            results: Mutex::default(),
         }
     }
 
@@ -163,17 +166,19 @@ impl Pass for BondPass {
             step: context.step,
         };
         let ends = &list.slabs;
-        let mut results = vec![Done::default(); slabs];
+        let mut results = self.results.lock().unwrap_or_else(PoisonError::into_inner);
+        results.clear();
+        results.resize(slabs, Done::default());
         let places = Shared::new(&mut results);
         context.slabs(slabs, |slab| {
             let done = (self.slab)(&work, ends[slab] as usize, ends[slab + 1] as usize, context.width);
             // SAFETY: each slab is done once, and has a place of its own.
             unsafe { *places.at(slab) = done };
         });
-        for done in &mut results {
+        for done in &mut *results {
             done.release(context.step, |bond| self.carried(state, bond));
         }
-        book(state, self.index, results)
+        book(state, self.index, &results)
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
@@ -195,6 +200,11 @@ impl Pass for BondPass {
         }
         list.made += wanted.len() as u64;
         !wanted.is_empty()
+    }
+
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.bonds[self.index].check_columns(self.one_bond.rows, self.law.dissipates(), false)?;
+        state.bonds[self.index].check_damping(self.law.damping.is_some())
     }
 
     fn has_torque(&self) -> bool {

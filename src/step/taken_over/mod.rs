@@ -52,7 +52,7 @@ impl Simulation {
         let mut left = from.differences(&scene);
         put_boundaries(&scene, &mut state, reached, from);
         history::put_contacts(&scene, &mut state, reached, (from, &numbers));
-        let mut simulation = Self::resume(scene, state);
+        let mut simulation = Self::with(scene, state);
         simulation.give_attitudes();
         let there: Vec<_> = simulation.state.particles.position.clone();
         let Self { scene, bodies, state, .. } = &mut simulation;

@@ -183,6 +183,11 @@ impl Features for Mesh {
         parts[before..].sort_unstable();
     }
 
+    fn counts(&self) -> [usize; 2] {
+        let parts = self.topology.triangles.len();
+        [parts, self.topology.vertices.len() + self.topology.edges.len() + parts]
+    }
+
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
         let edge_foot = |on: &OnEdge, weight: f64| {
             let normal = on.apart * (1.0 / on.distance);

@@ -1,0 +1,40 @@
+//! What a pass over particles or contacts is needed for, found once at a communication point.
+
+use crate::step::{ElasticEnergy, Simulation};
+use std::cell::OnceCell;
+
+/// What has been found of a simulation since it last changed. Nothing is looked for before it is asked for, and
+/// nothing twice. It is part of no state: whoever changes the simulation forgets it.
+#[derive(Debug, Default)]
+pub struct Findings {
+    /// Kinetic energy \[J\].
+    kinetic: OnceCell<f64>,
+    /// Elastic energy \[J\].
+    elastic: OnceCell<ElasticEnergy>,
+    /// Number of contacts.
+    contacts: OnceCell<u64>,
+    /// Largest overlap over the smaller radius.
+    largest_overlap: OnceCell<f64>,
+}
+
+impl Findings {
+    /// Kinetic energy \[J\].
+    pub(super) fn kinetic(&self, simulation: &Simulation) -> f64 {
+        *self.kinetic.get_or_init(|| simulation.kinetic_energy())
+    }
+
+    /// Elastic energy.
+    pub(super) fn elastic(&self, simulation: &Simulation) -> ElasticEnergy {
+        *self.elastic.get_or_init(|| simulation.elastic_energies())
+    }
+
+    /// Number of contacts.
+    pub(super) fn contacts(&self, simulation: &Simulation) -> u64 {
+        *self.contacts.get_or_init(|| simulation.contact_count() as u64)
+    }
+
+    /// Largest overlap over the smaller radius.
+    pub(super) fn largest_overlap(&self, simulation: &Simulation) -> f64 {
+        *self.largest_overlap.get_or_init(|| simulation.largest_overlap())
+    }
+}

@@ -1,0 +1,438 @@
+//! What the outside may give and know: one row for each kind of variable.
+//!
+//! A row says everything of its variables: name, unit, when a scene has them, how they are read and written. The unit's
+//! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
+
+use super::{Causality, Findings, Quantity, Value, Variability, Variable};
+use crate::motion::Seen;
+use crate::quantity::BoundaryIndex;
+use crate::scene::Scene;
+use crate::state::{BondList, BoundaryState, State};
+use crate::step::Simulation;
+
+/// Names of the axes in variables.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// How many variables a row stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Each {
+    /// One: `<name>`.
+    Scene,
+    /// One for each boundary: `<boundary>.<name>`.
+    Boundary,
+    /// One for each boundary and axis: `<boundary>.<name>.<axis>`.
+    Axis,
+}
+
+/// Which of the variables of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct At {
+    /// The boundary.
+    boundary: BoundaryIndex,
+    /// The axis.
+    axis: usize,
+}
+
+/// A simulation, and what has been found of it.
+#[derive(Clone, Copy)]
+pub(super) struct Present<'a> {
+    /// The simulation.
+    pub(super) simulation: &'a Simulation,
+    /// What took a pass to find.
+    pub(super) findings: &'a Findings,
+}
+
+impl Present<'_> {
+    /// The state of a boundary.
+    fn boundary(&self, at: At) -> &BoundaryState {
+        &self.simulation.state().boundaries[at.boundary.index()]
+    }
+
+    /// The lists of bonds.
+    fn bonds(&self) -> &[BondList] {
+        &self.simulation.state().bonds
+    }
+}
+
+/// How an input is given.
+#[derive(Clone, Copy)]
+pub(super) struct Write {
+    /// Takes a value for the next communication step.
+    pub(super) set: fn(&mut Simulation, At, f64),
+    /// Takes the rate at which the value goes on in the next communication step.
+    pub(super) set_rate: fn(&mut Simulation, At, f64),
+    /// The value last given.
+    pub(super) held: fn(&State, At) -> f64,
+}
+
+/// A kind of variable.
+pub(super) struct Row {
+    /// Its name, behind that of what it belongs to.
+    pub(super) name: &'static str,
+    /// What it belongs to.
+    pub(super) each: Each,
+    /// What it is, with its sign. `{boundary}` and `{axis}` stand for the names.
+    description: &'static str,
+    /// What is measured, and with it the unit and the type.
+    pub(super) quantity: Quantity,
+    /// When it changes.
+    variability: Variability,
+    /// Its lower bound, where nature sets one.
+    minimum: Option<f64>,
+    /// Whether its value at the start follows from the start values of the inputs.
+    follows_inputs_at_start: bool,
+    /// Whether the scene has it.
+    exists: fn(&Scene, At) -> bool,
+    /// Its value, where it is a constant.
+    constant: Option<fn(&Scene, At) -> f64>,
+    /// How it is given, where it is an input.
+    pub(super) write: Option<Write>,
+    /// Its present value.
+    pub(super) read: fn(Present, At) -> Value,
+}
+
+/// What most rows have in common: an output that every scene has.
+const OUTPUT: Row = Row {
+    name: "",
+    each: Each::Scene,
+    description: "",
+    quantity: Quantity::Ratio,
+    variability: Variability::Continuous,
+    minimum: None,
+    follows_inputs_at_start: true,
+    exists: |_, _| true,
+    constant: None,
+    write: None,
+    read: |_, _| Value::Real(0.0),
+};
+
+/// An output of each boundary and axis.
+const OF_AXIS: Row = Row { each: Each::Axis, ..OUTPUT };
+
+/// A number of things.
+const COUNT: Row = Row { quantity: Quantity::Count, variability: Variability::Discrete, minimum: Some(0.0), ..OUTPUT };
+
+/// How a driven axis is given: `FIRST` is 0 for displacements and 3 for rotations.
+const fn driven<const FIRST: usize>() -> Option<Write> {
+    Some(Write {
+        set: |simulation, at, value| simulation.set_displacement(at.boundary, FIRST + at.axis, value),
+        set_rate: |simulation, at, rate| simulation.set_displacement_rate(at.boundary, FIRST + at.axis, rate),
+        held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
+    })
+}
+
+/// What the outside sees of an axis: 0 to 2 along x, y, z, 3 to 5 about them.
+fn seen(scene: &Scene, at: At, first: usize) -> Seen {
+    scene.boundaries[at.boundary.index()].axes[first + at.axis].seen()
+}
+
+/// Whether the outside moves it.
+fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Input
+}
+
+/// Whether it moves without the outside.
+fn moves_by_itself(scene: &Scene, at: At, first: usize) -> bool {
+    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate)
+}
+
+/// Whether forces move it.
+fn is_free(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::PlaceAndRate
+}
+
+/// A number of things as a value.
+fn count(number: u64) -> Value {
+    Value::Integer(i32::try_from(number).unwrap_or(i32::MAX))
+}
+
+/// Mass of the particles of a boundary; 0 for one that has none \[kg\].
+fn mass(scene: &Scene, at: At) -> f64 {
+    let members = scene.boundaries[at.boundary.index()].shape.members().iter();
+    members.filter_map(|&member| scene.particles.get(member as usize)).map(crate::scene::Particle::mass).sum()
+}
+
+/// Variables of each boundary, inputs first.
+static OF_BOUNDARIES: [Row; 12] = [
+    Row {
+        name: "displacement",
+        description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
+                      communication step; at initialisation taken without motion",
+        quantity: Quantity::Length,
+        exists: |scene, at| is_driven(scene, at, 0),
+        write: driven::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "rotation",
+        description: "rotation of {boundary} about {axis} since the scene's time 0, to be reached at the end of the \
+                      communication step; at initialisation taken without motion",
+        quantity: Quantity::Angle,
+        exists: |scene, at| is_driven(scene, at, 3),
+        write: driven::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "displacement",
+        description: "displacement of {boundary} along {axis} since the scene's time 0",
+        quantity: Quantity::Length,
+        follows_inputs_at_start: false,
+        exists: |scene, at| moves_by_itself(scene, at, 0),
+        read: |now, at| Value::Real(now.boundary(at).displacement[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "rotation",
+        description: "rotation of {boundary} about {axis} since the scene's time 0",
+        quantity: Quantity::Angle,
+        follows_inputs_at_start: false,
+        exists: |scene, at| moves_by_itself(scene, at, 3),
+        read: |now, at| Value::Real(now.boundary(at).rotation[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "velocity",
+        description: "velocity of {boundary} along {axis}",
+        quantity: Quantity::Velocity,
+        follows_inputs_at_start: false,
+        exists: |scene, at| is_free(scene, at, 0),
+        read: |now, at| Value::Real(now.boundary(at).velocity[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "angular_velocity",
+        description: "angular velocity of {boundary} about {axis}",
+        quantity: Quantity::AngularVelocity,
+        follows_inputs_at_start: false,
+        exists: |scene, at| is_free(scene, at, 3),
+        read: |now, at| Value::Real(now.boundary(at).angular_velocity[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "force",
+        description: "force of the particles on {boundary} along {axis}",
+        quantity: Quantity::Force,
+        read: |now, at| Value::Real(now.boundary(at).force[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "moment",
+        description: "moment of the particles on {boundary} about {axis} through its moved reference point",
+        quantity: Quantity::Torque,
+        read: |now, at| Value::Real(now.boundary(at).moment[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "mean_force",
+        description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
+        quantity: Quantity::Force,
+        read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "mean_moment",
+        description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
+        quantity: Quantity::Torque,
+        read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "work",
+        each: Each::Boundary,
+        description: "work done by {boundary} on the particles since the start",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(now.boundary(at).work),
+        ..OUTPUT
+    },
+    Row {
+        name: "mass",
+        each: Each::Boundary,
+        description: "mass of the particles of {boundary}; their weight and inertia are not in its force",
+        quantity: Quantity::Mass,
+        variability: Variability::Constant,
+        minimum: Some(0.0),
+        follows_inputs_at_start: false,
+        exists: |scene, at| !scene.boundaries[at.boundary.index()].shape.members().is_empty(),
+        constant: Some(mass),
+        read: |now, at| Value::Real(mass(now.simulation.scene(), at)),
+        ..OUTPUT
+    },
+];
+
+/// Variables of the scene as a whole.
+static OF_SCENE: [Row; 12] = [
+    Row {
+        name: "energy.kinetic",
+        description: "kinetic energy of the particles and groups that move freely",
+        quantity: Quantity::Energy,
+        minimum: Some(0.0),
+        follows_inputs_at_start: false,
+        read: |now, _| Value::Real(now.findings.kinetic(now.simulation)),
+        ..OUTPUT
+    },
+    Row {
+        name: "energy.elastic",
+        description: "elastic energy of normal forces, tangential springs and bonds",
+        quantity: Quantity::Energy,
+        minimum: Some(0.0),
+        exists: |scene, _| !(scene.contacts.is_empty() && scene.bonds.is_empty()),
+        read: |now, _| Value::Real(now.findings.elastic(now.simulation).all),
+        ..OUTPUT
+    },
+    Row {
+        name: "energy.dissipated",
+        description: "energy that contacts, bonds and global damping took in and do not hold as elastic energy, since \
+                      the start",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| scene.output.energy,
+        read: |now, _| {
+            let elastic = now.findings.elastic(now.simulation).all;
+            Value::Real(now.simulation.dissipated_energy_beside(elastic).unwrap_or(0.0))
+        },
+        ..OUTPUT
+    },
+    Row {
+        name: "energy.residual",
+        description: "change of the kinetic energy less the work of every force, as the time steps do it",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| scene.output.energy,
+        read: |now, _| {
+            let kinetic = now.findings.kinetic(now.simulation);
+            Value::Real(now.simulation.energy_residual_beside(kinetic).unwrap_or(0.0))
+        },
+        ..OUTPUT
+    },
+    Row {
+        name: "contacts.count",
+        description: "number of contacts, those with boundaries included",
+        read: |now, _| count(now.findings.contacts(now.simulation)),
+        ..COUNT
+    },
+    Row {
+        name: "overlap.max",
+        description: "largest overlap over the smaller radius",
+        minimum: Some(0.0),
+        read: |now, _| Value::Real(now.findings.largest_overlap(now.simulation)),
+        ..OUTPUT
+    },
+    Row {
+        name: "bonds.intact",
+        description: "number of living bonds",
+        exists: |scene, _| !scene.bonds.is_empty(),
+        read: |now, _| count(now.bonds().iter().map(|list| list.first.len() as u64).sum()),
+        ..COUNT
+    },
+    Row {
+        name: "bonds.broken",
+        description: "number of bonds that broke since the start",
+        exists: |scene, _| !scene.bonds.is_empty(),
+        read: |now, _| count(now.bonds().iter().map(|list| list.broken).sum()),
+        ..COUNT
+    },
+    Row {
+        name: "bonds.elastic_energy",
+        description: "elastic energy of the living bonds",
+        quantity: Quantity::Energy,
+        minimum: Some(0.0),
+        exists: |scene, _| !scene.bonds.is_empty(),
+        read: |now, _| Value::Real(now.findings.elastic(now.simulation).bonds),
+        ..OUTPUT
+    },
+    Row {
+        name: "bonds.dissipated_energy",
+        description: "energy that damping and relaxation took of the bonds and that broken bonds released, since the \
+                      start",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| !scene.bonds.is_empty(),
+        read: |now, _| Value::Real(now.bonds().iter().map(BondList::dissipated).sum()),
+        ..OUTPUT
+    },
+    Row {
+        name: "time_step.current",
+        description: "the time step",
+        quantity: Quantity::Time,
+        variability: Variability::Discrete,
+        minimum: Some(0.0),
+        read: |now, _| Value::Real(now.simulation.state().clock.step),
+        ..OUTPUT
+    },
+    Row {
+        name: "time_step.stable",
+        description: "the largest stable time step, as last computed",
+        quantity: Quantity::Time,
+        variability: Variability::Discrete,
+        minimum: Some(0.0),
+        // where nothing is stiff there is no bound, and infinity is no value of a variable
+        read: |now, _| Value::Real(now.simulation.state().clock.stable.min(f64::MAX)),
+        ..OUTPUT
+    },
+];
+
+/// Where a variable's row stands, and which of the row's variables it is.
+#[derive(Clone, Copy)]
+pub(super) struct Source {
+    /// The row.
+    pub(super) row: &'static Row,
+    /// Which of its variables.
+    pub(super) at: At,
+}
+
+impl std::fmt::Debug for Source {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} {:?}", self.row.name, self.at)
+    }
+}
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.row, other.row) && self.at == other.at
+    }
+}
+
+/// The variables of a scene, boundary by boundary, then of the whole.
+pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
+    let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
+    let of_boundaries = boundaries.flat_map(|boundary| OF_BOUNDARIES.iter().map(move |row| (row, boundary)));
+    let rows = of_boundaries.chain(OF_SCENE.iter().map(|row| (row, BoundaryIndex(0))));
+    let places = rows.flat_map(|(row, boundary)| {
+        let axes = if row.each == Each::Axis { AXES.len() } else { 1 };
+        (0..axes).map(move |axis| Source { row, at: At { boundary, axis } })
+    });
+    places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
+}
+
+/// All rows.
+#[cfg(test)]
+pub(super) fn all() -> impl Iterator<Item = &'static Row> {
+    OF_BOUNDARIES.iter().chain(&OF_SCENE)
+}
+
+impl Source {
+    /// The variable.
+    fn variable(self, scene: &Scene) -> Variable {
+        let Self { row, at } = self;
+        let boundary = || scene.boundaries[at.boundary.index()].name.as_str();
+        let (name, described) = match row.each {
+            Each::Scene => (row.name.to_owned(), String::new()),
+            Each::Boundary => (format!("{}.{}", boundary(), row.name), boundary().to_owned()),
+            Each::Axis => (format!("{}.{}.{}", boundary(), row.name, AXES[at.axis]), boundary().to_owned()),
+        };
+        Variable {
+            name,
+            description: row.description.replace("{axis}", AXES[at.axis]).replace("{boundary}", &described),
+            quantity: row.quantity,
+            causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
+            variability: row.variability,
+            start: if row.write.is_some() { Some(0.0) } else { row.constant.map(|constant| constant(scene, at)) },
+            minimum: row.minimum,
+            follows_inputs_at_start: row.follows_inputs_at_start && row.write.is_none(),
+            source: self,
+        }
+    }
+}

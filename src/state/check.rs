@@ -1,0 +1,452 @@
+//! Whether a state can be one of its scene.
+//!
+//! The passes trust the lists of a state: slots below the number of particles, columns of one length, pairs in order and
+//! inside their slabs. What comes from outside (a saved state, a checkpoint) is therefore looked through once before
+//! anything is done with it. Each part looks through itself; the passes add what their laws demand of their lists
+//! ([`Pass::check`](crate::interactions::Pass::check)).
+
+use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Hidden, Ledger, Neighbours, Particles};
+use super::{HiddenContact, NearParts, Row, State, WallContacts};
+
+/// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
+const MOST: u64 = 1 << 48;
+
+/// Why a state cannot be one of its scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a state that cannot be: {part}[{place}]: {right} is right")]
+pub struct StateFault {
+    /// Which part of it.
+    pub part: &'static str,
+    /// Which entry of that part.
+    pub place: usize,
+    /// What would be right.
+    pub right: &'static str,
+}
+
+/// Whether something holds of an entry of a part.
+pub(crate) fn demand(holds: bool, part: &'static str, place: usize, right: &'static str) -> Result<(), StateFault> {
+    if holds { Ok(()) } else { Err(StateFault { part, place, right }) }
+}
+
+/// Whether something holds of every entry of a part.
+pub(crate) fn demand_all(
+    mut holds: impl Iterator<Item = bool>,
+    part: &'static str,
+    right: &'static str,
+) -> Result<(), StateFault> {
+    match holds.position(|holds| !holds) {
+        None => Ok(()),
+        Some(place) => Err(StateFault { part, place, right }),
+    }
+}
+
+/// What a number has to be.
+const FINITE: &str = "finite numbers";
+
+/// How long a column has to be.
+const LENGTH: &str = "as many entries as the list has, or none where the law keeps none,";
+
+/// Whether a column has an entry for each of a list's, or none at all.
+fn column<T>(column: &[T], length: usize, kept: bool, part: &'static str) -> Result<(), StateFault> {
+    demand(column.len() == if kept { length } else { 0 }, part, column.len(), LENGTH)
+}
+
+/// Whether rows are finite.
+fn finite(rows: &[Row], part: &'static str) -> Result<(), StateFault> {
+    demand_all(rows.iter().map(|row| row.iter().all(|number| number.is_finite())), part, FINITE)
+}
+
+/// Whether numbers are finite.
+fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
+    demand_all(numbers.iter().map(|number| number.is_finite()), part, FINITE)
+}
+
+/// Whether ends go from 0 to the number of things without going back.
+fn ends(ends: &[u32], count: usize, part: &'static str) -> Result<(), StateFault> {
+    let right = "ascending from 0 to the number of entries";
+    demand(ends.first() == Some(&0) && ends.last().is_some_and(|&end| end as usize == count), part, 0, right)?;
+    demand_all(ends.windows(2).map(|pair| pair[0] <= pair[1]), part, right)
+}
+
+/// Whether pairs of slots stand in order, the first of each in its slab and the second no further than the next.
+fn in_slabs(
+    pair: impl Fn(usize) -> (u32, u32),
+    slabs: &[u32],
+    particles: &[u32],
+    part: &'static str,
+) -> Result<(), StateFault> {
+    demand(slabs.len() == particles.len(), part, slabs.len(), "as many slabs as the particles have")?;
+    let mut before = (0, 0);
+    for slab in 1..slabs.len() {
+        let (from, to) = (particles[slab - 1], particles[slab]);
+        let beyond = particles[(slab + 1).min(particles.len() - 1)];
+        for place in slabs[slab - 1] as usize..slabs[slab] as usize {
+            let (first, second) = pair(place);
+            demand((from..to).contains(&first), part, place, "a first particle of this slab")?;
+            demand(
+                first < second && second < beyond,
+                part,
+                place,
+                "a second particle behind it, of this slab or the next,",
+            )?;
+            demand(before <= (first, second), part, place, "ascending order")?;
+            before = (first, second);
+        }
+    }
+    Ok(())
+}
+
+impl State {
+    /// Whether this can be a state of the simulation that `other` is one of, as far as it shows without the laws.
+    pub(crate) fn check(&self, other: &Self) -> Result<(), StateFault> {
+        self.clock.check()?;
+        self.foresight.check()?;
+        self.particles.check(&other.particles)?;
+        let count = self.particles.len();
+        self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
+        let same = "as many as the scene has";
+        demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
+        demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
+        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), same)?;
+        demand(self.boundaries.len() == other.boundaries.len(), "boundaries", self.boundaries.len(), same)?;
+        let lengths = self.coefficients.iter().map(Vec::len).eq(other.coefficients.iter().map(Vec::len));
+        demand(lengths, "coefficients", 0, "a row for each two materials of each law")?;
+        for rows in &self.coefficients {
+            demand_all(rows.iter().map(|number| !number.is_nan()), "coefficients", "numbers")?;
+        }
+        for list in &self.contacts {
+            list.check(&self.neighbours.slabs)?;
+        }
+        for (list, same) in self.walls.iter().zip(&other.walls) {
+            list.check(count, same)?;
+        }
+        for list in &self.bonds {
+            list.check(count, &self.neighbours.slabs)?;
+        }
+        self.hidden.check(count, [self.contacts.len(), self.walls.len()])?;
+        let broken = |it: &super::Break| {
+            let bodies = [it.first].into_iter().chain(it.second);
+            (it.law as usize) < self.bonds.len() && bodies.into_iter().all(|body| (body as usize) < count)
+        };
+        demand_all(self.breaks.iter().map(broken), "breaks", "a bond law and particles of the scene")?;
+        demand_all(self.boundaries.iter().map(BoundaryState::is_finite), "boundaries", FINITE)?;
+        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, "a book where the scene asks for it")?;
+        self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
+        all_finite(&self.damping_force, "damping_force")?;
+        all_finite(&self.damping_impulse, "damping_impulse")
+    }
+}
+
+impl Clock {
+    /// Whether this can be one.
+    fn check(&self) -> Result<(), StateFault> {
+        let numbers = [self.time, self.lost, self.step, self.last_step, self.speed];
+        all_finite(&numbers, "clock")?;
+        let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
+        demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
+        demand(self.steps < MOST && self.rebuilds < MOST, "clock", 1, "a count that can be reached")
+    }
+}
+
+impl Foresight {
+    /// Whether this can be one. What is not foreseen may be infinite.
+    fn check(&self) -> Result<(), StateFault> {
+        let Self { root, counter, looks, travel, reach, speed, bonds, until: _, to } = *self;
+        let numbers = [root, travel, reach, speed, to].iter().all(|number| !number.is_nan());
+        demand(numbers, "foresight", 0, "numbers")?;
+        let counts = [counter, looks, bonds[0], bonds[1]].iter().all(|&count| count < MOST);
+        demand(counts, "foresight", 1, "a count that can be reached")
+    }
+}
+
+impl Particles {
+    /// Whether these can be the same particles somewhere else.
+    fn check(&self, other: &Self) -> Result<(), StateFault> {
+        let count = other.len();
+        let lengths = [self.position.len(), self.velocity.len(), self.angular_velocity.len(), self.force.len()];
+        let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len(), self.slot.len()];
+        let right = "one for each of the scene's particles";
+        demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", right)?;
+        demand(self.attitude.is_empty() || self.attitude.len() == count, "attitude", self.attitude.len(), right)?;
+        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), right)?;
+        let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
+        demand_all(numbers, "id", "each particle in one slot")?;
+        let same = |slot: usize| {
+            let there = other.slot[self.id[slot] as usize] as usize;
+            let constants = |of: &Self, at: usize| {
+                [of.position[at][3], of.velocity[at][3], of.angular_velocity[at][3]].map(f64::to_bits)
+            };
+            constants(self, slot) == constants(other, there)
+                && self.material[slot] == other.material[there]
+                && self.owner[slot] == other.owner[there]
+        };
+        demand_all((0..count).map(same), "particles", "the scene's radius, mass, inertia, material and group")?;
+        let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
+        demand_all(loads, "force", "0 behind each load")?;
+        let rows = [
+            (&self.position, "position"),
+            (&self.velocity, "velocity"),
+            (&self.angular_velocity, "angular_velocity"),
+            (&self.force, "force"),
+            (&self.torque, "torque"),
+            (&self.attitude, "attitude"),
+        ];
+        rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
+    }
+}
+
+impl Neighbours {
+    /// Whether the lists can have been made for so many particles and boundaries.
+    fn check(&self, particles: usize, boundaries: usize, clock: &Clock) -> Result<(), StateFault> {
+        all_finite(&[self.skin, self.travel], "neighbours")?;
+        demand(self.skin >= 0.0 && self.travel >= 0.0, "neighbours", 0, "a skin and a way of 0 or above")?;
+        demand(self.made_at <= clock.steps, "neighbours", 1, "a step in which the lists were made that is past")?;
+        let Columns { x, y, z, radius } = &self.reference;
+        let same = [y, z, radius].into_iter().all(|column| column.len() == x.len());
+        let fits = x.is_empty() || x.len() >= particles;
+        demand(same && fits, "reference", x.len(), "a place for each particle")?;
+        for column in [x, y, z, radius] {
+            all_finite(column, "reference")?;
+        }
+        let there = self.boundary_reference.len();
+        demand(there == 0 || there == boundaries, "boundary_reference", there, "one for each boundary")?;
+        let others = [self.boundary_orientation.len(), self.boundary_extent.len()];
+        demand_all(others.iter().map(|other| *other == there), "boundary_reference", "one for each boundary")?;
+        finite(&self.boundary_orientation, "boundary_orientation")?;
+        let extents = self.boundary_extent.iter().map(|extent| *extent >= 0.0);
+        demand_all(extents, "boundary_extent", "0 or above")?;
+        demand_all(self.boundary_reference.iter().flatten().map(|it| it.is_finite()), "boundary_reference", FINITE)?;
+        if self.slabs.is_empty() { Ok(()) } else { ends(&self.slabs, particles, "slabs") }
+    }
+}
+
+impl ContactList {
+    /// Whether the list can stand in these slabs of particles.
+    fn check(&self, particles: &[u32]) -> Result<(), StateFault> {
+        let count = self.first.len();
+        let equal = self.second.len() == count && self.flags.len() == count;
+        demand(equal, "contacts", count, "columns of one length")?;
+        if self.slabs.is_empty() {
+            return demand(count == 0, "contacts", count, "no pair where there is no slab");
+        }
+        ends(&self.slabs, count, "contacts")?;
+        in_slabs(|pair| (self.first[pair], self.second[pair]), &self.slabs, particles, "contacts")?;
+        self.history.iter().try_for_each(|rows| finite(rows, "history"))?;
+        all_finite(&self.pair_constant, "pair_constant")
+    }
+
+    /// Whether it has the columns of a law that remembers so many rows of each contact.
+    pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
+        let columns = (&self.history[..], history, &self.pair_constant[..], pair_constant);
+        remembered(columns, self.first.len())
+    }
+}
+
+impl WallContacts {
+    /// Whether the list can be one of so many particles, at the plane and of the law of the other.
+    fn check(&self, particles: usize, other: &Self) -> Result<(), StateFault> {
+        let right = "the plane and the law of the scene";
+        demand((self.boundary, self.law) == (other.boundary, other.law), "walls", 0, right)?;
+        demand(self.flags.len() == self.particle.len(), "walls", self.flags.len(), "columns of one length")?;
+        let order = self.particle.windows(2).map(|pair| pair[0] <= pair[1]);
+        demand_all(order, "walls", "ascending order")?;
+        let last = self.particle.last().is_none_or(|&last| (last as usize) < particles);
+        demand(last, "walls", self.particle.len(), "slots of particles")?;
+        self.near.check(particles)?;
+        self.history.iter().try_for_each(|rows| finite(rows, "history"))?;
+        all_finite(&self.pair_constant, "pair_constant")
+    }
+
+    /// Whether it has the columns of a law that remembers so many rows of each contact.
+    pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
+        let columns = (&self.history[..], history, &self.pair_constant[..], pair_constant);
+        remembered(columns, self.particle.len())?;
+        let once = self.particle.windows(2).map(|pair| pair[0] < pair[1]);
+        demand_all(once, "walls", "each particle once")?;
+        demand(self.feature.is_empty() && self.near.particle.is_empty(), "feature", 0, "no feature at a plane")
+    }
+
+    /// The same of a list at a surface of so many parts and features. Pair constants are kept of the near particles.
+    pub(crate) fn check_features(
+        &self,
+        history: usize,
+        pair_constant: bool,
+        [parts, features]: [usize; 2],
+    ) -> Result<(), StateFault> {
+        remembered((&self.history, history, &[], false), self.particle.len())?;
+        column(&self.pair_constant, self.near.particle.len(), pair_constant, "pair_constant")?;
+        column(&self.feature, self.particle.len(), true, "feature")?;
+        let there = self.feature.iter().map(|&feature| (feature as usize) < features);
+        demand_all(there, "feature", "features of the surface")?;
+        let there = self.near.parts.iter().map(|&part| (part as usize) < parts);
+        demand_all(there, "near", "parts of the surface")
+    }
+}
+
+/// Whether a list of so many contacts has the rows that its law remembers, and the pair constants that it keeps or not.
+fn remembered(
+    (history, rows, pair_constant, kept): (&[Vec<Row>], usize, &[f64], bool),
+    count: usize,
+) -> Result<(), StateFault> {
+    let fits = history.len() == rows || (count == 0 && history.is_empty());
+    demand(fits, "history", history.len(), "the rows of the law")?;
+    history.iter().try_for_each(|rows| column(rows, count, true, "history"))?;
+    column(pair_constant, count, kept, "pair_constant")
+}
+
+impl NearParts {
+    /// Whether the lists can be of so many particles.
+    fn check(&self, particles: usize) -> Result<(), StateFault> {
+        ascending(&self.particle, particles, "near")?;
+        if self.starts.is_empty() {
+            return demand(self.particle.is_empty() && self.parts.is_empty(), "near", 0, "no part without a start");
+        }
+        demand(self.starts.len() == self.particle.len() + 1, "near", self.starts.len(), "a start for each particle")?;
+        ends(&self.starts, self.parts.len(), "near")
+    }
+}
+
+/// Whether slots ascend below a number, none twice.
+fn ascending(slots: &[u32], count: usize, part: &'static str) -> Result<(), StateFault> {
+    demand_all(slots.windows(2).map(|pair| pair[0] < pair[1]), part, "ascending order")?;
+    demand(slots.last().is_none_or(|&last| (last as usize) < count), part, slots.len(), "slots of particles")
+}
+
+impl BondList {
+    /// Whether the list can be one of so many particles in these slabs.
+    fn check(&self, count: usize, particles: &[u32]) -> Result<(), StateFault> {
+        let numbers = [self.relaxed, self.damped, self.released];
+        all_finite(&numbers, "bonds")?;
+        all_finite(&self.lost, "lost")?;
+        demand(self.made < MOST && self.broken < MOST, "bonds", 0, "a count that can be reached")?;
+        for column in self.rows.iter().chain(&self.damping).chain([&self.foot]) {
+            finite(column, "bonds")?;
+        }
+        let bonds = self.first.len();
+        if !self.slabs.is_empty() {
+            ends(&self.slabs, bonds, "bonds")?;
+        }
+        if self.second.is_empty() {
+            return ascending(&self.first, count, "bonds");
+        }
+        demand(self.second.len() == bonds, "bonds", self.second.len(), "columns of one length")?;
+        demand(!self.slabs.is_empty(), "bonds", 1, "slabs")?;
+        let pair = |bond: usize| {
+            let (i, j) = (self.first[bond], self.second[bond]);
+            (i.min(j), i.max(j))
+        };
+        in_slabs(pair, &self.slabs, particles, "bonds")
+    }
+
+    /// Whether it has the columns of a law: rows of state, what each lost, and a foot or a second body.
+    pub(crate) fn check_columns(&self, rows: usize, lost: bool, at_plane: bool) -> Result<(), StateFault> {
+        let count = self.first.len();
+        column(&self.foot, count, at_plane, "foot")?;
+        column(&self.second, count, !at_plane, "second")?;
+        column(&self.lost, count, lost, "lost")?;
+        if count > 0 {
+            demand(self.rows.len() == rows, "rows", self.rows.len(), "the rows of the law")?;
+        }
+        self.rows.iter().try_for_each(|row| column(row, count, true, "rows"))
+    }
+
+    /// Whether it has the columns of the load of damping, if its law has one.
+    pub(crate) fn check_damping(&self, damped: bool) -> Result<(), StateFault> {
+        let fits = self.damping.len() == 3 || self.damping.is_empty() && (!damped || self.first.is_empty());
+        demand(fits, "damping", self.damping.len(), "three columns where the law has damping")?;
+        self.damping.iter().try_for_each(|row| column(row, self.first.len(), damped, "damping"))
+    }
+}
+
+impl Hidden {
+    /// Whether the lists can be of so many particles, and pairs and planes with a law.
+    fn check(&self, particles: usize, [laws, planes]: [usize; 2]) -> Result<(), StateFault> {
+        let lengths = [(self.pairs.len(), laws), (self.planes.len(), planes), (self.active.len(), self.pairs.len())];
+        let right = "a list for each of the state's, or none";
+        demand_all(lengths.iter().map(|(found, all)| *found == 0 || found == all), "hidden", right)?;
+        demand(self.planes.is_empty() || !self.pairs.is_empty() || laws == 0, "hidden", 0, right)?;
+        for (active, list) in self.active.iter().zip(&self.pairs) {
+            ascending(active, list.len(), "active")?;
+        }
+        for (lists, at_plane) in [(&self.pairs, false), (&self.planes, true)] {
+            for list in lists {
+                let bodies = |entry: &HiddenContact| (entry.first, entry.second);
+                demand_all(
+                    list.windows(2).map(|pair| bodies(&pair[0]) < bodies(&pair[1])),
+                    "hidden",
+                    "ascending order",
+                )?;
+                let fits = |entry: &HiddenContact| {
+                    let last = entry.second.unwrap_or(entry.first);
+                    let bodies = if at_plane { entry.second.is_none() } else { entry.first < last };
+                    bodies && (last as usize) < particles && u64::from(entry.bonds) < MOST >> 20
+                };
+                demand_all(list.iter().map(fits), "hidden", "particles of the scene")?;
+                let numbers = |it: &HiddenContact| {
+                    let rows = [it.force, [it.offset, it.pair_constant, 0.0, 0.0]];
+                    it.history.iter().chain(&rows).flatten().all(|number| number.is_finite())
+                };
+                demand_all(list.iter().map(numbers), "hidden", FINITE)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl BoundaryState {
+    /// Whether every number is finite.
+    fn is_finite(&self) -> bool {
+        let Self {
+            displacement, velocity, rotation, angular_velocity, attitude, pivot, start, target, fastest, ..
+        } = self;
+        let Self { target_rate, start_attitude, turn, inertial, force, moment, impulse, .. } = self;
+        let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
+        let triples = [
+            displacement,
+            velocity,
+            rotation,
+            angular_velocity,
+            pivot,
+            turn,
+            force,
+            moment,
+            impulse,
+            angular_impulse,
+            mean_force,
+            mean_moment,
+            total_impulse,
+            &inertial.angular_momentum,
+            &inertial.load,
+            &inertial.couple,
+            &inertial.braking_force,
+            &inertial.braking_moment,
+            &inertial.kick,
+            &inertial.spin_kick,
+        ];
+        let sixes = [start, target, target_rate, fastest];
+        let rows = [attitude.0, start_attitude.0];
+        triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
+            && rows.iter().flatten().all(|number| number.is_finite())
+            && work.is_finite()
+    }
+}
+
+impl Ledger {
+    /// Whether the book can be one of so many particles.
+    fn check(&self, particles: usize) -> Result<(), StateFault> {
+        all_finite(&[self.initial_kinetic, self.initial_elastic, self.turnover], "ledger")?;
+        all_finite(&self.work, "ledger")?;
+        for loads in &self.loads {
+            for rows in [&loads.force, &loads.torque] {
+                demand(
+                    rows.is_empty() || rows.len() == particles,
+                    "loads",
+                    rows.len(),
+                    "one for each particle, or none",
+                )?;
+                finite(rows, "loads")?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,26 @@
+//! States from outside: looked through before anything is done with them.
+
+use super::{LONGEST_AUTOMATIC_STEP, Simulation};
+use crate::scene::Step;
+use crate::state::{State, StateFault, demand};
+
+impl Simulation {
+    /// Whether a state can be one of this simulation: everything that the passes trust (slots, lengths and order of the
+    /// lists, finite numbers) and what never changes (radii, masses, materials, groups). Takes a time in proportion to
+    /// the state.
+    pub fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.check(&self.state)?;
+        self.search.check(state)?;
+        let count = state.particles.len();
+        let attitudes = state.particles.attitude.len() == count || !self.passes.iter().any(|it| it.needs_attitudes());
+        demand(attitudes, "attitude", state.particles.attitude.len(), "one for each particle")?;
+        let hidden = self.hiding.any() || state.hidden.all().next().is_none();
+        demand(hidden, "hidden", 0, "no contact where no bond suppresses any")?;
+        let step = match self.scene.run.step {
+            Step::Given(step) => state.clock.step == step,
+            Step::Automatic { .. } => state.clock.step <= LONGEST_AUTOMATIC_STEP,
+        };
+        demand(step, "clock", 2, "the time step of the scene")?;
+        self.passes.iter().try_for_each(|pass| pass.check(state))
+    }
+}

@@ -1,0 +1,93 @@
+//! The way back to the beginning of a communication step that fails.
+//!
+//! A time step that fails spoils positions, springs, bonds and lists. To copy the state before each communication step
+//! would cost as much as several time steps. Instead an earlier state is kept, with what was asked for since then: the
+//! same steps give the same bits, so going them again leads to where the failed one began.
+
+use super::{RunError, Simulation};
+use crate::state::State;
+
+/// Time steps after which a new state is kept: what going back may cost, and what the copy is shared by.
+const MOST_STEPS: u64 = 64;
+
+/// What the outside gave for a communication step.
+#[derive(Clone, Copy, Debug)]
+struct Given {
+    /// Values of the axes of a boundary.
+    target: [f64; 6],
+    /// Their rates.
+    rate: [f64; 6],
+}
+
+/// An earlier state and the communication steps since then.
+#[derive(Debug, Default)]
+pub(super) struct WayBack {
+    /// The state.
+    earlier: Option<State>,
+    /// Whether it is one of the present course.
+    holds: bool,
+    /// Length of each communication step since then \[s\].
+    intervals: Vec<f64>,
+    /// What was given for them, boundary by boundary.
+    given: Vec<Given>,
+}
+
+impl WayBack {
+    /// The simulation has changed otherwise than by its communication steps.
+    pub(super) fn forget(&mut self) {
+        self.holds = false;
+    }
+
+    /// Notes that a communication step of this length \[s\] begins.
+    fn note(&mut self, state: &State, interval: f64) {
+        let recent = |earlier: &State| state.clock.steps - earlier.clock.steps < MOST_STEPS;
+        if !(self.holds && self.earlier.as_ref().is_some_and(recent)) {
+            match &mut self.earlier {
+                Some(earlier) => earlier.clone_from(state),
+                None => {
+                    self.earlier = Some(state.clone());
+                    self.intervals.reserve(MOST_STEPS as usize);
+                    self.given.reserve(MOST_STEPS as usize * state.boundaries.len());
+                }
+            }
+            self.intervals.clear();
+            self.given.clear();
+            self.holds = true;
+        }
+        self.intervals.push(interval);
+        let given =
+            |boundary: &crate::state::BoundaryState| Given { target: boundary.target, rate: boundary.target_rate };
+        self.given.extend(state.boundaries.iter().map(given));
+    }
+}
+
+impl Simulation {
+    /// Runs one communication step of `interval` \[s\] as [`Simulation::advance`] does. If it fails, the state is that of
+    /// its beginning.
+    pub fn advance_or_return(&mut self, interval: f64) -> Result<(), RunError> {
+        self.way_back.note(&self.state, interval);
+        self.advance(interval).inspect_err(|_| self.go_back())
+    }
+
+    /// Goes back to the beginning of the communication step that was noted last.
+    fn go_back(&mut self) {
+        let mut way = std::mem::take(&mut self.way_back);
+        let stop = self.stop.take();
+        if let Some(earlier) = &way.earlier {
+            self.state.clone_from(earlier);
+        }
+        let last = way.intervals.len() - 1;
+        for (number, &interval) in way.intervals.iter().enumerate() {
+            let count = self.state.boundaries.len();
+            for (boundary, given) in self.state.boundaries.iter_mut().zip(&way.given[number * count..]) {
+                (boundary.target, boundary.target_rate) = (given.target, given.rate);
+            }
+            if number < last {
+                self.advance(interval).expect("steps that were made before can be made again");
+            }
+        }
+        self.stop = stop;
+        way.forget();
+        self.way_back = way;
+    }
+}
