@@ -103,8 +103,8 @@ impl Blocks<'_> {
             };
             let weight = |mover: usize| f64::from(self.weights[mover]);
             let ratio = (b / a).sqrt() * weight(second) / weight(first);
-            // Also where it is not a number: neither end can move.
-            let share = ratio.min(MOST_UNEVEN).max(1.0 / MOST_UNEVEN);
+            // It is not a number where neither end can move.
+            let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
             if chosen(first) {
                 self.add_end(first, element, 0, 1.0 + share);
             }

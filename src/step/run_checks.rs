@@ -185,7 +185,7 @@ impl Simulation {
     pub(super) fn named(&self, mut error: RunError) -> RunError {
         match &mut error {
             RunError::Runaway { id, .. } | RunError::NotFinite { id, .. } | RunError::Escaped { id, .. } => {
-                *id = self.number(*id)
+                *id = self.number(*id);
             }
             RunError::Behind { id, boundary, cause, .. } => {
                 *cause = self.cause_behind(*id, boundary);
