@@ -20,6 +20,7 @@ const CONTACTS: &str = r#"
 gravity = [0.3, 0.0, -9.81]
 [run]
 step = 1.0e-5
+allow_unstable = true
 threads = 1
 max_overlap = 0.2
 [material.a]

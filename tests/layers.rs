@@ -130,7 +130,7 @@ const UNSAFE: [(&str, usize); 7] = [
     ("threads", 5),
     ("neighbours", 14),
     ("integration", 6),
-    ("interactions", 69),
+    ("interactions", 71),
     ("fmu", 35),
 ];
 

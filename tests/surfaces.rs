@@ -128,9 +128,10 @@ fn sheet(rng: &mut ChaCha8Rng, height: f64) -> Vec<Triangle> {
     let mut points = Vec::new();
     for i in 0..=CELLS {
         for j in 0..=CELLS {
-            let mut shift = || 0.8 * (random(rng) - 0.5);
+            // Less than a quarter of a cell: no triangle folds over its neighbour.
+            let mut shift = || 0.4 * (random(rng) - 0.5);
             let inside = |k: usize, by: f64| if k == 0 || k == CELLS { k as f64 } else { k as f64 + by };
-            points.push([place(inside(i, shift())), place(inside(j, shift())), height * (shift() + 0.4)]);
+            points.push([place(inside(i, shift())), place(inside(j, shift())), height * (2.0 * shift() + 0.4)]);
         }
     }
     let at = |i: usize, j: usize| points[i * (CELLS + 1) + j];

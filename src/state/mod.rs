@@ -101,7 +101,7 @@ impl State {
                 self.particles.count_bond([self.particles.id[slot as usize]]);
             }
         }
-        // bonds that were foreseen by their number are counted anew
+        // How many bonds there may be before the stable time step is found again was told in the old count.
         self.foresight.bonds = [self.bonds.iter().map(|list| list.made).sum(), 0];
     }
 }

@@ -31,7 +31,7 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::ledger::{Loads, Source};
-use crate::state::{State, StateFault};
+use crate::state::{Foresight, State, StateFault};
 use crate::threads::{Context, Team, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -422,6 +422,7 @@ impl Simulation {
         let result = self.evaluate(true, &context);
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
+        self.state.foresight = Foresight::default();
         self.first_step(&context)?;
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);

@@ -118,7 +118,7 @@ fn what_trembles_for_ever_is_told_with_the_reason() {
                 poissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 0.2\n\
                 [contact.c.normal.hertz]\n[contact.c.tangential.history]\n[contact.c.rolling.cdt]\n\
                 [particles.p]\nmaterial = \"a\"\nlist = [\n\
-                { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.012, 0.001, 0.0255], radius = 0.01 },\n\
+                { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.0105, 0.001, 0.0271], radius = 0.01 },\n\
                 { position = [0.021, 0.0, 0.01], radius = 0.01 },\n]\n\
                 [boundary.f]\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nmaterial = \"a\"\n";
     fs::write(&scene, text).unwrap();
