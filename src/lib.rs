@@ -27,5 +27,4 @@ pub mod state;
 pub mod step;
 pub mod surface;
 mod threads;
-pub mod verify;
 mod vtk_reader;

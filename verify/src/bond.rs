@@ -3,10 +3,10 @@
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
-use crate::bond::creation::{ContactPolicy, Creation};
-use crate::bond::keys::{BreakageKeys, DampingChoice, FormulationChoice, Keys, PartKeys};
-use crate::quantity::{BoundaryIndex, Fraction, NonNegative, Positive, SetIndex};
-use crate::scene::Bond;
+use cograin::bond::creation::{ContactPolicy, Creation};
+use cograin::bond::keys::{BreakageKeys, DampingChoice, FormulationChoice, Keys, PartKeys};
+use cograin::quantity::{BoundaryIndex, Fraction, NonNegative, Positive, SetIndex};
+use cograin::scene::Bond;
 
 /// λ below which the other engine makes no bond.
 const LEAST_MULTIPLIER: f64 = 1e-6;
@@ -90,7 +90,7 @@ pub(super) fn laws(case: &Case, formulation: FormulationChoice) -> Result<Vec<Bo
         for a in 0..case.materials.len() {
             let types = Types { case, a, b: wall.material - 1 };
             if types.given("radiusMultiplierBond")?.is_none_or(|multiplier| multiplier >= LEAST_MULTIPLIER) {
-                laws.push(types.law(formulation, &create)?.at_plane(index));
+                laws.push(at_plane(types.law(formulation, &create)?, index));
             }
         }
     }
@@ -261,15 +261,13 @@ impl Types<'_> {
     }
 }
 
-impl Bond {
-    /// The same law between the particles of its first set and a plane.
-    fn at_plane(self, boundary: usize) -> Self {
-        Self {
-            name: format!("{}wall{boundary}", self.name),
-            between: [self.between[0]; 2],
-            plane: Some(BoundaryIndex(boundary as u32)),
-            ..self
-        }
+/// The same law between the particles of its first set and a plane.
+fn at_plane(law: Bond, boundary: usize) -> Bond {
+    Bond {
+        name: format!("{}wall{boundary}", law.name),
+        between: [law.between[0]; 2],
+        plane: Some(BoundaryIndex(boundary as u32)),
+        ..law
     }
 }
 

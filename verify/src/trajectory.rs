@@ -3,9 +3,9 @@
 use super::case::Case;
 use super::history::{History, PairRow};
 use super::samples::{Row, Samples};
-use crate::quantity::SetIndex;
-use crate::scene::Scene;
-use crate::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
+use cograin::quantity::SetIndex;
+use cograin::scene::Scene;
+use cograin::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
 use std::sync::Arc;
 
 /// What a run left at one step.

@@ -4,13 +4,13 @@ use super::bond;
 use super::case::{Axis, Case, GlobalDamping, Scale, Wall, WallMotion};
 use super::error::Mistake;
 use super::law;
-use crate::bond::keys::FormulationChoice;
-use crate::contact::MaterialPair;
-use crate::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
-use crate::scene::{
+use cograin::bond::keys::FormulationChoice;
+use cograin::contact::MaterialPair;
+use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
+use cograin::scene::{
     AppliedForce, AxisMotion, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
 };
-use crate::surface::{Group, Plane, cylinder, mesh};
+use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -1,25 +1,25 @@
 //! Trajectories that other engines left are reproduced, and bad cases are refused with a reason.
 
 use cograin::bond::keys::FormulationChoice;
-use cograin::verify::{Options, Report, find, replay};
+use cograin_verify::{Options, Report, find, replay};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Where the cases of contacts lie.
-const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/contact");
+const CONTACT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/contact");
 
 /// Where the cases of bonds lie.
-const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
+const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/bond");
 
 /// Where the cases of rolling springs, sticky and dented spheres lie.
-const MORE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/more");
+const MORE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/more");
 
 /// Where the cases of hidden contacts lie.
-const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/hidden");
+const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/hidden");
 
 /// Where the cases of meshes and cylinders lie.
-const MESH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/mesh");
+const MESH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/mesh");
 
 /// A folder of this test's own that goes when it is dropped.
 struct Scratch(PathBuf);

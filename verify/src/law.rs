@@ -4,12 +4,12 @@ use super::bond;
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
-use crate::contact::cohesion::{CohesionChoice, sjkr};
-use crate::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
-use crate::contact::rolling::{RollingChoice, rocking};
-use crate::contact::tangential::{TangentialChoice, turned_history};
-use crate::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
-use crate::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
+use cograin::contact::cohesion::{CohesionChoice, sjkr};
+use cograin::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
+use cograin::contact::rolling::{RollingChoice, rocking};
+use cograin::contact::tangential::{TangentialChoice, turned_history};
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
+use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
 /// The other engine's name of each pair property, with ours.
 const PROPERTIES: [(&str, &str); 21] = [

@@ -7,7 +7,7 @@ use cograin::output::{
     self, Checkpoint, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start,
 };
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
-use cograin::verify;
+use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};

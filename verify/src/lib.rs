@@ -20,8 +20,8 @@ pub use compare::{Errors, Report};
 pub use error::VerifyError;
 pub use linked::LinkErrors;
 
-use crate::bond::keys::FormulationChoice;
 use case::Case;
+use cograin::bond::keys::FormulationChoice;
 use compare::Measure;
 use history::History;
 use samples::Samples;

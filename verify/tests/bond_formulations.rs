@@ -2,16 +2,16 @@
 //! halved: the table in `docs/bonds.md`.
 
 use cograin::bond::keys::FormulationChoice;
-use cograin::verify::{Options, find, replay};
+use cograin_verify::{Options, find, replay};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Where the cases of bonds lie.
-const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/bond");
+const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/bond");
 
 /// Where the table stands.
-const DOCUMENTATION: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/bonds.md");
+const DOCUMENTATION: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bonds.md");
 
 /// Steps of a case that are compared at most.
 const MOST: u64 = 2000;
