@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
-const ROWS: [&[&str]; 13] = [
+const ROWS: [&[&str]; 14] = [
     &["choices", "memory", "quantity", "number", "run_error", "vtk_reader"],
-    &["geometry", "lanes"],
-    &["threads"],
+    &["geometry", "lanes", "document"],
+    &["threads", "import", "packing"],
     &["contact", "bond", "motion", "surface"],
     &["scene"],
+    &["scene_file"],
     &["state"],
     &["neighbours", "boundaries"],
     &["integration", "interactions"],
@@ -181,7 +182,9 @@ const CHANCE: Rule = Rule {
         "src/geometry",
         "src/contact",
         "src/bond",
+        "src/packing",
         "src/scene",
+        "src/scene_file",
         "src/state",
         "src/neighbours",
         "src/motion",

@@ -1,28 +1,14 @@
-//! From the text a user writes to a checked [`Scene`].
+//! The scene: what particles, laws, boundaries and settings there are, checked, in SI units.
 //!
-//! A `Scene` cannot be wrong: single values are checked by their type as they are read, relations between
-//! tables in `check`. Nothing after this module asks again.
+//! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
+//! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
 
-mod check;
-mod document;
-mod error;
-mod file;
-mod foreign;
-mod generate;
-mod import;
-mod messages;
-mod mistake;
-mod nearest;
-mod overlaps;
-mod setting;
 mod source;
 
+pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
 pub use crate::motion::{AxisMotion, InputCourse};
+pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
-pub use error::{SceneError, SceneErrors};
-pub use generate::PackingProgress;
-pub use mistake::Mistake;
-pub use setting::{Setting, SettingError};
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;

@@ -1,16 +1,7 @@
-//! A scene with every file it names, and how it is read.
+//! A scene as text, with every file it names.
 
-use super::check;
-use super::document::{Document, Faults};
-use super::error::{SceneError, SceneErrors};
-use super::mistake::Mistake;
-use super::setting::{self, Setting};
-use super::{PackingProgress, Scene, check::raw_tables};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::{Error, ErrorKind};
-use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that is needed to read a scene again, elsewhere: its text and the files that it names.
@@ -39,78 +30,5 @@ impl Source {
             part(bytes);
         }
         hash.digest().max(1)
-    }
-}
-
-impl Scene {
-    /// Reads a scene and the files that it names, which are looked for beside it.
-    pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
-        Self::read_with(path, &[], &mut |_| {})
-    }
-
-    /// The same with some values set from outside, which are part of the text from here on; tells how far its random
-    /// packings are.
-    pub fn read_with(
-        path: &Path,
-        settings: &[Setting],
-        tell: &mut dyn FnMut(PackingProgress),
-    ) -> Result<(Self, Source), SceneErrors> {
-        let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
-        let text = fs::read_to_string(path).map_err(|error| unreadable(&name, &error))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let mut source = Source { name, text, files: BTreeMap::new() };
-        let changes = setting::apply(&mut source.text, settings);
-        let scene = Self::with_files(&mut source, folder, tell).map_err(|errors| changes.told(&source.name, errors))?;
-        Ok((scene, source))
-    }
-
-    /// Reads a scene from its text, and the files that it names from a folder.
-    fn with_files(
-        source: &mut Source,
-        folder: &Path,
-        tell: &mut dyn FnMut(PackingProgress),
-    ) -> Result<Self, SceneErrors> {
-        let document = Document::parse(&source.name, &source.text)?;
-        let mut faults = Faults::new(&document);
-        for (table, key, file) in raw_tables::files(&document) {
-            match fs::read(folder.join(&file)) {
-                Ok(bytes) => {
-                    source.files.insert(file, bytes);
-                }
-                Err(error) => faults.add(&table, key, Mistake::Unreadable { file, reason: reason(&error) }),
-            }
-        }
-        check::scene(source, &document, faults, tell)
-    }
-
-    /// Reads a scene from its source alone.
-    pub fn from_source(source: &Source) -> Result<Self, SceneErrors> {
-        let document = Document::parse(&source.name, &source.text)?;
-        let mut faults = Faults::new(&document);
-        for (table, key, file) in raw_tables::files(&document) {
-            if !source.files.contains_key(&file) {
-                let reason = "it was not handed over with the scene".to_owned();
-                faults.add(&table, key, Mistake::Unreadable { file, reason });
-            }
-        }
-        check::scene(source, &document, faults, &mut |_| {})
-    }
-}
-
-/// The scene itself cannot be read.
-fn unreadable(name: &str, error: &Error) -> SceneErrors {
-    let mistake = Mistake::Unreadable { file: "the scene".to_owned(), reason: reason(error) };
-    let (file, table, key) = (name.to_owned(), String::new(), String::new());
-    SceneErrors { list: vec![SceneError { file, line: None, table, key, mistake }] }
-}
-
-/// Why a file cannot be read, in the same words on every system.
-fn reason(error: &Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        ErrorKind::InvalidData => "it is not UTF-8 text".to_owned(),
-        _ => error.to_string(),
     }
 }

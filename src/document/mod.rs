@@ -1,0 +1,327 @@
+//! The text of a scene as tables whose lines are known, and from tables to typed values.
+
+mod error;
+mod foreign;
+pub(crate) mod messages;
+mod mistake;
+mod nearest;
+mod setting;
+
+pub use error::{SceneError, SceneErrors};
+pub use mistake::Mistake;
+pub(crate) use setting::apply;
+pub use setting::{Setting, SettingError};
+
+use foreign::looks_like;
+use serde::de::DeserializeOwned;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+
+/// How often one table is read again at most, so that a text full of different mistakes costs no quadratic time.
+const READINGS: usize = 100;
+
+/// A scene's text, parsed.
+pub(crate) struct Document<'a> {
+    /// The scene's name, for messages.
+    name: &'a str,
+    /// The text.
+    text: &'a str,
+    /// Where each line begins.
+    lines: Vec<usize>,
+    /// The top table.
+    root: Spanned<DeValue<'a>>,
+}
+
+impl<'a> Document<'a> {
+    /// Parses the text; all mistakes of syntax are reported.
+    pub(crate) fn parse(name: &'a str, text: &'a str) -> Result<Self, SceneErrors> {
+        let (root, errors) = DeTable::parse_recoverable(text);
+        let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(place, _)| place + 1)).collect();
+        let document = Self { name, text, lines, root };
+        if errors.is_empty() {
+            return Ok(document);
+        }
+        let mut faults = Faults::new(&document);
+        if let Some(mistake) = looks_like(text) {
+            faults.at_line(None, "", "", mistake);
+            return faults.finish().map(|()| document);
+        }
+        for error in errors {
+            let line = error.span().map(|span| document.line(span.start));
+            let mistake = Mistake::Syntax { message: error.message().to_owned() };
+            faults.at_line(line, "", "", mistake);
+        }
+        faults.finish().map(|()| document)
+    }
+
+    /// The line, counted from 1, of a byte of the text.
+    fn line(&self, offset: usize) -> usize {
+        self.lines.partition_point(|start| *start <= offset)
+    }
+
+    /// The value at a dotted path; the empty path is the top.
+    fn find(&self, path: &str) -> Option<&Spanned<DeValue<'a>>> {
+        let mut value = &self.root;
+        for segment in segments(path) {
+            value = child(value, segment)?.1;
+        }
+        Some(value)
+    }
+
+    /// Whether the scene has this table or key.
+    pub(crate) fn has(&self, path: &str) -> bool {
+        self.find(path).is_some()
+    }
+
+    /// The keys of a table, in the order in which the text has them.
+    pub(crate) fn names(&self, table: &str) -> Vec<String> {
+        let Some(DeValue::Table(table)) = self.find(table).map(Spanned::get_ref) else { return Vec::new() };
+        let mut names: Vec<(usize, String)> =
+            table.iter().map(|(key, _)| (key.span().start, key.get_ref().to_string())).collect();
+        names.sort_unstable();
+        names.into_iter().map(|(_, name)| name).collect()
+    }
+
+    /// Whether the value at the path is a table.
+    pub(crate) fn is_table(&self, path: &str) -> bool {
+        matches!(self.find(path).map(Spanned::get_ref), Some(DeValue::Table(_)))
+    }
+
+    /// The text at the path, if that is what stands there.
+    pub(crate) fn text(&self, path: &str) -> Option<&str> {
+        self.find(path)?.get_ref().as_str()
+    }
+
+    /// The texts of the list at the path.
+    pub(crate) fn texts(&self, path: &str) -> Vec<&str> {
+        let list = self.find(path).and_then(|value| value.get_ref().as_array());
+        list.into_iter().flat_map(|list| list.iter()).filter_map(|value| value.get_ref().as_str()).collect()
+    }
+
+    /// The value at the path, as the scene has it.
+    pub(crate) fn written(&self, path: &str) -> &str {
+        self.find(path).and_then(|value| self.text.get(value.span())).unwrap_or_default()
+    }
+
+    /// The line of a key, or of the deepest table above it that the text has.
+    pub(crate) fn line_of(&self, table: &str, key: &str) -> Option<usize> {
+        let mut value = &self.root;
+        let mut offset = None;
+        for segment in segments(table).chain(segments(key)) {
+            let Some((key_start, below)) = child(value, segment) else { break };
+            offset = Some(if self.has_header(below) { below.span().start } else { key_start });
+            value = below;
+        }
+        offset.map(|offset| self.line(offset))
+    }
+
+    /// Whether a table stands below a table; its name may hold any characters.
+    pub(crate) fn is_table_below(&self, table: &str, name: &str) -> bool {
+        let below = self.find(table).and_then(|above| child(above, name));
+        matches!(below.map(|(_, value)| value.get_ref()), Some(DeValue::Table(_)))
+    }
+
+    /// The line of a table or key whose name may hold any characters, below a table.
+    pub(crate) fn line_of_name(&self, table: &str, name: &str) -> Option<usize> {
+        let (key_start, below) = child(self.find(table)?, name)?;
+        Some(self.line(if self.has_header(below) { below.span().start } else { key_start }))
+    }
+
+    /// Whether a table has a `[header]` of its own.
+    fn has_header(&self, value: &Spanned<DeValue>) -> bool {
+        matches!(value.get_ref(), DeValue::Table(_)) && self.text[value.span()].starts_with('[')
+    }
+
+    /// Reads a table into a type; an absent table is read as an empty one.
+    ///
+    /// All mistakes are reported: what is unknown or wrong is taken out and the table read again. A key that an entry
+    /// of a list may not have is taken out of all its entries at once, as those are of one type.
+    pub(crate) fn read<T: DeserializeOwned>(&self, table: &str, faults: &mut Faults) -> Option<T> {
+        self.read_key(table, "", faults)
+    }
+
+    /// Reads the value of a key of a table into a type.
+    pub(crate) fn read_key<T: DeserializeOwned>(&self, table: &str, key: &str, faults: &mut Faults) -> Option<T> {
+        let empty = || Spanned::new(0..0, DeValue::Table(DeTable::new()));
+        let mut value = self.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
+        let before = faults.count();
+        let mut wrong: Vec<String> = Vec::new();
+        let mut readings = 0;
+        loop {
+            let error = match T::deserialize(ValueDeserializer::from(value.clone())) {
+                Ok(read) => return (faults.count() == before).then_some(read),
+                Err(error) => error,
+            };
+            let mut path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
+            // A table that only its sub-tables name lies in their headers; the unknown key is where the way ends.
+            if let Some(end) =
+                messages::unknown_field(&error).and_then(|field| path.iter().position(|key| key == field))
+            {
+                path.truncate(end + 1);
+            }
+            let mistake = messages::mistake(&error, path.last().map_or("", String::as_str));
+            let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
+            // What was taken out as wrong is not missing, nor is the sub-model that it was.
+            let missing = messages::missing_field(&error);
+            if !wrong.is_empty() && path.is_empty() && missing.is_none_or(|field| wrong.iter().any(|key| key == field))
+            {
+                return None;
+            }
+            let ways = if unknown { alike(&value, &path) } else { vec![path.clone()] };
+            let mut taken = false;
+            for way in ways {
+                let whole = segments(key).map(str::to_owned).chain(way.iter().cloned()).collect();
+                self.report(table, whole, &error, mistake.clone(), faults);
+                let out = if unknown { &way[..] } else { way.get(..1).unwrap_or_default() };
+                wrong.extend(out.first().filter(|first| wrong.last() != Some(*first)).cloned());
+                taken = take_out(&mut value, out);
+            }
+            readings += 1;
+            if !taken || readings == READINGS {
+                return None;
+            }
+        }
+    }
+
+    /// Reports what serde found, at the innermost table that has a header.
+    fn report(&self, table: &str, mut path: Vec<String>, error: &Error, mistake: Mistake, faults: &mut Faults) {
+        let mut table = table.to_owned();
+        while let Some(first) = path.first() {
+            let below = format!("{table}.{first}");
+            if !self.find(&below).is_some_and(|value| self.has_header(value)) {
+                break;
+            }
+            table = below;
+            path.remove(0);
+        }
+        let key = match messages::missing_field(error) {
+            Some(field) => path.iter().map(String::as_str).chain([field]).collect::<Vec<_>>().join("."),
+            None => path.join("."),
+        };
+        faults.add(&table, &key, mistake);
+    }
+}
+
+/// The names in a dotted path.
+fn segments(path: &str) -> impl Iterator<Item = &str> {
+    path.split('.').filter(|segment| !segment.is_empty())
+}
+
+/// Where a key or entry stands, and its value. Entries of lists count from 1.
+fn child<'v, 'a>(value: &'v Spanned<DeValue<'a>>, segment: &str) -> Option<(usize, &'v Spanned<DeValue<'a>>)> {
+    match value.get_ref() {
+        DeValue::Table(table) => table.get_key_value(segment).map(|(key, value)| (key.span().start, value)),
+        DeValue::Array(list) => {
+            let value = list.get(segment.parse::<usize>().ok()?.checked_sub(1)?)?;
+            Some((value.span().start, value))
+        }
+        _ => None,
+    }
+}
+
+/// The way from a value down to the key or entry at a place of the text.
+fn path_to(value: &Spanned<DeValue>, place: &Range<usize>) -> Vec<String> {
+    let holds = |span: Range<usize>| span.start <= place.start && place.end <= span.end;
+    let nested = |name: String, spans: bool, below: &Spanned<DeValue>| {
+        let rest = path_to(below, place);
+        (spans || !rest.is_empty()).then(|| [vec![name], rest].concat())
+    };
+    let path = match value.get_ref() {
+        DeValue::Table(table) => table.iter().find_map(|(key, value)| {
+            nested(key.get_ref().to_string(), holds(key.span()) || holds(value.span()), value)
+        }),
+        DeValue::Array(list) => {
+            let entry = list.iter().position(|value| holds(value.span()));
+            entry.and_then(|entry| nested((entry + 1).to_string(), true, &list[entry]))
+        }
+        _ => None,
+    };
+    path.unwrap_or_default()
+}
+
+/// The ways to a key of an entry of a list, and to the same key of the list's other entries.
+fn alike(value: &Spanned<DeValue>, path: &[String]) -> Vec<Vec<String>> {
+    let mut below = value;
+    for (depth, name) in path.iter().enumerate() {
+        if let (DeValue::Array(list), [key]) = (below.get_ref(), &path[depth + 1..]) {
+            let has = |entry: &Spanned<DeValue>| child(entry, key).is_some();
+            let entries = (1..).zip(list.iter()).filter(|(_, entry)| has(entry));
+            return entries.map(|(entry, _)| [&path[..depth], &[entry.to_string(), key.clone()]].concat()).collect();
+        }
+        match child(below, name) {
+            Some((_, next)) => below = next,
+            None => break,
+        }
+    }
+    vec![path.to_vec()]
+}
+
+/// Removes the key at the path; whether it was there.
+fn take_out(value: &mut Spanned<DeValue>, path: &[String]) -> bool {
+    match (value.get_mut(), path) {
+        (DeValue::Table(table), [key]) => table.remove(key.as_str()).is_some(),
+        (DeValue::Table(table), [key, rest @ ..]) => {
+            table.get_mut(key.as_str()).is_some_and(|value| take_out(value, rest))
+        }
+        (DeValue::Array(list), [entry, rest @ ..]) => entry
+            .parse::<usize>()
+            .ok()
+            .and_then(|entry| list.get_mut(entry.checked_sub(1)?))
+            .is_some_and(|value| take_out(value, rest)),
+        _ => false,
+    }
+}
+
+/// Collects mistakes.
+pub(crate) struct Faults<'d, 'a> {
+    /// Where lines are looked up.
+    document: &'d Document<'a>,
+    /// The mistakes so far.
+    list: Vec<SceneError>,
+}
+
+impl<'d, 'a> Faults<'d, 'a> {
+    /// None yet.
+    pub(crate) fn new(document: &'d Document<'a>) -> Self {
+        Self { document, list: Vec::new() }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// A mistake at a key of a table, or at the table itself.
+    pub(crate) fn add(&mut self, table: &str, key: &str, mistake: Mistake) {
+        self.at_line(self.document.line_of(table, key), table, key, mistake);
+    }
+
+    /// A mistake at a line of the scene.
+    pub(crate) fn at_line(&mut self, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
+        let file = self.document.name.to_owned();
+        self.list.push(SceneError { file, line, table: table.to_owned(), key: key.to_owned(), mistake });
+    }
+
+    /// A mistake in a file that the scene names.
+    pub(crate) fn in_file(&mut self, file: &str, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
+        let (file, table, key) = (file.to_owned(), table.to_owned(), key.to_owned());
+        self.list.push(SceneError { file, line, table, key, mistake });
+    }
+
+    /// All of them, in the order of the scene's lines and then of other files'; none is success.
+    pub(crate) fn finish(mut self) -> Result<(), SceneErrors> {
+        if self.list.is_empty() {
+            return Ok(());
+        }
+        let name = self.document.name;
+        self.list.sort_by_key(|error| (error.file != name, error.line.unwrap_or(usize::MAX)));
+        Err(SceneErrors { list: self.list })
+    }
+
+    /// Stops here if there is any.
+    pub(crate) fn so_far(&self) -> Result<(), SceneErrors> {
+        Self { document: self.document, list: self.list.clone() }.finish()
+    }
+}

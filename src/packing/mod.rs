@@ -1,0 +1,55 @@
+//! Particles that no file lists: lattices and random packings.
+
+mod crowd;
+mod dense;
+mod keys;
+mod lattice;
+pub(crate) mod overlaps;
+mod random;
+mod region;
+
+pub(crate) use keys::{LatticeTable, PackingTable};
+pub(crate) use lattice::lattice;
+pub(crate) use random::packing;
+
+/// How far a random packing is; told many times a second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PackingProgress<'a> {
+    /// Spheres are put at free places one after the other.
+    Placing {
+        /// The particle set.
+        set: &'a str,
+        /// How many have their place.
+        placed: usize,
+        /// Of how many.
+        count: usize,
+    },
+    /// Spheres are pushed apart.
+    Pushing {
+        /// The particle set.
+        set: &'a str,
+        /// Rounds of pushes so far.
+        rounds: usize,
+        /// Largest overlap over the smaller radius; below 1e-4 they are apart.
+        overlap: f64,
+    },
+}
+
+/// Centre and radius \[m\].
+pub(crate) type Sphere = ([f64; 3], f64);
+
+/// How many spheres one set may have, so that a slip in a length does not fill the memory.
+const MOST: usize = 50_000_000;
+
+/// Memory that a sphere of a scene takes until it runs, with a few contacts: measured with a lattice of 4 million \[bytes\].
+const SPHERE: u64 = 600;
+
+/// What is right instead of so many spheres; nothing where there is room for them.
+fn too_many(count: f64) -> Option<String> {
+    let room = crate::memory::available().map_or(MOST, |free| MOST.min((free / SPHERE) as usize));
+    match room {
+        _ if count > MOST as f64 => Some(format!("{MOST} at most")),
+        room if count > room as f64 => Some(format!("{room} at most, for which there is memory,")),
+        _ => None,
+    }
+}

@@ -1,0 +1,298 @@
+//! Bond laws: between whom, and which bonds are there at the start.
+
+use super::consistency::Finding;
+use super::particles::Born;
+use super::raw_tables::RawTables;
+use crate::bond::creation::{Listed, Moment};
+use crate::bond::keys::Keys;
+use crate::document::Mistake;
+use crate::document::{Document, Faults};
+use crate::import::REPORTED;
+use crate::packing::overlaps::for_each_overlap;
+use crate::quantity::{BoundaryIndex, SetIndex};
+use crate::scene::Source;
+use crate::scene::{Bond, Particle, Scene, Step};
+
+/// All bond laws.
+pub(super) fn bonds(
+    written: &RawTables,
+    document: &Document,
+    source: &Source,
+    born: &Born,
+    step: Step,
+    faults: &mut Faults,
+) -> Vec<Bond> {
+    let mut bonds = Vec::new();
+    for (name, keys) in &written.bonds {
+        let table = format!("bond.{name}");
+        given_step(keys, &table, step, faults);
+        let between = between(keys, document, &table, written, born, faults);
+        if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
+            let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
+            faults.add(&table, "create", Mistake::Wrong { found, right });
+            continue;
+        }
+        let pairs = listed(keys, document, source, &table, born, faults);
+        let law = match keys.law() {
+            Ok(law) => Some(law),
+            Err(errors) => {
+                for error in errors {
+                    faults.add(&table, error.key, Mistake::Refused { message: error.message });
+                }
+                None
+            }
+        };
+        if let (Some((between, plane)), Some(pairs), Some(law)) = (between, pairs, law) {
+            let bond = Bond {
+                name: name.clone(),
+                keys: keys.clone(),
+                law,
+                between,
+                plane,
+                create: keys.create.clone(),
+                create_distance: keys.create_distance.map(crate::quantity::Positive::get),
+                pairs,
+            };
+            outside_sets(&bond, &table, born, faults);
+            bonds.push(bond);
+        }
+    }
+    bonds
+}
+
+/// Refuses `"auto"` where a bond needs to know the step, and a step above its relaxation times.
+fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
+    match (step, keys.needs_given_step(), keys.shortest_relaxation()) {
+        (Step::Automatic { .. }, Some(reason), _) => {
+            let what = format!("\"auto\" does not go with [{table}]: {reason}");
+            faults.add("run", "step", Mistake::Senseless { what, right: "a step in seconds is right".to_owned() });
+        }
+        (Step::Given(step), _, Some(shortest)) if step > shortest => {
+            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}],");
+            faults.add("run", "step", Mistake::Wrong { found: format!("{step:?}"), right });
+        }
+        _ => {}
+    }
+}
+
+/// The two particle sets that are bonded; at a plane, the same set twice and the plane.
+fn between(
+    keys: &Keys,
+    document: &Document,
+    table: &str,
+    written: &RawTables,
+    born: &Born,
+    faults: &mut Faults,
+) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {
+    // An array of two takes no notice of a third.
+    if document.has(&format!("{table}.between.3")) {
+        let (found, right) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
+        faults.add(table, "between", Mistake::Wrong { found, right });
+        return None;
+    }
+    let mut sets = [None; 2];
+    let mut plane = None;
+    for (name, place) in keys.between.iter().zip(&mut sets) {
+        *place = born.sets.iter().position(|set| set == name).map(|index| SetIndex(index as u32));
+        if place.is_some() {
+            continue;
+        }
+        let boundary = written.boundaries.iter().position(|(boundary, _)| boundary == name);
+        let mistake = match boundary.map(|index| (index, &written.boundaries[index].1)) {
+            Some((index, boundary)) if boundary.is_shifting_plane() && plane.is_none() => {
+                plane = Some(BoundaryIndex(index as u32));
+                continue;
+            }
+            Some(_) => Mistake::Wrong {
+                found: format!("\"{name}\""),
+                right: "two particle sets, or a particle set and a plane that does not turn,".to_owned(),
+            },
+            None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
+        };
+        faults.add(table, "between", mistake);
+        if keys.between[0] == keys.between[1] {
+            break;
+        }
+    }
+    match (sets, plane) {
+        ([Some(a), Some(b)], _) => Some(([a, b], None)),
+        ([Some(set), None] | [None, Some(set)], Some(_)) => Some(([set; 2], plane)),
+        _ => None,
+    }
+}
+
+/// The listed pairs, as indices of particles.
+fn listed(
+    keys: &Keys,
+    document: &Document,
+    source: &Source,
+    table: &str,
+    born: &Born,
+    faults: &mut Faults,
+) -> Option<Vec<[u32; 2]>> {
+    let (ids, key) = match keys.create.listed() {
+        Some(Listed::Here(pairs)) => (pairs.to_vec(), "create.pairs"),
+        Some(Listed::InFile(file)) => (from_file(file, source, table, faults)?, "create.file"),
+        None => return Some(Vec::new()),
+    };
+    let before = faults.count();
+    let mut pairs = Vec::with_capacity(ids.len());
+    for (entry, pair) in (1..).zip(&ids) {
+        let index = |id: u32| born.particles.binary_search_by_key(&id, |particle| particle.id.0);
+        let found = match pair.map(index) {
+            [Ok(a), Ok(b)] if a != b && !document.has(&format!("{table}.create.pairs.{entry}.3")) => {
+                pairs.push([a as u32, b as u32]);
+                continue;
+            }
+            _ => format!("{pair:?}"),
+        };
+        if faults.count() < before + REPORTED {
+            let right = "the numbers of two particles of this scene".to_owned();
+            faults.add(table, key, Mistake::Wrong { found, right });
+        }
+    }
+    let mut sorted: Vec<[u32; 2]> = pairs.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
+    sorted.sort_unstable();
+    if let Some([a, b]) = sorted.windows(2).find(|two| two[0] == two[1]).map(|two| two[0]) {
+        let id = |index: u32| born.particles[index as usize].id.0;
+        let (what, right) = (format!("{} and {} are bonded twice", id(a), id(b)), "once is right".to_owned());
+        faults.add(table, key, Mistake::Senseless { what, right });
+    }
+    (faults.count() == before).then_some(pairs)
+}
+
+/// The pairs of a file, by numbers of particles.
+fn from_file(file: &str, source: &Source, table: &str, faults: &mut Faults) -> Option<Vec<[u32; 2]>> {
+    let bytes = source.files.get(file)?;
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(_) => {
+            let (found, right) = ("bytes that are not UTF-8".to_owned(), "a text file".to_owned());
+            faults.in_file(file, None, table, "create.file", Mistake::Wrong { found, right });
+            return None;
+        }
+    };
+    match crate::bond::list::read(text) {
+        Ok(pairs) => Some(pairs),
+        Err(error) => {
+            let said = error.to_string();
+            let with_line = said.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
+            let (line, message) = with_line.map_or((None, said.as_str()), |(line, rest)| (line.parse().ok(), rest));
+            faults.in_file(file, line, table, "create.file", Mistake::Refused { message: message.to_owned() });
+            None
+        }
+    }
+}
+
+/// Reports listed pairs that are not of the two sets, or further apart than the law allows.
+fn outside_sets(bond: &Bond, table: &str, born: &Born, faults: &mut Faults) {
+    let particle = |index: u32| &born.particles[index as usize];
+    let strange = bond.pairs.iter().find(|[a, b]| !bond.joins(particle(*a).set, particle(*b).set));
+    if let Some([a, b]) = strange {
+        let found = format!("the pair of {} and {}", particle(*a).id.0, particle(*b).id.0);
+        let right = "pairs of the two sets in between".to_owned();
+        faults.add(table, "create", Mistake::Wrong { found, right });
+    }
+    let far = |pair: &&[u32; 2]| bond.create_distance.is_some_and(|most| distance(born, **pair) >= most);
+    if let Some([a, b]) = bond.pairs.iter().find(far) {
+        let found = format!("{:.3e} between {} and {}", distance(born, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
+        let right = "listed pairs nearer than that".to_owned();
+        faults.add(table, "create_distance", Mistake::Wrong { found, right });
+    }
+}
+
+/// Distance of two centres \[m\].
+fn distance(born: &Born, [a, b]: [u32; 2]) -> f64 {
+    let (p, q) = (born.particles[a as usize].position, born.particles[b as usize].position);
+    (0..3).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum::<f64>().sqrt()
+}
+
+impl Bond {
+    /// Whether the law is for particles of these two sets.
+    fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
+        self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
+    }
+}
+
+/// Which pairs are bonded at the start, so that their overlap is no mistake.
+pub(super) struct Bonded<'a> {
+    /// The scene.
+    scene: &'a Scene,
+    /// Listed pairs, the lower index first, ascending.
+    listed: Vec<[u32; 2]>,
+}
+
+impl<'a> Bonded<'a> {
+    /// Those of a scene.
+    pub(super) fn of(scene: &'a Scene) -> Self {
+        let pairs = scene.bonds.iter().flat_map(|bond| &bond.pairs);
+        let mut listed: Vec<[u32; 2]> = pairs.map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
+        listed.sort_unstable();
+        Self { scene, listed }
+    }
+
+    /// Whether two particles (the lower index first) at this distance of the centres \[m\] are bonded.
+    pub(super) fn holds(&self, a: usize, b: usize, distance: f64) -> bool {
+        let sets = [a, b].map(|index| self.scene.particles[index].set);
+        self.listed.binary_search(&[a as u32, b as u32]).is_ok()
+            || self.scene.bonds.iter().any(|bond| {
+                bond.create.bonds_at_start()
+                    && bond.joins(sets[0], sets[1])
+                    && bond.create_distance.is_some_and(|most| distance < most)
+            })
+    }
+}
+
+/// Bond laws that bond nobody at the start, though that is when they bond.
+pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
+    let waiting = |bond: &&Bond| bond.create.bonds_near_pairs(&Moment::START);
+    scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
+}
+
+/// Whether this law bonds nobody to its plane.
+fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
+    let plane = scene.boundaries.get(plane.index())?.shape.plane()?;
+    let members = scene.particles.iter().filter(|particle| bond.between.contains(&particle.set));
+    let away = |particle: &Particle| 2.0 * plane.height(particle.position);
+    let closest = members.map(away).filter(|away| *away > 0.0).reduce(f64::min);
+    if closest.is_some_and(|closest| closest < distance) {
+        return None;
+    }
+    let found = closest.map_or_else(|| "no centre".to_owned(), |closest| format!("{closest:.3e}"));
+    let what = format!("bonds nobody to the plane; {found} is the closest, twice the distance of its centre");
+    let mistake = Mistake::Senseless { what, right: "more than that is right".to_owned() };
+    Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
+}
+
+/// Whether this law bonds nobody.
+fn idle_law(scene: &Scene, bond: &Bond) -> Option<Finding> {
+    let distance = bond.create_distance?;
+    if let Some(plane) = bond.plane {
+        return idle_at_plane(scene, bond, distance, plane);
+    }
+    let members: Vec<usize> =
+        (0..scene.particles.len()).filter(|index| bond.between.contains(&scene.particles[*index].set)).collect();
+    let closest = |reach: f64| {
+        let spheres: Vec<([f64; 3], f64)> =
+            members.iter().map(|index| (scene.particles[*index].position, 0.5 * reach)).collect();
+        let mut least = f64::INFINITY;
+        for_each_overlap(&spheres, |i, j, overlap| {
+            let sets = [i, j].map(|place| scene.particles[members[place as usize]].set);
+            if bond.joins(sets[0], sets[1]) {
+                least = least.min(reach - overlap);
+            }
+        });
+        least
+    };
+    let mut reach = distance;
+    if closest(reach) < distance {
+        return None;
+    }
+    // Looked for ever further out; beyond a millionfold nobody asks how far it is.
+    let found = (0..20).find_map(|_| {
+        reach *= 2.0;
+        Some(closest(reach)).filter(|least| least.is_finite())
+    });
+    let mistake = Mistake::BondsNobody { distance, closest: found };
+    Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
+}

@@ -1,0 +1,133 @@
+//! Boundaries: shape, motion, point of reference.
+
+use super::contacts::material_index;
+use super::motion;
+use super::particles::Born;
+use super::raw_tables::RawTables;
+use super::selection::{Owners, members};
+use crate::contact::Material;
+use crate::document::Faults;
+use crate::document::Mistake;
+use crate::quantity::MaterialIndex;
+use crate::scene::Boundary;
+use crate::scene::Source;
+use crate::scene_file::tables::BoundaryTable;
+use crate::surface::{Around, Selection, Shape, Surface};
+
+/// All boundaries.
+pub(super) fn boundaries(
+    written: &RawTables,
+    source: &Source,
+    materials: &[Material],
+    born: &Born,
+    faults: &mut Faults,
+) -> Vec<Boundary> {
+    let mut owners = Owners::of(born);
+    let mut boundaries = Vec::new();
+    for (name, boundary) in &written.boundaries {
+        let table = format!("boundary.{name}");
+        let Some(shape) = shape((boundary, &table), source, materials, born, faults) else { continue };
+        owners.claim(shape.members(), &table, born, faults);
+        let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
+        let axes = motion::axes(&boundary.motion, &table, faults);
+        motion::check(&axes, &*shape, boundary.reference.is_some(), &table, faults);
+        if boundary.input.is_some() && !axes.iter().any(|axis| axis.is_driven()) {
+            let (what, right) = ("no axis is driven".to_owned(), "leave input out".to_owned());
+            faults.add(&table, "input", Mistake::Senseless { what, right });
+        }
+        let input = boundary.input.unwrap_or_default();
+        boundaries.push(Boundary { name: name.clone(), shape, axes, input, reference });
+    }
+    boundaries
+}
+
+/// The shape of a boundary.
+fn shape(
+    (boundary, table): (&BoundaryTable, &str),
+    source: &Source,
+    materials: &[Material],
+    born: &Born,
+    faults: &mut Faults,
+) -> Option<Shape> {
+    match boundary.shapes()[..] {
+        [_] => boundary.shape(&mut Written { boundary, table, source, materials, born, faults }),
+        [] => {
+            let right = format!("{} gives its shape", alternatives(BoundaryTable::HINTS));
+            faults.add(table, "", Mistake::Missing { right });
+            None
+        }
+        [..] => {
+            let (found, right) = (boundary.shapes().join(" and "), "one shape".to_owned());
+            faults.add(table, "", Mistake::Wrong { found, right });
+            None
+        }
+    }
+}
+
+/// Several things of which one is right.
+fn alternatives(words: &[&str]) -> String {
+    match words {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
+    }
+}
+
+/// A boundary as it is written, with what it refers to.
+struct Written<'a, 'b, 'c> {
+    /// The table.
+    boundary: &'a BoundaryTable,
+    /// Its name, as `boundary.floor`.
+    table: &'a str,
+    /// The files of the scene.
+    source: &'a Source,
+    /// All materials.
+    materials: &'a [Material],
+    /// All particles.
+    born: &'a Born,
+    /// Where mistakes go.
+    faults: &'a mut Faults<'b, 'c>,
+}
+
+impl Around for Written<'_, '_, '_> {
+    fn material(&mut self, who: &str) -> Option<MaterialIndex> {
+        let Some(name) = &self.boundary.material else {
+            self.faults.add(self.table, "material", Mistake::Missing { right: format!("{who} needs one") });
+            return None;
+        };
+        material_index(self.materials, name, self.table, "material", self.faults)
+    }
+
+    fn no_material(&mut self, why: &str) {
+        if self.boundary.material.is_some() {
+            let (what, right) = (why.to_owned(), "leave it out".to_owned());
+            self.faults.add(self.table, "material", Mistake::Senseless { what, right });
+        }
+    }
+
+    fn select(&mut self, selection: &Selection) -> Vec<u32> {
+        members(selection, self.born, self.table, self.faults)
+    }
+
+    fn file(&self, name: &str) -> Option<&[u8]> {
+        self.source.files.get(name).map(Vec::as_slice)
+    }
+
+    fn refuse(&mut self, key: &str, found: String, right: &str) {
+        self.faults.add(self.table, key, Mistake::Wrong { found, right: right.to_owned() });
+    }
+}
+
+/// The point about which a moment is taken if the scene names none.
+fn centre(shape: &dyn Surface, born: &Born) -> [f64; 3] {
+    if let Some(point) = shape.reference() {
+        return point;
+    }
+    let (mut mass, mut first) = (0.0, [0.0; 3]);
+    for particle in shape.members().iter().map(|member| &born.particles[*member as usize]) {
+        mass += particle.mass();
+        for (sum, part) in first.iter_mut().zip(particle.position) {
+            *sum += particle.mass() * part;
+        }
+    }
+    if mass > 0.0 { first.map(|moment| moment / mass) } else { [0.0; 3] }
+}

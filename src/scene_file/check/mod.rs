@@ -1,0 +1,123 @@
+//! From tables, each right in itself, to a scene that is right as a whole.
+
+mod bonds;
+mod boundaries;
+mod consistency;
+mod contacts;
+mod damping;
+mod motion;
+mod particles;
+pub(super) mod raw_tables;
+mod selection;
+mod set_reader;
+
+use super::tables::{OutputTable, RunTable, StepKey};
+use crate::document::{Document, Faults, Mistake, SceneErrors};
+use crate::packing::PackingProgress;
+use crate::scene::{Output, Run, Scene, Source, Step};
+use consistency::Finding;
+use raw_tables::RawTables;
+
+/// The scene that a source describes. Mistakes found so far are in `faults`.
+pub(super) fn scene(
+    source: &Source,
+    document: &Document,
+    mut faults: Faults,
+    tell: &mut dyn FnMut(PackingProgress),
+) -> Result<Scene, SceneErrors> {
+    let written = RawTables::read(document, &mut faults);
+    faults.so_far()?;
+    let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
+    let materials = contacts::materials(&written);
+    let run = run(&written.run, &mut faults);
+    let output = output(&written.output, &mut faults);
+    let pairs = contacts::pairs(&written, &materials, &mut faults);
+    let laws = contacts::laws(&written.contacts, &materials, &mut faults);
+    let born = particles::particles(&written, source, &materials, &mut faults, tell);
+    faults.so_far()?;
+    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
+    let bonds = bonds::bonds(&written, document, source, &born, run.step, &mut faults);
+    let damping = damping::damping(&written, &materials, &born, &mut faults);
+    motion::damping(&boundaries, &damping, &mut faults);
+    let forces = damping::forces(&written, &born, &mut faults);
+    let scene = Scene {
+        bonds,
+        run,
+        gravity: written.gravity.0,
+        materials,
+        pairs,
+        contacts: laws,
+        sets: born.sets,
+        particles: born.particles,
+        boundaries,
+        damping,
+        forces,
+        domain: written.domain.map(|domain| domain.corners.0),
+        output,
+        fingerprint: source.fingerprint(),
+    };
+    for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
+        report(finding, document, &mut faults);
+    }
+    faults.finish().map(|()| scene)
+}
+
+/// Reports what was found in the scene at the line of the table as the text has it.
+fn report(finding: Finding, document: &Document, faults: &mut Faults) {
+    let Finding { mut table, key, otherwise, mistake } = finding;
+    if !document.has(&table)
+        && let [kind, a, b] = table.split('.').collect::<Vec<_>>()[..]
+        && document.has(&format!("{kind}.{b}.{a}"))
+    {
+        table = format!("{kind}.{b}.{a}");
+    }
+    match document.has(&table) {
+        true => faults.add(&table, &key, mistake),
+        false => faults.at_line(document.line_of(&otherwise, ""), &table, &key, mistake),
+    }
+}
+
+/// `[run]`
+fn run(table: &RunTable, faults: &mut Faults) -> Run {
+    let defaults = Run::default();
+    if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
+        let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
+        faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    }
+    if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
+        let (what, right) =
+            ("an automatic step is never above the stable one", "a given step, or leave allow_unstable out");
+        faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    }
+    Run {
+        end: table.end.map(crate::quantity::Positive::get),
+        step: match table.step {
+            Some(StepKey::Given(step)) => Step::Given(step),
+            Some(StepKey::Automatic) | None => {
+                Step::Automatic { safety: table.safety.as_ref().map_or(Run::SAFETY, |safety| safety.0) }
+            }
+        },
+        allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
+        threads: table.threads.map(|threads| threads.get() as usize),
+        seed: table.seed.unwrap_or(defaults.seed),
+        skin: table.skin.map(crate::quantity::Positive::get),
+        settle_tolerance: table.settle_tolerance.map_or(defaults.settle_tolerance, crate::quantity::Positive::get),
+        settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::quantity::Fraction::get),
+        max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::quantity::NonNegative::get),
+    }
+}
+
+/// `[output]`
+fn output(table: &OutputTable, faults: &mut Faults) -> Output {
+    if table.contacts && table.frame_interval.is_none() {
+        let right = "contacts are written with the frames".to_owned();
+        faults.add("output", "frame_interval", Mistake::Missing { right });
+    }
+    Output {
+        history_interval: table.history_interval.map(crate::quantity::Positive::get),
+        frame_interval: table.frame_interval.map(crate::quantity::Positive::get),
+        contacts: table.contacts,
+        energy: table.energy,
+        checkpoint_interval: table.checkpoint_interval.map(crate::quantity::Positive::get),
+    }
+}

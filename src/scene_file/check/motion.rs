@@ -1,0 +1,87 @@
+//! What the axes of boundaries do, and what they can do together.
+
+use crate::document::Faults;
+use crate::document::Mistake;
+use crate::motion::Keys;
+use crate::scene::{AxisMotion, Boundary, Damping};
+use crate::surface::Surface;
+
+/// What each axis does; an axis may be named once.
+pub(super) fn axes(motion: &Keys, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
+    let (axes, twice) = motion.axes();
+    for axis in twice {
+        let what = format!("axis {} is named twice", AxisMotion::WORDS[axis]);
+        let right = "an axis is fixed, driven, prescribed or free".to_owned();
+        faults.add(table, "motion", Mistake::Senseless { what, right });
+    }
+    axes
+}
+
+/// Reports what the axes of a boundary cannot do together, or not with its shape. `referred`: the scene gives its
+/// point of reference.
+pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool, table: &str, faults: &mut Faults) {
+    let mut refuse = |what: String, right: &str| {
+        faults.add(table, "motion", Mistake::Senseless { what, right: right.to_owned() });
+    };
+    let free = axes.iter().position(AxisMotion::is_free);
+    if let Some(axis) = free.filter(|_| !shape.has_mass()) {
+        let (axis, shape) = (AxisMotion::WORDS[axis], shape.key());
+        let what = format!("{axis} is free, but a {shape} has no mass that forces could move");
+        return refuse(what, "driven, prescribed or fixed axes, or a group of particles are right");
+    }
+    if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
+        let what = format!("{}: {}s that turn are not there", AxisMotion::WORDS[axis], shape.key());
+        return refuse(what, "a group of particles turns");
+    }
+    rotations(axes, table, faults);
+    reference(axes, referred, table, faults);
+}
+
+/// Rotations go together where the group has one law of turning.
+fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
+    let count = |chosen: fn(&AxisMotion) -> bool| axes[3..].iter().filter(|motion| chosen(motion)).count();
+    let free = count(AxisMotion::is_free);
+    let driven = count(AxisMotion::is_driven);
+    let prescribed = count(AxisMotion::is_prescribed);
+    let scheduled = count(|motion| !motion.is_steady());
+    let (what, right) = match (free, driven, prescribed) {
+        (0, 0, 2..) if scheduled > 0 => {
+            ("a schedule turns about one axis and something about another", "one prescribed rotation is right")
+        }
+        (2, 0, 0) => ("two rotations are free and one is fixed", "one free rotation or all three are right"),
+        (1.., 1.., _) | (1.., _, 1..) => {
+            ("some rotations are free and others are not", "free rotations with the others fixed are right")
+        }
+        (_, 1.., 1..) => (
+            "some rotations are driven and others prescribed",
+            "driven or prescribed ones with the others fixed are right",
+        ),
+        _ => return,
+    };
+    faults.add(table, "motion", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+}
+
+/// A group that moves and turns, and does one of it freely, does so about its mass centre.
+fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
+    let any = |axes: &[AxisMotion], chosen: fn(&AxisMotion) -> bool| axes.iter().any(chosen);
+    let (free, held) = (AxisMotion::is_free, |it: &AxisMotion| !it.is_fixed());
+    let (along, about) = axes.split_at(3);
+    if referred && (any(along, free) && any(about, held) || any(about, free) && any(along, held)) {
+        let what = "a group that moves and turns, one of both freely, turns about its mass centre".to_owned();
+        faults.add(table, "reference", Mistake::Senseless { what, right: "leave it out".to_owned() });
+    }
+}
+
+/// Reports groups that forces move and whose spheres are not damped alike.
+pub(super) fn damping(boundaries: &[Boundary], damping: &[Damping], faults: &mut Faults) {
+    for boundary in boundaries.iter().filter(|boundary| boundary.axes.iter().any(AxisMotion::is_free)) {
+        let members = boundary.shape.members();
+        let alike = |each: &[f64]| members.windows(2).all(|two| each[two[0] as usize] == each[two[1] as usize]);
+        if let Some(damping) = damping.iter().find(|it| !alike(&it.linear) || !alike(&it.angular)) {
+            let what =
+                format!("[damping.{}] damps its spheres differently, but forces move it as one body", damping.name);
+            let right = "one damping for all of them is right".to_owned();
+            faults.add(&format!("boundary.{}", boundary.name), "motion", Mistake::Senseless { what, right });
+        }
+    }
+}

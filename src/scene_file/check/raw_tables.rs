@@ -1,0 +1,286 @@
+//! Every table of the text as its own type; from here on only relations between tables can be wrong.
+
+use crate::bond::keys::Keys;
+use crate::contact::PairProperties;
+use crate::contact::cohesion::CohesionChoice;
+use crate::contact::normal::NormalChoice;
+use crate::contact::rolling::RollingChoice;
+use crate::contact::tangential::TangentialChoice;
+use crate::document::Mistake;
+use crate::document::messages;
+use crate::document::{Document, Faults};
+use crate::scene_file::tables::{
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, OutputTable, ParticlesTable,
+    RunTable, TABLES, Triple,
+};
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+
+/// Tables by name, in the order of the text.
+pub(super) type Named<T> = Vec<(String, T)>;
+
+/// The whole text.
+pub(in crate::scene_file) struct RawTables {
+    /// `[run]`
+    pub(super) run: RunTable,
+    /// `gravity`
+    pub(super) gravity: Triple,
+    /// `[material.<name>]`
+    pub(super) materials: Named<MaterialTable>,
+    /// `[pair.<a>.<b>]`
+    pub(super) pairs: Vec<([String; 2], PairProperties)>,
+    /// `[contact.<name>]`
+    pub(super) contacts: Named<Law>,
+    /// `[bond.<name>]`
+    pub(super) bonds: Named<Keys>,
+    /// `[particles.<name>]`
+    pub(super) particles: Named<ParticlesTable>,
+    /// `[boundary.<name>]`
+    pub(super) boundaries: Named<BoundaryTable>,
+    /// `[damping.<name>]`
+    pub(super) damping: Named<DampingTable>,
+    /// `[force.<name>]`
+    pub(super) forces: Named<ForceTable>,
+    /// `[domain]`
+    pub(super) domain: Option<DomainTable>,
+    /// `[output]`
+    pub(super) output: OutputTable,
+}
+
+/// A contact law and its sub-models.
+pub(super) struct Law {
+    /// What stands in the table itself.
+    pub(super) table: ContactTable,
+    /// Normal sub-model.
+    pub(super) normal: NormalChoice,
+    /// Tangential sub-model.
+    pub(super) tangential: TangentialChoice,
+    /// Rolling sub-model.
+    pub(super) rolling: RollingChoice,
+    /// Cohesion sub-model.
+    pub(super) cohesion: CohesionChoice,
+}
+
+/// How many materials a scene may have: what each two have in common is kept as a square.
+const MOST_MATERIALS: usize = 256;
+
+/// A file that a scene names: the table, the key, and the name.
+pub(in crate::scene_file) type FileName = (String, &'static str, String);
+
+/// The files that a scene names.
+pub(in crate::scene_file) fn files(document: &Document) -> Vec<FileName> {
+    let mut files = Vec::new();
+    for (kind, key) in [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file")] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            if let Some(file) = document.text(&format!("{table}.{key}")) {
+                files.push((table, key, file.to_owned()));
+            }
+        }
+    }
+    for name in document.names("boundary") {
+        let table = format!("boundary.{name}");
+        for file in document.texts(&format!("{table}.mesh.joined")) {
+            files.push((table.clone(), "mesh.joined", file.to_owned()));
+        }
+    }
+    files
+}
+
+impl RawTables {
+    /// Reads all tables; `None` if any has a mistake.
+    pub(super) fn read(document: &Document, faults: &mut Faults) -> Option<Self> {
+        unknown_tables(document, faults);
+        let run = document.read("run", faults);
+        let gravity = match document.has("gravity") {
+            true => document.read_key("", "gravity", faults),
+            false => Some(Triple::default()),
+        };
+        let count = document.names("material").len();
+        if count > MOST_MATERIALS {
+            let (found, right) = (format!("{count} materials"), format!("{MOST_MATERIALS} at most"));
+            faults.add("material", "", Mistake::Wrong { found, right });
+            return None;
+        }
+        let materials = all(document, "material", faults);
+        let pairs = pairs(document, faults);
+        let contacts = laws(document, faults);
+        let bonds = all(document, "bond", faults);
+        let particles = all(document, "particles", faults);
+        let boundaries = all(document, "boundary", faults);
+        let damping = all(document, "damping", faults);
+        let forces = all(document, "force", faults);
+        let domain = document.has("domain").then(|| document.read("domain", faults));
+        let output = document.read("output", faults);
+        if faults.count() > 0 {
+            return None;
+        }
+        let (run, gravity, output) = (run?, gravity?, output?);
+        let domain = domain.flatten();
+        Some(Self {
+            run,
+            gravity,
+            materials,
+            pairs,
+            contacts,
+            bonds,
+            particles,
+            boundaries,
+            damping,
+            forces,
+            domain,
+            output,
+        })
+    }
+}
+
+/// Reports tables and keys at the top that have no meaning.
+fn unknown_tables(document: &Document, faults: &mut Faults) {
+    for name in document.names("") {
+        if TABLES.contains(&name.as_str()) {
+            continue;
+        }
+        let known = TABLES.map(str::to_owned).to_vec();
+        let mistake = messages::absent(&name).unwrap_or(match document.is_table_below("", &name) {
+            true => Mistake::UnknownTable { found: name.clone(), known },
+            false => Mistake::UnknownKey { found: name.clone(), known },
+        });
+        let line = document.line_of_name("", &name);
+        match document.is_table_below("", &name) {
+            true => faults.at_line(line, &name, "", mistake),
+            false => faults.at_line(line, "", &name, mistake),
+        }
+    }
+}
+
+/// The names of the tables below a table; each must be a name.
+fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec<String> {
+    if document.has(kind) && !document.is_table(kind) {
+        let (found, right) = (document.written(kind).to_owned(), format!("a table [{kind}.<name>]"));
+        faults.add("", kind, Mistake::Wrong { found, right });
+    }
+    let (names, others): (Vec<String>, Vec<String>) = document.names(kind).into_iter().partition(|name| is_name(name));
+    for found in others {
+        let line = document.line_of_name(kind, &found);
+        let bare = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
+        let shown = if !found.is_empty() && found.chars().all(bare) { found.clone() } else { format!("{found:?}") };
+        faults.at_line(line, &format!("{kind}.{shown}"), "", Mistake::Name { found });
+    }
+    names
+}
+
+/// `[A-Za-z_][A-Za-z0-9_]*`
+fn is_name(text: &str) -> bool {
+    let starts = text.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    starts && text.chars().all(|character| character.is_ascii_alphanumeric() || character == '_')
+}
+
+/// All tables of a kind.
+fn all<T: DeserializeOwned>(document: &Document, kind: &str, faults: &mut Faults) -> Named<T> {
+    let mut tables = Vec::new();
+    for name in names(document, kind, faults) {
+        if let Some(table) = document.read(&format!("{kind}.{name}"), faults) {
+            tables.push((name, table));
+        }
+    }
+    tables
+}
+
+/// All properties of pairs; both orders of one pair must say the same.
+fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
+    let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+    let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
+    for a in names(document, "pair", faults) {
+        for b in names(document, &format!("pair.{a}"), faults) {
+            let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
+            let mirrored = [b.clone(), a.clone()];
+            match known.get(&mirrored) {
+                Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),
+                Some(_) => {}
+                None => {
+                    known.insert([a.clone(), b.clone()], pairs.len());
+                    pairs.push(([a.clone(), b], properties));
+                }
+            }
+        }
+    }
+    pairs
+}
+
+/// Reports each key in which `[pair.<a>.<b>]` differs from `[pair.<b>.<a>]`.
+fn asymmetric(document: &Document, a: &str, b: &str, faults: &mut Faults) {
+    let (here, there) = (format!("pair.{a}.{b}"), format!("pair.{b}.{a}"));
+    let value = |table: &str, key: &str| match document.written(&format!("{table}.{key}")) {
+        "" => "nothing".to_owned(),
+        value => value.to_owned(),
+    };
+    let number = |text: &str| text.replace('_', "").parse::<f64>().ok();
+    let mut keys = document.names(&here);
+    keys.extend(document.names(&there).into_iter().filter(|key| !document.has(&format!("{here}.{key}"))));
+    for key in keys {
+        let (found, other) = (value(&here, &key), value(&there, &key));
+        if number(&found).is_none() || number(&found) != number(&other) {
+            faults.add(&here, &key, Mistake::Asymmetric { found, other, table: there.clone() });
+        }
+    }
+}
+
+/// All contact laws.
+fn laws(document: &Document, faults: &mut Faults) -> Named<Law> {
+    let mut laws = Vec::new();
+    for name in names(document, "contact", faults) {
+        let path = format!("contact.{name}");
+        let table = document.read(&path, faults);
+        let normal = model(document, &path, "normal", NormalChoice::NAMES, faults);
+        if table.is_some() && !document.has(&format!("{path}.normal")) {
+            let right = format!("a table [{path}.normal.<model>]");
+            faults.add(&path, "normal", Mistake::Missing { right });
+        }
+        let tangential = model(document, &path, "tangential", TangentialChoice::NAMES, faults);
+        let rolling = model(document, &path, "rolling", RollingChoice::NAMES, faults);
+        let cohesion = model(document, &path, "cohesion", CohesionChoice::NAMES, faults);
+        if let (Some(table), Some(normal)) = (table, normal) {
+            let law = Law {
+                table,
+                normal,
+                tangential: tangential.unwrap_or(TangentialChoice::None(Default::default())),
+                rolling: rolling.unwrap_or(RollingChoice::None(Default::default())),
+                cohesion: cohesion.unwrap_or(CohesionChoice::None(Default::default())),
+            };
+            laws.push((name, law));
+        }
+    }
+    laws
+}
+
+/// The sub-model of a kind, if the law names one.
+fn model<T: DeserializeOwned>(
+    document: &Document,
+    law: &str,
+    kind: &'static str,
+    known: &[&str],
+    faults: &mut Faults,
+) -> Option<T> {
+    let path = format!("{law}.{kind}");
+    if !document.has(&path) {
+        return None;
+    }
+    if !document.is_table(&path) {
+        let (found, right) = (document.written(&path).to_owned(), format!("a table [{path}.<model>]"));
+        faults.add(law, kind, Mistake::Wrong { found, right });
+        return None;
+    }
+    let models = document.names(&path);
+    let [model] = &models[..] else {
+        let found = if models.is_empty() { "no model".to_owned() } else { models.join(" and ") };
+        faults.add(&path, "", Mistake::Wrong { found, right: format!("one {kind} model") });
+        return None;
+    };
+    if !known.contains(&model.as_str()) {
+        let known = known.iter().map(|&name| name.to_owned()).collect();
+        let table = format!("{path}.{model}");
+        faults.add(&table, "", Mistake::UnknownModel { found: model.clone(), kind, known });
+        return None;
+    }
+    document.read(&path, faults)
+}

@@ -1,0 +1,57 @@
+//! `[boundary.<name>]`
+
+use crate::motion::{self, InputCourse};
+use crate::quantity::Triple;
+use crate::surface::{self, Around, Shape, ShapeKeys, with_shapes};
+use serde::Deserialize;
+
+/// Declares the table of a boundary: a key for each shape, and what every boundary has.
+macro_rules! boundary_table {
+    ($($key:ident: $file:ident::$keys:ident,)+) => {
+        /// `[boundary.<name>]`
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(in crate::scene_file) struct BoundaryTable {
+            $(
+                #[doc = concat!("`", stringify!($key), "`")]
+                $key: Option<surface::$file::$keys>,
+            )+
+            /// Material of a surface.
+            pub(in crate::scene_file) material: Option<String>,
+            /// How it moves.
+            #[serde(default)]
+            pub(in crate::scene_file) motion: motion::Keys,
+            /// How driven axes go to their new value.
+            pub(in crate::scene_file) input: Option<InputCourse>,
+            /// Point of reference of the moment \[m\].
+            pub(in crate::scene_file) reference: Option<Triple>,
+        }
+
+        impl BoundaryTable {
+            /// How the key of each shape is written.
+            pub(in crate::scene_file) const HINTS: &'static [&'static str] =
+                &[$(<surface::$file::$keys as ShapeKeys>::HINT),+];
+
+            /// Keys of the shapes that are written.
+            pub(in crate::scene_file) fn shapes(&self) -> Vec<&'static str> {
+                let written = [$((stringify!($key), self.$key.is_some())),+];
+                written.into_iter().filter(|(_, written)| *written).map(|(key, _)| key).collect()
+            }
+
+            /// Whether it is a plane that does not turn.
+            pub(in crate::scene_file) fn is_shifting_plane(&self) -> bool {
+                let (axes, _) = self.motion.axes();
+                self.shapes().contains(&"plane") && axes[3..].iter().all(motion::AxisMotion::is_fixed)
+            }
+
+            /// The first shape that is written; what is wrong with it is reported.
+            pub(in crate::scene_file) fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+                $(if let Some(keys) = &self.$key {
+                    return keys.shape(around);
+                })+
+                None
+            }
+        }
+    };
+}
+with_shapes!(boundary_table);

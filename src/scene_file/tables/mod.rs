@@ -1,0 +1,163 @@
+//! The scene as it is written: one type for each table, single values checked as they are read.
+
+mod boundary;
+mod particles;
+mod values;
+
+pub(super) use crate::quantity::{Corners, Triple};
+pub(super) use crate::surface::Selection;
+pub(super) use boundary::BoundaryTable;
+pub(super) use particles::{ListEntry, ParticlesTable};
+pub(super) use values::{Between, Safety, StepKey};
+
+use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
+use std::num::NonZeroU32;
+
+/// The tables that a scene may have.
+pub(in crate::scene_file) const TABLES: [&str; 12] = [
+    "run",
+    "gravity",
+    "material",
+    "pair",
+    "contact",
+    "bond",
+    "particles",
+    "boundary",
+    "damping",
+    "force",
+    "domain",
+    "output",
+];
+
+/// `[run]`
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct RunTable {
+    /// End \[s\].
+    pub(in crate::scene_file) end: Option<Positive>,
+    /// Time step \[s\] or `"auto"`.
+    pub(in crate::scene_file) step: Option<StepKey>,
+    /// Fraction of the stable step.
+    pub(in crate::scene_file) safety: Option<Safety>,
+    /// Whether a given step above the stable one may run on.
+    pub(in crate::scene_file) allow_unstable: Option<bool>,
+    /// Threads.
+    pub(in crate::scene_file) threads: Option<NonZeroU32>,
+    /// Seed of everything random.
+    pub(in crate::scene_file) seed: Option<u64>,
+    /// Search distance beyond touch \[m\].
+    pub(in crate::scene_file) skin: Option<Positive>,
+    /// Unbalanced force over mean contact force at which settling ends.
+    pub(in crate::scene_file) settle_tolerance: Option<Positive>,
+    /// Damping coefficient while settling.
+    pub(in crate::scene_file) settle_damping: Option<Fraction>,
+    /// Largest overlap at the start over the smaller radius.
+    pub(in crate::scene_file) max_overlap: Option<NonNegative>,
+}
+
+/// `[material.<name>]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct MaterialTable {
+    /// Density \[kg/m³\].
+    pub(in crate::scene_file) density: Positive,
+    /// Young's modulus \[Pa\].
+    pub(in crate::scene_file) youngs_modulus: Option<Positive>,
+    /// Poisson's ratio.
+    pub(in crate::scene_file) poissons_ratio: Option<PoissonsRatio>,
+}
+
+/// `[contact.<name>]`, without its sub-models.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct ContactTable {
+    /// For whom; absent: for all.
+    pub(in crate::scene_file) between: Option<Between>,
+    /// Whether the normal force is kept from pulling.
+    #[serde(default)]
+    pub(in crate::scene_file) limit_force: bool,
+    /// Whether the tangential dashpot acts.
+    pub(in crate::scene_file) tangential_damping: Option<bool>,
+    /// Read on its own.
+    #[serde(rename = "normal")]
+    _normal: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "tangential")]
+    _tangential: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "rolling")]
+    _rolling: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "cohesion")]
+    _cohesion: Option<IgnoredAny>,
+}
+
+/// `[damping.<name>]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct DampingTable {
+    /// Whom; absent: all.
+    pub(in crate::scene_file) particles: Option<Selection>,
+    /// Fraction of the force.
+    pub(in crate::scene_file) linear: Fraction,
+    /// Fraction of the torque.
+    pub(in crate::scene_file) angular: Fraction,
+    /// Factor on both, particle by particle.
+    pub(in crate::scene_file) scale: Option<ScaleTable>,
+    /// Whether gravity is damped.
+    pub(in crate::scene_file) gravity_damped: Option<bool>,
+    /// Whether applied forces are damped.
+    pub(in crate::scene_file) applied_forces_damped: Option<bool>,
+}
+
+/// `scale` of a damping: one of these.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct ScaleTable {
+    /// By material; 1 for those not named.
+    pub(in crate::scene_file) material: Option<BTreeMap<String, NonNegative>>,
+    /// Radius over this length \[m\].
+    pub(in crate::scene_file) radius_divisor: Option<Positive>,
+    /// A column of the particles' files.
+    pub(in crate::scene_file) column: Option<String>,
+}
+
+/// `[force.<name>]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct ForceTable {
+    /// On whom.
+    pub(in crate::scene_file) particles: Selection,
+    /// On each \[N\].
+    pub(in crate::scene_file) force: Triple,
+}
+
+/// `[domain]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct DomainTable {
+    /// Its corners \[m\].
+    #[serde(rename = "box")]
+    pub(in crate::scene_file) corners: Corners,
+}
+
+/// `[output]`
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene_file) struct OutputTable {
+    /// Time between rows of the history \[s\].
+    pub(in crate::scene_file) history_interval: Option<Positive>,
+    /// Time between frames \[s\].
+    pub(in crate::scene_file) frame_interval: Option<Positive>,
+    /// Whether frames have contacts.
+    #[serde(default)]
+    pub(in crate::scene_file) contacts: bool,
+    /// Whether the energy book is kept.
+    #[serde(default)]
+    pub(in crate::scene_file) energy: bool,
+    /// Time between checkpoints \[s\].
+    pub(in crate::scene_file) checkpoint_interval: Option<Positive>,
+}
