@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
-const ROWS: [&[&str]; 14] = [
+const ROWS: [&[&str]; 16] = [
     &["choices", "memory", "quantity", "number", "run_error", "vtk_reader"],
     &["geometry", "lanes", "document"],
     &["threads", "import", "packing"],
@@ -18,7 +18,9 @@ const ROWS: [&[&str]; 14] = [
     &["step"],
     &["statics"],
     &["interface"],
-    &["output", "export"],
+    &["results", "export"],
+    &["run"],
+    &["report"],
 ];
 
 /// Uses across rows that are forbidden all the same: the user, the used, why.
@@ -223,7 +225,7 @@ fn find_words(path: &Path, rule: &Rule, faults: &mut Vec<String>) {
 
 /// Kinds of motion.
 const MOTIONS: Rule = Rule {
-    kept: &["src/motion", "src/output/settle.rs"],
+    kept: &["src/motion", "src/run/settle.rs"],
     searched: &["src", "fmu/src"],
     words: &[
         "AxisMotion::Fixed",

@@ -3,9 +3,9 @@
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
-use cograin::output::{
-    self, Checkpoint, EarlierResults, Failure, Progress, RunOrder, SettleOrder, SettleProgress, Start,
-};
+use cograin::report;
+use cograin::results::{Checkpoint, Failure};
+use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -255,7 +255,7 @@ fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), End
 /// `cograin check`
 fn check(arguments: &CheckArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(&arguments.scene)?;
-    let report = output::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
+    let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
     say(report);
     Ok(())
 }
@@ -284,7 +284,7 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
         stop: &STOP,
     };
     let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
-    let result = output::run(order, &mut |progress: Progress| {
+    let result = cograin::run::run(order, &mut |progress: Progress| {
         if bar.is_hidden() {
             return;
         }
@@ -310,7 +310,7 @@ fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
         stop: &STOP,
     };
     let bar = bar("{spinner} {msg}  {elapsed}");
-    let result = output::settle(order, &mut |progress: SettleProgress| {
+    let result = cograin::run::settle(order, &mut |progress: SettleProgress| {
         if bar.is_hidden() {
             return;
         }

@@ -1,7 +1,7 @@
 //! What `settle` leaves, and what begins with it.
 
 use crate::ground::{Place, SCENE, cograin, column, complaint};
-use cograin::output::read_checkpoint;
+use cograin::results::read_checkpoint;
 use cograin::scene::Scene;
 use cograin::step::Simulation;
 use std::fs;

@@ -7,7 +7,7 @@ use crate::step::Simulation;
 use std::f64::consts::PI;
 
 /// The rules that can be told of a scene, in one line; none where nothing elastic is in it.
-pub(super) fn rules(scene: &Scene, simulation: &Simulation) -> Option<String> {
+pub(crate) fn rules(scene: &Scene, simulation: &Simulation) -> Option<String> {
     let step = simulation.state().clock.step;
     let rayleigh = scene.particles.iter().filter_map(|particle| rayleigh_time(scene, particle)).reduce(f64::min)?;
     let mut line = format!("Rayleigh time {rayleigh:.3e} s ({:.3} of it)", step / rayleigh);

@@ -1,18 +1,21 @@
 //! What is to be known of a scene before it runs.
 
-use super::error::Refusal;
-use super::files::Checkpoint;
-use super::forecast;
-use super::remarks::remarks;
-use super::rules::rules;
-use super::schedule::Schedule;
-use super::trial::{self, Trial};
+mod forecast;
+mod rules;
+mod trial;
+
 use crate::interface::Interface;
+use crate::results::error::Refusal;
+use crate::results::files::Checkpoint;
+use crate::results::schedule::Schedule;
+use crate::run::remarks::remarks;
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
 use crate::step::Simulation;
+use rules::rules;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
+use trial::Trial;
 
 /// What is to be known of a scene before it runs. Displays as text for a person.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,7 @@ pub struct EncodeError(String);
 
 /// Values of one field, point after point or line after line.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Values {
+pub(crate) enum Values {
     /// One real number each.
     Scalars(Vec<f64>),
     /// Three real numbers each.
@@ -28,7 +28,7 @@ pub(super) enum Values {
 
 /// What the points stand for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// Each for itself.
     #[default]
     Points,
@@ -38,7 +38,7 @@ pub(super) enum Kind {
 
 /// Points with named fields.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Cloud {
+pub(crate) struct Cloud {
     /// x, y, z of each point \[m\].
     pub points: Vec<f64>,
     /// What they stand for.
@@ -51,7 +51,7 @@ pub(super) struct Cloud {
 
 impl Cloud {
     /// The cloud as a `.vtu` file.
-    pub(super) fn encode(self) -> Result<Vec<u8>, EncodeError> {
+    pub(crate) fn encode(self) -> Result<Vec<u8>, EncodeError> {
         let count = self.points.len() / 3;
         let attributes = |fields: Vec<(&'static str, Values)>| fields.into_iter().map(attribute).collect();
         // The one cell of a file without points has no values.

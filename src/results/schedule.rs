@@ -63,7 +63,7 @@ impl Series {
 
 /// What is to be written at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Due {
+pub(crate) struct Due {
     /// Whether a row of the history is due.
     pub history: bool,
     /// Whether a frame is due.
@@ -74,7 +74,7 @@ pub(super) struct Due {
 
 /// A communication point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Point {
+pub(crate) struct Point {
     /// Time \[s\].
     pub time: f64,
     /// Time since the point before it \[s\].
@@ -85,7 +85,7 @@ pub(super) struct Point {
 
 /// Time steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Counted {
+pub(crate) struct Counted {
     /// All of them.
     pub all: u64,
     /// Those that are shorter, so that an output is met.
@@ -94,7 +94,7 @@ pub(super) struct Counted {
 
 /// All communication points of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Schedule {
+pub(crate) struct Schedule {
     /// Rows of the history; without an interval there are two, at the start and at the end.
     history: Option<Series>,
     /// Frames, if the scene asks for them.
@@ -110,7 +110,7 @@ pub(super) struct Schedule {
 impl Schedule {
     /// The communication points of a run to `end` \[s\] that writes what the scene asks for; refused where nobody can mean
     /// so many. The name is that of the scene, for the message.
-    pub(super) fn new(scene: &Scene, scene_name: &str, end: f64) -> Result<Self, Refusal> {
+    pub(crate) fn new(scene: &Scene, scene_name: &str, end: f64) -> Result<Self, Refusal> {
         let output = &scene.output;
         let intervals = [output.history_interval, output.frame_interval, output.checkpoint_interval];
         for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
@@ -138,7 +138,7 @@ impl Schedule {
     }
 
     /// The first point after the one at `time` \[s\]; none at the end.
-    pub(super) fn after(&self, time: f64) -> Option<Point> {
+    pub(crate) fn after(&self, time: f64) -> Option<Point> {
         let beyond = |series: Series| series.time(series.last(time, SAME * series.interval) + 1);
         if time >= self.end {
             return None;
@@ -159,12 +159,12 @@ impl Schedule {
     }
 
     /// The end of the run \[s\].
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.end
     }
 
     /// Time steps of a run from `time` on \[s\] whose step has this length \[s\].
-    pub(super) fn steps(&self, mut time: f64, step: f64) -> Counted {
+    pub(crate) fn steps(&self, mut time: f64, step: f64) -> Counted {
         let mut counted = Counted::default();
         while let Some(point) = self.after(time) {
             let (count, length) = divide(point.interval, step);
@@ -176,13 +176,13 @@ impl Schedule {
     }
 
     /// Checkpoints of a run from `time` on \[s\], if the scene says when they are written.
-    pub(super) fn checkpoints(&self, time: f64) -> Option<u64> {
+    pub(crate) fn checkpoints(&self, time: f64) -> Option<u64> {
         let count = |series| self.regular_until(series, self.end) + 2 - self.regular_until(series, time);
         self.checkpoints.map(count)
     }
 
     /// The communication point that a saved time stands for, or the nearest one if it stands for none \[s\].
-    pub(super) fn point_of(&self, saved: f64) -> Result<f64, f64> {
+    pub(crate) fn point_of(&self, saved: f64) -> Result<f64, f64> {
         let shortest = self.series().map(|series| series.interval).fold(self.end, f64::min);
         let nearest = self
             .series()
@@ -198,7 +198,7 @@ impl Schedule {
     }
 
     /// Times of the frames up to and with the point at `time` \[s\].
-    pub(super) fn frames_until(&self, time: f64) -> Vec<f64> {
+    pub(crate) fn frames_until(&self, time: f64) -> Vec<f64> {
         let Some(series) = self.frames else { return Vec::new() };
         let mut times: Vec<_> = (0..self.regular_until(series, time)).map(|k| series.time(k)).collect();
         if time >= self.end {
@@ -208,7 +208,7 @@ impl Schedule {
     }
 
     /// Rows of the history up to and with the point at `time` \[s\].
-    pub(super) fn rows_until(&self, time: f64) -> u64 {
+    pub(crate) fn rows_until(&self, time: f64) -> u64 {
         let regular = self.history.map_or(1, |series| self.regular_until(series, time));
         regular + u64::from(time >= self.end)
     }

@@ -13,7 +13,7 @@ use std::thread::{self, JoinHandle};
 const QUEUE: usize = 4;
 
 /// The thread, and the way to it.
-pub(super) struct Writer {
+pub(crate) struct Writer {
     /// Where jobs are handed over.
     jobs: Option<SyncSender<Job>>,
     /// The thread; none once its end is known.
@@ -24,7 +24,7 @@ pub(super) struct Writer {
 
 impl Writer {
     /// Starts the thread.
-    pub(super) fn start(folder: Arc<Mutex<Folder>>) -> Result<Self, OutputError> {
+    pub(crate) fn start(folder: Arc<Mutex<Folder>>) -> Result<Self, OutputError> {
         let path = opened(&folder).path().to_owned();
         Self::with(path, move |job| opened(&folder).write(job))
     }
@@ -43,7 +43,7 @@ impl Writer {
     }
 
     /// Hands over a job. An error is that of an earlier one.
-    pub(super) fn send(&mut self, job: Job) -> Result<(), OutputError> {
+    pub(crate) fn send(&mut self, job: Job) -> Result<(), OutputError> {
         match &self.jobs {
             Some(jobs) if jobs.send(job).is_ok() => Ok(()),
             _ => self.finish().and(Err(OutputError::Writer { path: self.folder.clone() })),
@@ -51,7 +51,7 @@ impl Writer {
     }
 
     /// Waits until all jobs so far are done. An error is that of one of them.
-    pub(super) fn wait(&mut self) -> Result<(), OutputError> {
+    pub(crate) fn wait(&mut self) -> Result<(), OutputError> {
         let (done, wait) = sync_channel(1);
         self.send(Job::Tell(done))?;
         match wait.recv() {
@@ -61,7 +61,7 @@ impl Writer {
     }
 
     /// Waits until everything is written. Called again, it has nothing more to say.
-    pub(super) fn finish(&mut self) -> Result<(), OutputError> {
+    pub(crate) fn finish(&mut self) -> Result<(), OutputError> {
         self.jobs = None;
         match self.thread.take().map(JoinHandle::join) {
             Some(Ok(result)) => result,
@@ -79,7 +79,7 @@ impl Drop for Writer {
 }
 
 /// The folder; whoever panicked in it has told so where its end was waited for.
-pub(super) fn opened(folder: &Mutex<Folder>) -> MutexGuard<'_, Folder> {
+pub(crate) fn opened(folder: &Mutex<Folder>) -> MutexGuard<'_, Folder> {
     folder.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -35,7 +35,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// Ties what the system said to the file.
-    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
+    pub(crate) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |source| Self::Write { path: path.to_owned(), source }
     }
 }
@@ -349,7 +349,7 @@ pub enum Failure {
 
 impl Refusal {
     /// Why a scene with this file name cannot begin with a checkpoint.
-    pub(super) fn not_taken_over(scene: &str, error: TakeOverError) -> Self {
+    pub(crate) fn not_taken_over(scene: &str, error: TakeOverError) -> Self {
         match error {
             TakeOverError::Checkpoint(error) => Self::Resume(error),
             TakeOverError::Start(source) => Self::Start { scene: scene.to_owned(), source },

@@ -7,7 +7,7 @@ use crate::state::Particles;
 use crate::step::{BondRecord, ContactRecord};
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(super) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 3] {
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 3] {
     let Job::Frame { particles: bodies, contacts: touching, bonds: living, .. } = job else {
         return [None, None, None];
     };
@@ -19,7 +19,7 @@ pub(super) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 3] {
 }
 
 /// All particles, in the order of the scene whatever their order in memory.
-pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
+pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
     let slots = || particles.slot.iter().map(|&slot| slot as usize);
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
@@ -40,7 +40,7 @@ pub(super) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.
 ///
 /// A wall has no id: `id2` is then −1, and `boundary` is its place in the scene; between particles `boundary` is −1.
-pub(super) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
+pub(crate) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
     let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
     let vectors = |of: fn(&ContactRecord) -> [f64; 3]| Values::Vectors(contacts.iter().flat_map(of).collect());
     let scalars = |of: fn(&ContactRecord) -> f64| Values::Scalars(contacts.iter().map(of).collect());
@@ -63,7 +63,7 @@ pub(super) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
 
 /// A line for each bond, from body i to body j or to its foot on the plane: what it carries. The ids of the bodies are
 /// those of the points; a foot has −1, and `boundary` is then the place of the plane in the scene (otherwise −1).
-pub(super) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> Cloud {
+pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> Cloud {
     let position = |particle: u32| {
         let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
         [x, y, z]

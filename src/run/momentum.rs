@@ -37,16 +37,16 @@ pub struct MomentumBalance {
 
 /// The account at the start of a session, to compare with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Start(Account);
+pub(crate) struct Start(Account);
 
 impl Start {
     /// The account at the present time.
-    pub(super) fn of(simulation: &Simulation) -> Self {
+    pub(crate) fn of(simulation: &Simulation) -> Self {
         Self(account(simulation.scene(), simulation.state()))
     }
 
     /// The balance from then to the present time.
-    pub(super) fn balance(&self, simulation: &Simulation) -> MomentumBalance {
+    pub(crate) fn balance(&self, simulation: &Simulation) -> MomentumBalance {
         let (start, end) = (self.0, account(simulation.scene(), simulation.state()));
         let less = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
         let (weight, applied) = constant_forces(simulation.scene(), simulation.state());

@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The open file.
-pub(super) struct Table {
+pub(crate) struct Table {
     /// Where it is.
     path: PathBuf,
     /// Its end.
@@ -18,7 +18,7 @@ pub(super) struct Table {
 
 impl Table {
     /// Begins a file with a row of column names.
-    pub(super) fn create(path: &Path, names: &[String]) -> Result<Self, OutputError> {
+    pub(crate) fn create(path: &Path, names: &[String]) -> Result<Self, OutputError> {
         let file = File::create(path).map_err(OutputError::at(path))?;
         let mut table = Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) };
         table.add(names)?;
@@ -26,7 +26,7 @@ impl Table {
     }
 
     /// Takes up a file after the rows that are kept; those behind them are cut off.
-    pub(super) fn reopen(path: &Path, found: &Found) -> Result<Self, OutputError> {
+    pub(crate) fn reopen(path: &Path, found: &Found) -> Result<Self, OutputError> {
         let at = OutputError::at;
         let file = OpenOptions::new().append(true).open(path).map_err(at(path))?;
         file.set_len(found.bytes).map_err(at(path))?;
@@ -34,20 +34,20 @@ impl Table {
     }
 
     /// Adds a row and hands it to the system.
-    pub(super) fn add(&mut self, row: &[String]) -> Result<(), OutputError> {
+    pub(crate) fn add(&mut self, row: &[String]) -> Result<(), OutputError> {
         let written = self.rows.write_record(row).map_err(io::Error::from).and_then(|()| self.rows.flush());
         written.map_err(OutputError::at(&self.path))
     }
 
     /// Makes sure that all rows are on the disk.
-    pub(super) fn sync(&self) -> Result<(), OutputError> {
+    pub(crate) fn sync(&self) -> Result<(), OutputError> {
         self.rows.get_ref().sync_all().map_err(OutputError::at(&self.path))
     }
 }
 
 /// The part of an existing file that a continued run keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Found {
+pub(crate) struct Found {
     /// Its length.
     bytes: u64,
     /// Its rows.
@@ -58,7 +58,7 @@ pub(super) struct Found {
 
 impl Found {
     /// Looks for the rows up to a time \[s\] in a file that begins with these column names, `time` before all.
-    pub(super) fn until(path: &Path, names: &[String], time: f64) -> Result<Self, ResumeError> {
+    pub(crate) fn until(path: &Path, names: &[String], time: f64) -> Result<Self, ResumeError> {
         let bytes = std::fs::read(path).map_err(|source| ResumeError::Read { path: path.to_owned(), source })?;
         let mut lines = bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"));
         let header = lines.next().unwrap_or_default();

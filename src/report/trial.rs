@@ -1,10 +1,10 @@
 //! A short trial of a run: what a step, a row, a frame and a checkpoint cost on this machine.
 
-use super::frames;
-use super::run::{frame, row};
-use super::schedule::Schedule;
-use super::vtk::EncodeError;
 use crate::interface::Interface;
+use crate::results::frames;
+use crate::results::schedule::Schedule;
+use crate::results::vtk::EncodeError;
+use crate::run::{frame, row};
 use crate::step::{RunError, Simulation};
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ const BETWEEN_LOOKS: f64 = 0.02;
 
 /// What the outputs of a kind cost, one of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Price {
+pub(crate) struct Price {
     /// Wall time \[s\].
     pub time: f64,
     /// Size \[bytes\].
@@ -25,7 +25,7 @@ pub(super) struct Price {
 
 /// What was measured.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Trial {
+pub(crate) struct Trial {
     /// Wall time of a time step \[s\].
     pub step: f64,
     /// Time steps made.
@@ -43,7 +43,7 @@ pub(super) struct Trial {
 }
 
 /// Makes real steps from where the simulation stands, divided as the schedule says from this time on \[s\], and one output of each kind.
-pub(super) fn of(
+pub(crate) fn of(
     simulation: &mut Simulation,
     interface: &Interface,
     schedule: Option<(&Schedule, f64)>,
@@ -60,7 +60,7 @@ pub(super) fn of(
 }
 
 /// Makes real steps for some wall time. The first look is not counted: memory is touched for the first time.
-pub(super) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f64)>, patience: Duration) -> Trial {
+pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f64)>, patience: Duration) -> Trial {
     let mut trial = Trial::default();
     let begun = Instant::now();
     let (mut counted, mut since) = (0, begun);

@@ -27,7 +27,7 @@ const REPLACING: &str = ".cograin-replacing";
 const MOVING: &str = ".cograin-moving";
 
 /// Makes the empty folder in which a run begins.
-pub(super) fn begin(folder: &Path) -> Result<PathBuf, OutputError> {
+pub(crate) fn begin(folder: &Path) -> Result<PathBuf, OutputError> {
     let new = folder.join(NEW);
     remove_folder(&new)?;
     fs::create_dir_all(&new).map_err(OutputError::at(&new))?;
@@ -35,13 +35,13 @@ pub(super) fn begin(folder: &Path) -> Result<PathBuf, OutputError> {
 }
 
 /// Lets the files of the run that has begun take the place of all results. They are on the disk already.
-pub(super) fn finish(folder: &Path) -> Result<(), OutputError> {
+pub(crate) fn finish(folder: &Path) -> Result<(), OutputError> {
     rename(folder, NEW, REPLACING)?;
     take_up(folder)
 }
 
 /// Ends a replacement that was broken off; one that had not come to its decisive moment is undone.
-pub(super) fn take_up(folder: &Path) -> Result<(), OutputError> {
+pub(crate) fn take_up(folder: &Path) -> Result<(), OutputError> {
     remove_folder(&folder.join(NEW))?;
     if folder.join(REPLACING).is_dir() {
         for path in results(folder)? {
@@ -62,7 +62,7 @@ pub(super) fn take_up(folder: &Path) -> Result<(), OutputError> {
 }
 
 /// The results of a run in a folder, also those that are not finished.
-pub(super) fn results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
+pub(crate) fn results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(OutputError::at(folder))? {
         let entry = entry.map_err(OutputError::at(folder))?;

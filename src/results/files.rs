@@ -15,7 +15,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 /// Whether a file must be on the disk, or may still be in the system's memory, when it has its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Durability {
+pub(crate) enum Durability {
     /// It outlives the program.
     Process,
     /// It outlives the machine.
@@ -23,7 +23,7 @@ pub(super) enum Durability {
 }
 
 /// Writes a file under another name and renames it: whoever looks finds the old one or the new one, whole.
-pub(super) fn write_whole(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), OutputError> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), OutputError> {
     write_whole_by(path, durability, |file| file.write_all(bytes))
 }
 
@@ -52,7 +52,7 @@ fn write_whole_by(
 }
 
 /// Makes sure that a file written earlier is on the disk.
-pub(super) fn sync(path: &Path) -> Result<(), OutputError> {
+pub(crate) fn sync(path: &Path) -> Result<(), OutputError> {
     File::open(path).and_then(|file| file.sync_all()).map_err(OutputError::at(path))
 }
 
@@ -65,7 +65,7 @@ fn unfinished(path: &Path) -> PathBuf {
 }
 
 /// Makes a new name in a folder last, where the system lets folders be opened.
-pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

@@ -1,7 +1,7 @@
 //! What a run will write and how long it will take, before it runs.
 
-use super::schedule::{Counted, Schedule};
 use super::trial::Trial;
+use crate::results::schedule::{Counted, Schedule};
 use crate::scene::{Scene, Step};
 use crate::step::{LONGEST_AUTOMATIC_STEP, Simulation};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ const IN_A_PACKING: f64 = 0.5;
 const MEGABYTE: f64 = 1e6;
 
 /// The lines of the report on what a run writes, on its steps, and on its time.
-pub(super) struct Forecast {
+pub(crate) struct Forecast {
     /// What is written, a line each.
     pub outputs: Vec<String>,
     /// How many steps.
@@ -31,7 +31,7 @@ struct Steps {
 }
 
 /// Foretells a run that begins at this time \[s\]. `present` is the simulation as it begins.
-pub(super) fn of(
+pub(crate) fn of(
     scene: &Arc<Scene>,
     present: &Simulation,
     (schedule, begins): (&Schedule, f64),

@@ -1,7 +1,7 @@
 //! A scene brought to rest, as a start for others.
 
-use super::error::{Failure, Refusal};
-use super::files::{Checkpoint, write_checkpoint};
+use crate::results::error::{Failure, Refusal};
+use crate::results::files::{Checkpoint, write_checkpoint};
 use crate::scene::{AxisMotion, Boundary, Scene};
 use crate::step::{Description, Simulation};
 use std::collections::VecDeque;

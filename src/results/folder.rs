@@ -24,7 +24,7 @@ use std::sync::mpsc::SyncSender;
 const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
 
 /// One thing to write.
-pub(super) enum Job {
+pub(crate) enum Job {
     /// A row of the history.
     Row {
         /// Time \[s\].
@@ -53,7 +53,7 @@ pub(super) enum Job {
 
 impl Job {
     /// The text of a row; nothing for other jobs.
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match self {
             Self::Row { time, values } => cells(*time, values).join(","),
             _ => String::new(),
@@ -77,7 +77,7 @@ struct Series {
 }
 
 /// The open folder.
-pub(super) struct Folder {
+pub(crate) struct Folder {
     /// What is simulated.
     scene: Arc<Scene>,
     /// Its file name.
@@ -96,7 +96,7 @@ pub(super) struct Folder {
 
 /// What a run keeps of the files in its folder; looking changes nothing.
 #[derive(Default)]
-pub(super) struct Kept {
+pub(crate) struct Kept {
     /// The rows of the history, or none where a new file is begun.
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
@@ -109,7 +109,7 @@ pub(super) struct Kept {
 
 /// Where a run takes up its files.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(crate) struct Place<'a> {
     /// Columns of the history.
     pub names: &'a [String],
     /// When what is written.
@@ -122,12 +122,12 @@ pub(super) struct Place<'a> {
 
 impl Kept {
     /// Nothing is kept, and this is the number of the first frame.
-    pub(super) fn nothing(next_frame: usize) -> Self {
+    pub(crate) fn nothing(next_frame: usize) -> Self {
         Self { next_frame, ..Self::default() }
     }
 
     /// Looks at the files of a run. A run that began at time 0 has all rows; one that began later has those from there on.
-    pub(super) fn look(path: &Path, place: &Place<'_>) -> Result<Self, ResumeError> {
+    pub(crate) fn look(path: &Path, place: &Place<'_>) -> Result<Self, ResumeError> {
         let Place { names, schedule, time, state } = *place;
         let file = path.join(HISTORY);
         let history = Found::until(&file, names, time)?;
@@ -157,7 +157,7 @@ impl Kept {
 
 impl Folder {
     /// Makes the folder ready for the next row, keeping what is kept and nothing else.
-    pub(super) fn open(
+    pub(crate) fn open(
         path: &Path,
         (scene, scene_name): (Arc<Scene>, &str),
         names: &[String],
@@ -191,12 +191,12 @@ impl Folder {
     }
 
     /// Where it is.
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// Does one job.
-    pub(super) fn write(&mut self, job: Job) -> Result<(), OutputError> {
+    pub(crate) fn write(&mut self, job: Job) -> Result<(), OutputError> {
         match job {
             Job::Row { time, values } => self.history.add(&cells(time, &values)),
             Job::Breaks(breaks) => self.breaks(&breaks),
@@ -214,7 +214,7 @@ impl Folder {
     }
 
     /// Writes a checkpoint. Everything written before it is on the disk when it has its name.
-    pub(super) fn checkpoint(&mut self, state: &State) -> Result<(), OutputError> {
+    pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), OutputError> {
         self.history.sync()?;
         self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
         for path in self.unsynced.drain(..) {

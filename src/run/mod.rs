@@ -1,23 +1,32 @@
 //! A scene that runs by itself, from one communication point to the next, and what it writes there.
 
-use super::error::{Failure, OutputError, Refusal, ResumeError};
-use super::files::{Checkpoint, Durability, read_checkpoint, write_whole};
-use super::folder::{Folder, Job, Kept, Place};
-use super::inputs::Inputs;
-use super::lock::FolderLock;
-use super::schedule::{Due, Schedule};
-use super::summary::{self, Meter, Summary};
-use super::writer::{Writer, opened};
-use super::{CHECKPOINT, SUMMARY};
-use super::{momentum, replacement};
+mod inputs;
+mod momentum;
+pub(crate) mod remarks;
+mod settle;
+mod summary;
+
+pub use remarks::remarks;
+pub use settle::{SettleOrder, SettleProgress, Settled, settle};
+pub use summary::Summary;
+
 use crate::interface::{Findings, Interface};
+use crate::results::error::{Failure, OutputError, Refusal, ResumeError};
+use crate::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
+use crate::results::folder::{Folder, Job, Kept, Place};
+use crate::results::lock::FolderLock;
+use crate::results::schedule::{Due, Schedule};
+use crate::results::writer::{Writer, opened};
+use crate::results::{CHECKPOINT, SUMMARY, replacement};
 use crate::scene::Scene;
 use crate::step::Simulation;
+use inputs::Inputs;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use summary::Meter;
 
 /// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
 /// of what is in them.
@@ -329,14 +338,14 @@ impl First<'_> {
 }
 
 /// The row of the history at the present time.
-pub(super) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
+pub(crate) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
     let found = Findings::default();
     let values = interface.outputs().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
     Job::Row { time, values }
 }
 
 /// The frame at the present time.
-pub(super) fn frame(simulation: &Simulation, time: f64) -> Job {
+pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let scene = simulation.scene();
     let particles = Box::new(simulation.state().particles.clone());
     let contacts = scene.output.contacts.then(|| simulation.contacts());

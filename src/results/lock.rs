@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 /// File that is locked.
-pub(super) const LOCK: &str = ".cograin-lock";
+pub(crate) const LOCK: &str = ".cograin-lock";
 
 /// The lock of a folder, until it is dropped.
 #[derive(Debug)]
-pub(super) struct FolderLock {
+pub(crate) struct FolderLock {
     /// The locked file.
     path: PathBuf,
     /// What keeps it locked.
@@ -23,7 +23,7 @@ pub(super) struct FolderLock {
 
 impl FolderLock {
     /// Locks a folder. If another process holds it, the refusal names that process and when it began.
-    pub(super) fn take(folder: &Path) -> Result<Self, Failure> {
+    pub(crate) fn take(folder: &Path) -> Result<Self, Failure> {
         let path = folder.join(LOCK);
         let failed = |source: io::Error| OutputError::Write { path: path.clone(), source };
         loop {

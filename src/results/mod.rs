@@ -1,4 +1,4 @@
-//! What the commands do and leave behind: a run with its files, a settled state, a report on a scene.
+//! What a run leaves in its folder, when each file is due, and what may be wrong with them.
 //!
 //! | file in a run's folder      | what it holds                                                     |
 //! |-----------------------------|-------------------------------------------------------------------|
@@ -15,39 +15,24 @@
 //! stands and ends with the same bytes as a run that was never broken (`summary.json`, which tells of one
 //! session, aside). When outputs are due, and how that divides the run, is told in `schedule.rs`.
 
-mod check;
 mod collection;
-mod error;
-mod files;
-mod folder;
-mod forecast;
-mod frames;
-mod inputs;
-mod lock;
-mod momentum;
-mod remarks;
-mod replacement;
-mod rules;
-mod run;
-mod schedule;
-mod settle;
-mod summary;
+pub(crate) mod error;
+pub(crate) mod files;
+pub(crate) mod folder;
+pub(crate) mod frames;
+pub(crate) mod lock;
+pub(crate) mod replacement;
+pub(crate) mod schedule;
 mod table;
-mod trial;
-mod vtk;
-mod writer;
+pub(crate) mod vtk;
+pub(crate) mod writer;
 
-pub use check::{Report, check};
 pub use error::{Failure, InputsError, OutputError, Refusal, ResumeError, TakeOverError};
 pub use files::{Checkpoint, TakenOver, read_checkpoint, write_checkpoint};
-pub use remarks::remarks;
-pub use run::{EarlierResults, Progress, RunOrder, Start, run};
-pub use settle::{SettleOrder, SettleProgress, Settled, settle};
-pub use summary::Summary;
 pub use vtk::EncodeError;
 
 /// File of the unit's outputs over time.
-const HISTORY: &str = "history.csv";
+pub(crate) const HISTORY: &str = "history.csv";
 
 /// File of the bonds that broke.
 const BREAKAGE: &str = "breakage.csv";
@@ -56,10 +41,10 @@ const BREAKAGE: &str = "breakage.csv";
 pub const CHECKPOINT: &str = "checkpoint.cograin";
 
 /// File that tells how a run went.
-const SUMMARY: &str = "summary.json";
+pub(crate) const SUMMARY: &str = "summary.json";
 
 /// Ending of a file that is being written.
-const UNFINISHED: &str = "part";
+pub(crate) const UNFINISHED: &str = "part";
 
 /// Kinds of frames: beginning of the names of their files.
 const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];

@@ -14,7 +14,7 @@ const HEAD: &str = "<?xml version=\"1.0\"?>\n\
 const TAIL: &str = "</Collection>\n</VTKFile>\n";
 
 /// The open file.
-pub(super) struct Collection {
+pub(crate) struct Collection {
     /// Where it is.
     path: PathBuf,
     /// The file.
@@ -25,7 +25,7 @@ pub(super) struct Collection {
 
 impl Collection {
     /// A file of these frames, each with its time \[s\].
-    pub(super) fn create(path: &Path, frames: &[(f64, String)]) -> Result<Self, OutputError> {
+    pub(crate) fn create(path: &Path, frames: &[(f64, String)]) -> Result<Self, OutputError> {
         let entries: String = frames.iter().map(|(time, name)| entry(*time, name)).collect();
         let text = format!("{HEAD}{entries}{TAIL}");
         write_whole(path, text.as_bytes(), Durability::Process)?;
@@ -34,7 +34,7 @@ impl Collection {
     }
 
     /// Adds the frame of a time \[s\]: one write over the old tail, so that the file is whole before and after it.
-    pub(super) fn add(&mut self, time: f64, name: &str) -> Result<(), OutputError> {
+    pub(crate) fn add(&mut self, time: f64, name: &str) -> Result<(), OutputError> {
         let entry = entry(time, name);
         let text = format!("{entry}{TAIL}");
         let place = self.file.seek(SeekFrom::Start(self.end));

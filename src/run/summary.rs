@@ -1,9 +1,9 @@
 //! `summary.json`: how a run went.
 
-use super::error::Failure;
+use super::RunOrder;
 use super::momentum::MomentumBalance;
 use super::remarks::remarks;
-use super::run::RunOrder;
+use crate::results::error::Failure;
 use crate::state::ledger::Source;
 use crate::step::{RunError, Simulation};
 use serde::Serialize;
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Counts what a session does.
-pub(super) struct Meter {
+pub(crate) struct Meter {
     /// When the session began.
     begun: Instant,
     /// Time spent in time steps.
@@ -32,7 +32,7 @@ pub(super) struct Meter {
 
 impl Meter {
     /// Begins to count.
-    pub(super) fn start(simulation: &Simulation) -> Self {
+    pub(crate) fn start(simulation: &Simulation) -> Self {
         Self {
             begun: Instant::now(),
             stepping: Duration::ZERO,
@@ -45,7 +45,7 @@ impl Meter {
     }
 
     /// Makes a communication step and counts it.
-    pub(super) fn step(&mut self, simulation: &mut Simulation, interval: f64) -> Result<(), RunError> {
+    pub(crate) fn step(&mut self, simulation: &mut Simulation, interval: f64) -> Result<(), RunError> {
         let (begun, before) = (Instant::now(), simulation.state().clock.steps);
         let result = simulation.advance(interval);
         self.stepping += begun.elapsed();
@@ -58,7 +58,7 @@ impl Meter {
     }
 
     /// Looks at the overlaps.
-    pub(super) fn look(&mut self, simulation: &Simulation) {
+    pub(crate) fn look(&mut self, simulation: &Simulation) {
         self.largest_overlap = self.largest_overlap.max(simulation.largest_overlap());
     }
 }
@@ -179,7 +179,7 @@ pub struct Summary {
 
 impl Summary {
     /// The summary at the present time.
-    pub(super) fn new(
+    pub(crate) fn new(
         order: &RunOrder<'_>,
         simulation: &Simulation,
         meter: &Meter,
@@ -270,7 +270,7 @@ impl std::fmt::Display for Summary {
 }
 
 /// What the summary in a folder tells of the run that left it, in a few words.
-pub(super) fn told(path: &Path) -> String {
+pub(crate) fn told(path: &Path) -> String {
     let summary = fs::read(path).ok().and_then(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).ok());
     let Some(summary) = summary else { return "it did not come to its end".to_owned() };
     match (summary["scene"].as_str(), summary["ended"].as_str(), summary["time"].as_f64()) {

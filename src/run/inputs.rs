@@ -1,7 +1,7 @@
 //! Inputs of a run over time, from a table such as a master leaves.
 
-use super::error::InputsError;
 use crate::interface::{Interface, Value};
+use crate::results::error::InputsError;
 use crate::step::Simulation;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ const SAME: f64 = 1e-9;
 
 /// What the driven boundaries do: piecewise linear in time, from displacement 0 at time 0 on.
 #[derive(Clone, Debug)]
-pub(super) struct Inputs {
+pub(crate) struct Inputs {
     /// Times, ascending, from 0 \[s\].
     times: Vec<f64>,
     /// Index in the interface and values at the times, of each input that the table has.
@@ -19,7 +19,7 @@ pub(super) struct Inputs {
 
 impl Inputs {
     /// Reads a table: a column `time`, and columns with the names of inputs; others are skipped.
-    pub(super) fn read(path: &Path, interface: &Interface) -> Result<Self, InputsError> {
+    pub(crate) fn read(path: &Path, interface: &Interface) -> Result<Self, InputsError> {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let names = reader.headers().map_err(unreadable)?.clone();
@@ -69,12 +69,12 @@ impl Inputs {
     }
 
     /// Time of the last row \[s\].
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
     /// Sets every input to where it is to be at this time.
-    pub(super) fn set(&self, interface: &Interface, simulation: &mut Simulation, time: f64) {
+    pub(crate) fn set(&self, interface: &Interface, simulation: &mut Simulation, time: f64) {
         let next = self.times.partition_point(|row| *row < time * (1.0 - SAME)).min(self.times.len() - 1);
         for (index, values) in &self.columns {
             let value = if next == 0 || (self.times[next] - time).abs() <= SAME * time || time > self.times[next] {
