@@ -5,8 +5,8 @@ use super::normal::{NormalChoice, TakeNormal};
 use super::rolling::{RollingChoice, TakeRolling};
 use super::tangential::{TakeTangential, TangentialChoice};
 use super::{
-    Adhesion, Coefficients, Cohesion, CohesionForm, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Rolling,
-    Switches, Tangential,
+    Adhesion, Coefficients, Cohesion, CohesionForm, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm,
+    Objection, Rolling, Switches, Tangential,
 };
 
 /// The sub-models and switches of one law, as the scene names them.
@@ -22,17 +22,6 @@ pub struct LawChoice {
     pub cohesion: CohesionChoice,
     /// Switches of every law.
     pub switches: Switches,
-}
-
-/// Why sub-models and switches do not go together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Objection {
-    /// The table of the key below `[contact.<law>]`: empty, or the kind of sub-model.
-    pub table: &'static str,
-    /// The key to change.
-    pub key: &'static str,
-    /// What was found and what would be right.
-    pub reason: &'static str,
 }
 
 impl LawChoice {

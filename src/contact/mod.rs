@@ -19,7 +19,7 @@ pub mod normal;
 pub mod rolling;
 pub mod tangential;
 
-pub use choice::{LawChoice, Objection};
+pub use choice::LawChoice;
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
 pub use law::{CoefficientPlaces, HistoryPlaces, Law, Offset};
@@ -210,6 +210,17 @@ pub struct FrictionNeeds {
     pub stiffness: bool,
     /// γ_t.
     pub damping: bool,
+}
+
+/// Why sub-models and switches do not go together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// The table of the key below `[contact.<law>]`: empty, or the kind of sub-model.
+    pub table: &'static str,
+    /// The key to change.
+    pub key: &'static str,
+    /// What was found and what would be right.
+    pub reason: &'static str,
 }
 
 /// A normal model: from what the scene says of two materials to what the loop computes.

@@ -1,6 +1,6 @@
 //! The zip file.
 
-use super::Resource;
+use super::resources::{Content, Resource};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -8,36 +8,6 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
-
-/// What an entry holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Bytes that are read.
-    Data(Vec<u8>),
-    /// A library, which is marked as executable.
-    Program(Vec<u8>),
-}
-
-impl Content {
-    /// The bytes.
-    pub fn bytes(&self) -> &[u8] {
-        match self {
-            Self::Data(bytes) | Self::Program(bytes) => bytes,
-        }
-    }
-}
-
-impl From<Vec<u8>> for Content {
-    fn from(bytes: Vec<u8>) -> Self {
-        Self::Data(bytes)
-    }
-}
-
-impl From<String> for Content {
-    fn from(text: String) -> Self {
-        Self::Data(text.into_bytes())
-    }
-}
 
 /// Writes the entries, in their order, beside `output` and then puts the whole file in its place.
 pub(super) fn write(entries: &[Resource], output: &Path) -> io::Result<()> {

@@ -6,10 +6,9 @@ mod library;
 mod page;
 mod resources;
 
-pub use archive::Content;
 pub use description::LOG_CATEGORIES;
 pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, find_library};
-pub use resources::{Contents, Resource, ResourceError, identity, read_resources, resources};
+pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
 use crate::interface::Interface;
 use crate::scene::{Scene, Source};

@@ -3,7 +3,6 @@
 //! [`resources`] writes them, [`read_resources`] reads them back; [`identity`] tells whether they are still
 //! those that the unit's description was made from.
 
-use super::archive::Content;
 use crate::scene::Source;
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,6 +16,36 @@ const SCENE: &str = "scene.toml";
 const INDEX: &str = "files.json";
 /// The state to begin in.
 const STATE: &str = "state.bin";
+
+/// What an entry holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Bytes that are read.
+    Data(Vec<u8>),
+    /// A library, which is marked as executable.
+    Program(Vec<u8>),
+}
+
+impl Content {
+    /// The bytes.
+    pub fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Data(bytes) | Self::Program(bytes) => bytes,
+        }
+    }
+}
+
+impl From<Vec<u8>> for Content {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self::Data(bytes)
+    }
+}
+
+impl From<String> for Content {
+    fn from(text: String) -> Self {
+        Self::Data(text.into_bytes())
+    }
+}
 
 /// A file of the unit.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Spheres in a region that are pushed apart, pair after pair, until none overlaps another.
 
-use super::random::uniform;
+use super::generator::uniform;
 use super::region::Region;
 use crate::packing::overlaps::for_each_overlap;
 use rand_chacha::ChaCha8Rng;

@@ -6,7 +6,7 @@
 //! (Mol. Simul. 3, 1989, 201); the shaking is annealing by decreasing amplitude.
 
 use super::crowd::{Crowd, MARGIN, Overlaps};
-use super::random::uniform;
+use super::generator::uniform;
 use super::region::Region;
 use super::{MOST, Sphere};
 use crate::document::Mistake;

@@ -2,6 +2,7 @@
 
 mod crowd;
 mod dense;
+mod generator;
 mod keys;
 mod lattice;
 pub(crate) mod overlaps;

@@ -1,13 +1,12 @@
 //! Spheres at random places of a region, none overlapping another.
 
 use super::dense::dense;
+use super::generator::{generator, uniform};
 use super::keys::PackingTable;
 use super::region::Region;
 use super::{PackingProgress, Sphere, too_many};
 use crate::document::Mistake;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use xxhash_rust::xxh3::xxh3_64;
 
 /// Places tried for one sphere before the region counts as full.
 const TRIES: usize = 5000;
@@ -64,20 +63,6 @@ impl Class {
             })
         })
     }
-}
-
-/// A number from 0 to below 1.
-pub(super) fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// The generator of a set: the scene's seed, and a stream of the set's own.
-fn generator(seed: u64, set: &str) -> ChaCha8Rng {
-    let mut bytes = [0; 32];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    let mut random = ChaCha8Rng::from_seed(bytes);
-    random.set_stream(xxh3_64(set.as_bytes()));
-    random
 }
 
 /// The spheres of a packing. Otherwise the key that is wrong.

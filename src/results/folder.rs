@@ -3,6 +3,7 @@
 use super::collection::Collection;
 use super::error::{OutputError, ResumeError};
 use super::files::{Durability, sync, write_checkpoint, write_whole};
+use super::job::{Job, cells};
 use super::replacement::results;
 use super::schedule::Schedule;
 use super::table::{Found, Table};
@@ -11,60 +12,14 @@ use super::{
     vtk::Cloud,
 };
 use crate::bond::breakage::cause_name;
-use crate::interface::Value;
 use crate::scene::Scene;
-use crate::state::{Break, Particles, State};
-use crate::step::{BondRecord, ContactRecord};
+use crate::state::{Break, State};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::SyncSender;
 
 /// Columns of `breakage.csv`.
 const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
-
-/// One thing to write.
-pub(crate) enum Job {
-    /// A row of the history.
-    Row {
-        /// Time \[s\].
-        time: f64,
-        /// The outputs.
-        values: Vec<Value>,
-    },
-    /// Bonds that broke.
-    Breaks(Vec<Break>),
-    /// A frame.
-    Frame {
-        /// Time \[s\].
-        time: f64,
-        /// The particles.
-        particles: Box<Particles>,
-        /// The contacts, if the scene asks for them.
-        contacts: Option<Vec<ContactRecord>>,
-        /// The bonds, if the scene has any.
-        bonds: Option<Vec<BondRecord>>,
-    },
-    /// A checkpoint.
-    Checkpoint(Box<State>),
-    /// Nothing but to tell that it is its turn.
-    Tell(SyncSender<()>),
-}
-
-impl Job {
-    /// The text of a row; nothing for other jobs.
-    pub(crate) fn text(&self) -> String {
-        match self {
-            Self::Row { time, values } => cells(*time, values).join(","),
-            _ => String::new(),
-        }
-    }
-}
-
-/// The cells of a row.
-fn cells(time: f64, values: &[Value]) -> Vec<String> {
-    std::iter::once(format!("{time:?}")).chain(values.iter().map(ToString::to_string)).collect()
-}
 
 /// A frame's `.pvd` and what has been added.
 struct Series {

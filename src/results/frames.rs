@@ -1,6 +1,6 @@
 //! The clouds of a frame: particles by ascending id, the contacts between them, their bonds.
 
-use super::folder::Job;
+use super::job::Job;
 use super::vtk::{Cloud, Kind, Values};
 use crate::scene::Scene;
 use crate::state::Particles;

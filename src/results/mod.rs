@@ -20,6 +20,7 @@ pub(crate) mod error;
 pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod frames;
+pub(crate) mod job;
 pub(crate) mod lock;
 pub(crate) mod replacement;
 pub(crate) mod schedule;

@@ -3,7 +3,8 @@
 //! The queue is short: a disk slower than the simulation holds it back instead of filling the memory.
 
 use super::error::OutputError;
-use super::folder::{Folder, Job};
+use super::folder::Folder;
+use super::job::Job;
 use std::path::PathBuf;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

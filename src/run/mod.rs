@@ -2,10 +2,12 @@
 
 mod inputs;
 mod momentum;
+mod order;
 pub(crate) mod remarks;
 mod settle;
 mod summary;
 
+pub use order::{EarlierResults, Progress, RunOrder, Start};
 pub use remarks::remarks;
 pub use settle::{SettleOrder, SettleProgress, Settled, settle};
 pub use summary::Summary;
@@ -13,12 +15,12 @@ pub use summary::Summary;
 use crate::interface::{Findings, Interface};
 use crate::results::error::{Failure, OutputError, Refusal, ResumeError};
 use crate::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
-use crate::results::folder::{Folder, Job, Kept, Place};
+use crate::results::folder::{Folder, Kept, Place};
+use crate::results::job::Job;
 use crate::results::lock::FolderLock;
 use crate::results::schedule::{Due, Schedule};
 use crate::results::writer::{Writer, opened};
 use crate::results::{CHECKPOINT, SUMMARY, replacement};
-use crate::scene::Scene;
 use crate::step::Simulation;
 use inputs::Inputs;
 use std::fs;
@@ -31,58 +33,6 @@ use summary::Meter;
 /// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
 /// of what is in them.
 const CHECKPOINT_PAUSE: Duration = Duration::from_secs(30);
-
-/// Where a run begins.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Start {
-    /// With the scene as its file has it.
-    Scene,
-    /// With the checkpoint in the folder of the results.
-    LastCheckpoint,
-    /// With this checkpoint of the same scene.
-    Checkpoint(PathBuf),
-    /// With this checkpoint, which may be of another scene.
-    From(PathBuf),
-}
-
-/// What becomes of the results of an earlier run in the folder, where another run begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EarlierResults {
-    /// They stay, and the run is refused.
-    Keep,
-    /// They are replaced, all of them at once.
-    Replace,
-}
-
-/// What is to be run, and where to.
-#[derive(Clone, Copy, Debug)]
-pub struct RunOrder<'a> {
-    /// The scene.
-    pub scene: &'a Arc<Scene>,
-    /// Its file name, for messages and the summary.
-    pub scene_name: &'a str,
-    /// Folder of the results.
-    pub folder: &'a Path,
-    /// Where it begins.
-    pub start: &'a Start,
-    /// What becomes of the results of an earlier run.
-    pub earlier_results: EarlierResults,
-    /// A table of the driven boundaries' displacements over time; without one they stay where they are.
-    pub inputs: Option<&'a Path>,
-    /// Set from outside to stop at the next communication point.
-    pub stop: &'a AtomicBool,
-}
-
-/// How far a run is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Where this session began \[s\].
-    pub start: f64,
-    /// Time \[s\].
-    pub time: f64,
-    /// Where it ends \[s\].
-    pub end: f64,
-}
 
 /// Where a checkpoint is written from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

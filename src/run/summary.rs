@@ -1,7 +1,7 @@
 //! `summary.json`: how a run went.
 
-use super::RunOrder;
 use super::momentum::MomentumBalance;
+use super::order::RunOrder;
 use super::remarks::remarks;
 use crate::results::error::Failure;
 use crate::state::ledger::Source;

@@ -157,6 +157,13 @@ pub struct Bond {
     pub pairs: Vec<[u32; 2]>,
 }
 
+impl Bond {
+    /// Whether the law is for particles of these two sets.
+    pub(crate) fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
+        self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
+    }
+}
+
 /// A sphere as the scene starts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {

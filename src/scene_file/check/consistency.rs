@@ -1,6 +1,7 @@
 //! What must hold in any scene, read from a file or built in code.
 
-use super::bonds::{Bonded, idle};
+use super::bonded_pairs::{Bonded, idle};
+use super::finding::Finding;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
@@ -8,26 +9,6 @@ use crate::document::{SceneError, SceneErrors};
 use crate::packing::overlaps::for_each_overlap;
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Particle, Scene};
 use std::collections::BTreeSet;
-
-/// A mistake and the table and key where it shows.
-#[derive(Debug)]
-pub(super) struct Finding {
-    /// The table.
-    pub(super) table: String,
-    /// The key, or empty.
-    pub(super) key: String,
-    /// The table to name the line of where `table` is not written.
-    pub(super) otherwise: String,
-    /// What is wrong.
-    pub(super) mistake: Mistake,
-}
-
-impl Finding {
-    /// At a key of a table.
-    pub(super) fn at(table: String, key: &str, mistake: Mistake) -> Self {
-        Self { otherwise: table.clone(), table, key: key.to_owned(), mistake }
-    }
-}
 
 impl Scene {
     /// Whether the scene can be run: laws have their properties, particles are where they may be.

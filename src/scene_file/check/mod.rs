@@ -1,10 +1,12 @@
 //! From tables, each right in itself, to a scene that is right as a whole.
 
+mod bonded_pairs;
 mod bonds;
 mod boundaries;
 mod consistency;
 mod contacts;
 mod damping;
+mod finding;
 mod motion;
 mod particles;
 pub(super) mod raw_tables;
@@ -15,7 +17,7 @@ use super::tables::{OutputTable, RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
 use crate::scene::{Output, Run, Scene, Source, Step};
-use consistency::Finding;
+use finding::Finding;
 use raw_tables::RawTables;
 
 /// The scene that a source describes. Mistakes found so far are in `faults`.

@@ -1,0 +1,58 @@
+//! What is to be run, where from and where to.
+
+use crate::scene::Scene;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Where a run begins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// With the scene as its file has it.
+    Scene,
+    /// With the checkpoint in the folder of the results.
+    LastCheckpoint,
+    /// With this checkpoint of the same scene.
+    Checkpoint(PathBuf),
+    /// With this checkpoint, which may be of another scene.
+    From(PathBuf),
+}
+
+/// What becomes of the results of an earlier run in the folder, where another run begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EarlierResults {
+    /// They stay, and the run is refused.
+    Keep,
+    /// They are replaced, all of them at once.
+    Replace,
+}
+
+/// What is to be run, and where to.
+#[derive(Clone, Copy, Debug)]
+pub struct RunOrder<'a> {
+    /// The scene.
+    pub scene: &'a Arc<Scene>,
+    /// Its file name, for messages and the summary.
+    pub scene_name: &'a str,
+    /// Folder of the results.
+    pub folder: &'a Path,
+    /// Where it begins.
+    pub start: &'a Start,
+    /// What becomes of the results of an earlier run.
+    pub earlier_results: EarlierResults,
+    /// A table of the driven boundaries' displacements over time; without one they stay where they are.
+    pub inputs: Option<&'a Path>,
+    /// Set from outside to stop at the next communication point.
+    pub stop: &'a AtomicBool,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Where this session began \[s\].
+    pub start: f64,
+    /// Time \[s\].
+    pub time: f64,
+    /// Where it ends \[s\].
+    pub end: f64,
+}
