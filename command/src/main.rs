@@ -1,5 +1,8 @@
 //! The command line: parse, call, print.
 
+mod chart;
+
+use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
@@ -45,6 +48,8 @@ enum Command {
     Export(ExportArguments),
     /// Replay reference cases of other engines and compare
     Verify(VerifyArguments),
+    /// Chart speed against accuracy, and where methods fail: tables and pictures
+    Chart(ChartArguments),
 }
 
 /// A scene.
@@ -200,6 +205,7 @@ fn main() -> ExitCode {
         Command::Settle(arguments) => settle(&arguments),
         Command::Export(arguments) => package(&arguments),
         Command::Verify(arguments) => replay(&arguments),
+        Command::Chart(arguments) => chart::chart(&arguments),
     };
     let (status, reason) = match ended {
         Ok(()) => return ExitCode::SUCCESS,

@@ -1,0 +1,122 @@
+//! How exactly a sphere rebounds from a plane, over the number of time steps in the contact.
+//!
+//! Set-up 3 of Y. C. Chung & J. Y. Ooi, *Granular Matter* 13 (2011) 643–656. The error is the largest over the moments at
+//! which the contact may begin and end within a time step. Theory: the restitution that leaves is the one that the scene
+//! gives; Tsuji's dashpot is exact for Hertz's force, the dashpot of `hooke` for its spring, where the end may pull.
+
+use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
+use super::schemes::{SCHEMES, Scheme};
+use super::{Chart, Drawing};
+use crate::ChartError;
+use crate::picture::{Panel, Picture, logarithmic};
+use crate::table::Table;
+
+/// The chart.
+pub(super) const CHART: Chart = Chart {
+    name: "impact",
+    shows: "error of restitution over time steps in a contact: hertz and hooke, from damped to elastic",
+    seconds: 2.0,
+    draw,
+};
+
+/// Moments within a time step at which contacts end: parts of a step that a contact is longer.
+const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// Time steps in an elastic contact.
+const STEPS: [f64; 12] = [5.0, 8.0, 12.0, 20.0, 32.0, 50.0, 80.0, 125.0, 200.0, 400.0, 800.0, 1600.0];
+
+/// Coefficients of restitution.
+const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
+
+/// What the default step is called.
+const DEFAULT: &str = "default step, all e";
+
+/// A normal model: its name, its table in the scene, the duration of an elastic contact \[s\].
+struct Normal {
+    /// Its name.
+    name: &'static str,
+    /// Its table in the scene.
+    table: String,
+    /// Duration of the elastic contact \[s\].
+    duration: f64,
+}
+
+impl Normal {
+    /// Spheres with this restitution.
+    fn throw(&self, restitution: f64) -> Throw<'_> {
+        Throw { law: &self.table, coefficients: [restitution, 0.0], angle: 0.0, duration: self.duration }
+    }
+}
+
+/// The largest error of restitution.
+fn largest(rebounds: &[Rebound], restitution: f64) -> f64 {
+    rebounds.iter().map(|[velocity, _]| (velocity[2] / SPEED - restitution).abs()).fold(0.0, f64::max)
+}
+
+/// Adds a row for each number of steps.
+fn fill(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
+    let series = scheme.series(&format!("e = {restitution}"));
+    for steps in STEPS {
+        let mut error = 0.0_f64;
+        for end in ENDS {
+            error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
+        }
+        table.push([normal.name.into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
+    }
+    Ok(())
+}
+
+/// Adds a row for the step that the program chooses.
+fn fill_default(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
+    let (rebounds, steps) = normal.throw(restitution).automatic(scheme.run)?;
+    let error = largest(&rebounds, restitution);
+    table.push([normal.name.into(), scheme.series(DEFAULT).into(), restitution.into(), steps.into(), error.into()]);
+    Ok(())
+}
+
+/// Computes the chart.
+fn draw() -> Result<Drawing, ChartError> {
+    let hooke = format!("[contact.touch.normal.hooke]\ncharacteristic_velocity = {SPEED:?}");
+    let models = [
+        Normal { name: "hertz", table: "[contact.touch.normal.hertz]".into(), duration: hertz_duration(SPEED) },
+        Normal { name: "hooke", table: hooke, duration: hooke_duration() },
+    ];
+    let mut table = Table::new([
+        ("law", ""),
+        ("series", ""),
+        ("restitution", "1"),
+        ("time steps in an elastic contact", "1"),
+        ("largest error of restitution", "1"),
+    ]);
+    for normal in &models {
+        for scheme in SCHEMES {
+            for restitution in RESTITUTIONS {
+                fill(&mut table, normal, restitution, scheme)?;
+            }
+            for restitution in RESTITUTIONS {
+                fill_default(&mut table, normal, restitution, scheme)?;
+            }
+        }
+    }
+    let panel = |law: &'static str| {
+        let title = format!("{law}, without limit_force");
+        let axes = [logarithmic("time steps in an elastic contact"), logarithmic("largest error of restitution")];
+        Panel { only: Some(("law", law)), single: vec![DEFAULT], ..Panel::new(&title, axes[0], axes[1], "series") }
+    };
+    let notes = notes(&table);
+    Ok(Drawing { table, picture: Picture { panels: vec![panel("hertz"), panel("hooke")] }, notes })
+}
+
+/// What the default step costs in accuracy.
+fn notes(table: &Table) -> Vec<String> {
+    let defaults =
+        (0..table.rows.len()).filter(|row| table.rows[*row][table.place("series")].to_string().starts_with(DEFAULT));
+    let told = |row: usize| {
+        let number = |column| table.number(row, column).unwrap_or(f64::NAN);
+        let (law, series) = (&table.rows[row][0], &table.rows[row][1]);
+        let steps = number("time steps in an elastic contact");
+        let error = number("largest error of restitution");
+        format!("{law}, {series}: e = {}, {steps:.1} steps, error {error:.1e}", number("restitution"))
+    };
+    defaults.map(told).collect()
+}

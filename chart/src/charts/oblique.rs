@@ -1,0 +1,104 @@
+//! How exactly spheres rebound that hit a plane at an angle, over the number of time steps in the contact.
+//!
+//! Set-up 4 of Y. C. Chung & J. Y. Ooi, *Granular Matter* 13 (2011) 643–656, and the same spheres with e = 0.5 and µ = 0.4.
+//! The error is the largest one of velocity and of angular velocity times radius, together, against what the same law leaves
+//! with [`CONVERGED`] time steps, over the speed of the impact and over the moments at which the contact begins.
+
+use super::drops::{RADIUS, Rebound, SPEED, Throw, hertz_duration};
+use super::schemes::SCHEMES;
+use super::{Chart, Drawing};
+use crate::ChartError;
+use crate::picture::{Panel, Picture, logarithmic};
+use crate::table::Table;
+
+/// The chart.
+pub(super) const CHART: Chart = Chart {
+    name: "oblique",
+    shows: "error of rebound of oblique impacts over time steps in a contact, over tangential laws",
+    seconds: 15.0,
+    draw,
+};
+
+/// Time steps in an elastic contact.
+const STEPS: [f64; 10] = [6.0, 10.0, 17.0, 30.0, 55.0, 100.0, 200.0, 400.0, 800.0, 1600.0];
+
+/// Time steps of the run that the others are held against.
+const CONVERGED: f64 = 12_800.0;
+
+/// Angles to the normal \[°\].
+const ANGLES: [f64; 4] = [5.0, 20.0, 40.0, 70.0];
+
+/// What the default step is called.
+const DEFAULT: &str = "default step, all angles";
+
+/// A diagram: its name, the tangential model, restitution and friction.
+type Case = (&'static str, &'static str, [f64; 2]);
+
+/// The diagrams.
+const CASES: [Case; 4] = [
+    ("history, e = 0.98, µ = 0.092", "history", [0.98, 0.092]),
+    ("turned_history, e = 0.98, µ = 0.092", "turned_history", [0.98, 0.092]),
+    ("history, e = 0.5, µ = 0.4", "history", [0.5, 0.4]),
+    ("turned_history, e = 0.5, µ = 0.4", "turned_history", [0.5, 0.4]),
+];
+
+/// Mean of what spheres leave with.
+fn mean(rebounds: &[Rebound]) -> Rebound {
+    let part = |row: usize, axis: usize| {
+        rebounds.iter().map(|rebound| rebound[row][axis]).sum::<f64>() / rebounds.len() as f64
+    };
+    [0, 1].map(|row| [0, 1, 2].map(|axis| part(row, axis)))
+}
+
+/// The largest error, over the speed of the impact.
+fn largest(rebounds: &[Rebound], right: &Rebound) -> f64 {
+    let square = |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+    let error = |rebound: &Rebound| {
+        (square(rebound[0], right[0]) + RADIUS * RADIUS * square(rebound[1], right[1])).sqrt() / SPEED
+    };
+    rebounds.iter().map(error).fold(0.0, f64::max)
+}
+
+/// Computes the chart.
+fn draw() -> Result<Drawing, ChartError> {
+    let mut table = Table::new([
+        ("case", ""),
+        ("series", ""),
+        ("angle", "°"),
+        ("time steps in an elastic contact", "1"),
+        ("largest error of rebound over impact speed", "1"),
+    ]);
+    let mut notes = Vec::new();
+    for (case, tangential, coefficients) in CASES {
+        let law = format!("[contact.touch.normal.hertz]\n[contact.touch.tangential.{tangential}]");
+        for scheme in SCHEMES {
+            let mut defaults = Vec::new();
+            for angle in ANGLES {
+                let radians = angle.to_radians();
+                let duration = hertz_duration(SPEED * libm::cos(radians));
+                let throw = Throw { law: &law, coefficients, angle: radians, duration };
+                let right = mean(&throw.steps(CONVERGED, scheme.run)?);
+                let mut add = |series: String, steps: f64, error: f64| {
+                    table.push([case.into(), series.into(), angle.into(), steps.into(), error.into()]);
+                };
+                for steps in STEPS {
+                    let error = largest(&throw.steps(steps, scheme.run)?, &right);
+                    add(scheme.series(&format!("{angle}°")), steps, error);
+                }
+                let (rebounds, steps) = throw.automatic(scheme.run)?;
+                defaults.push((angle, steps, largest(&rebounds, &right)));
+            }
+            for (angle, steps, error) in defaults {
+                let series = scheme.series(DEFAULT);
+                notes.push(format!("{case}, {angle}°, {series}: {steps:.1} steps, error {error:.1e}"));
+                table.push([case.into(), series.into(), angle.into(), steps.into(), error.into()]);
+            }
+        }
+    }
+    let panel = |(case, _, _): Case| {
+        let across = logarithmic("time steps in an elastic contact");
+        let upwards = logarithmic("largest error of rebound over impact speed");
+        Panel { only: Some(("case", case)), single: vec![DEFAULT], ..Panel::new(case, across, upwards, "series") }
+    };
+    Ok(Drawing { table, picture: Picture { panels: CASES.map(panel).into() }, notes })
+}

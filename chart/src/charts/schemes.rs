@@ -1,0 +1,20 @@
+//! Ways to step that a scene can choose.
+
+/// A way to step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scheme {
+    /// What the legend calls it.
+    pub name: &'static str,
+    /// What the scene says in `[run]`, whole lines.
+    pub run: &'static str,
+}
+
+/// Those that are charted, the default first.
+pub(super) const SCHEMES: &[Scheme] = &[Scheme { name: "", run: "" }];
+
+impl Scheme {
+    /// The name of a series of this scheme.
+    pub(super) fn series(&self, name: &str) -> String {
+        if self.name.is_empty() { name.to_owned() } else { format!("{name}, {}", self.name) }
+    }
+}

@@ -1,0 +1,22 @@
+//! Why a chart was not drawn.
+
+use cograin::scene::SceneErrors;
+
+/// Why a chart was not drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartError {
+    /// A scene was refused.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// A scene stopped.
+    #[error(transparent)]
+    Run(#[from] cograin::step::RunError),
+    /// A file was not written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: String,
+        /// Why.
+        source: std::io::Error,
+    },
+}
