@@ -277,6 +277,22 @@ fn every_shape_pushes_across_itself_with_the_force_of_a_plane() {
 }
 
 #[test]
+fn planes_push_whatever_surfaces_stand_before_and_between_them() {
+    // A plane whose list stood behind that of another surface once worked on that one's list: it pushed nobody.
+    let disc = "disc = { centre = [0.0, 0.0, 1.0], normal = [0.0, 0.0, 1.0], radius = 0.02 }";
+    let plane = |x: f64, normal: f64| format!("plane = {{ point = [{x:?}, 0.0, 0.0], normal = [{normal:?}, 0.0, 0.0] }}");
+    let boundaries: String = [("a", disc.to_owned()), ("b", plane(-0.05, 1.0)), ("c", disc.replace("1.0]", "2.0]"))]
+        .into_iter()
+        .chain([("d", plane(0.05, -1.0))])
+        .map(|(name, shape)| format!("[boundary.{name}]\nmaterial = \"wall\"\n{shape}\n"))
+        .collect();
+    for side in [-1.0, 1.0] {
+        let found = force_at([side * (0.05 - RADIUS + 5e-5), 0.0, 0.0], &boundaries, &[]);
+        assert_same(found, [-side * hertz(5e-5), 0.0, 0.0], 1e-11);
+    }
+}
+
+#[test]
 fn a_capped_cylinder_has_floor_and_wall_in_its_corner_and_the_rim_outside() {
     let can = "[boundary.wall]\nmaterial = \"wall\"\n\
                cylinder = { from = [0.0, 0.0, 0.0], to = [0.0, 0.0, 0.1], radius = 0.03, caps = \"from\" }\n";
@@ -382,7 +398,7 @@ fn a_plane_that_turns_carries_a_sphere_like_one_that_stood_there_before() {
     let (sine, cosine) = 0.3_f64.sin_cos();
     let near = RADIUS - 5e-5;
     let mut simulation = Simulation::new(scene(&[[near * sine, 0.0, near * cosine]], SMOOTH, turned, &[])).unwrap();
-    simulation.set_displacement(BoundaryIndex(0), 4, 0.3);
+    simulation.set_input(BoundaryIndex(0), 4, 0.3);
     simulation.place(None).unwrap();
     let [x, y, z, _] = simulation.state().particles.force[0];
     assert_same([x, y, z], [sine, 0.0, cosine].map(|part| part * hertz(5e-5)), 1e-11);
@@ -420,10 +436,10 @@ fn tumbling(threads: usize) -> Arc<Scene> {
 /// Moves the boundaries of [`tumbling`] through a communication step.
 fn drive(simulation: &mut Simulation, step: u32) {
     let wave = 2e-4 * f64::from(step % 5) - 3e-4;
-    simulation.set_displacement(BoundaryIndex(0), 0, wave);
-    simulation.set_displacement(BoundaryIndex(0), 2, 0.5 * wave);
-    simulation.set_displacement(BoundaryIndex(0), 4, 0.01 * f64::from(step));
-    simulation.set_displacement(BoundaryIndex(1), 2, 1e-4 * f64::from(step % 3));
+    simulation.set_input(BoundaryIndex(0), 0, wave);
+    simulation.set_input(BoundaryIndex(0), 2, 0.5 * wave);
+    simulation.set_input(BoundaryIndex(0), 4, 0.01 * f64::from(step));
+    simulation.set_input(BoundaryIndex(1), 2, 1e-4 * f64::from(step % 3));
     simulation.advance(3.3e-4 + 1e-5 * f64::from(step % 3)).unwrap_or_else(|error| panic!("{error}"));
 }
 

@@ -153,6 +153,9 @@ const PIECE: usize = 2 * CHUNK;
 
 /// The pass of a plane as one of several.
 pub(crate) trait PlanePass {
+    /// Which list of the state is its own.
+    fn list(&self) -> usize;
+
     /// What is to be done with the listed particles in a range of slots. Ranges worked on at the same time do not overlap.
     fn work<'a>(
         &'a self,
@@ -197,7 +200,9 @@ pub(crate) fn apply(passes: &[Box<dyn Pass>], state: &mut State, context: &Conte
         torque: Shared::new(&mut particles.torque),
     };
     let boundaries = &state.boundaries;
-    let works = planes.iter().zip(&mut state.walls).map(|(plane, list)| {
+    // Lists stand in the order of the passes, and other surfaces may stand before these.
+    let first = planes.first().map_or(0, |plane| plane.list());
+    let works = planes.iter().zip(&mut state.walls[first..]).map(|(plane, list)| {
         let boundary = &boundaries[list.boundary as usize];
         plane.work(list, boundary, loaded, context)
     });
@@ -216,6 +221,10 @@ pub(crate) fn apply(passes: &[Box<dyn Pass>], state: &mut State, context: &Conte
 }
 
 impl PlanePass for WallPass {
+    fn list(&self) -> usize {
+        self.index
+    }
+
     fn work<'a>(
         &'a self,
         list: &'a mut WallContacts,
