@@ -66,6 +66,13 @@ macro_rules! index {
     };
 }
 
+impl Default for Finite {
+    /// 0.
+    fn default() -> Self {
+        Self(0.0)
+    }
+}
+
 index!(/// The number a particle carries in the scene, its files and its outputs; never changes.
     ParticleId);
 index!(/// Where a material stands in the scene.

@@ -82,6 +82,22 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
+    /// A surface that forces move would pass particles in one step.
+    #[error(
+        "boundary {boundary} would move {way:.3e} m in one step, {radii:.2} of the radius of the smallest particle, at t = {time} s: {cause}"
+    )]
+    SurfaceRunaway {
+        /// The boundary.
+        boundary: String,
+        /// Its way in one step \[m\].
+        way: f64,
+        /// The same over the smallest radius.
+        radii: f64,
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: Cause,
+    },
     /// A number ceased to be one.
     #[error("particle {id} has a {quantity} that is not finite at t = {time} s: {cause}")]
     NotFinite {

@@ -64,9 +64,9 @@ fn simulation() -> Simulation {
 /// Where the inputs go in a communication step.
 fn drive(simulation: &mut Simulation, step: u32) -> [[f64; 3]; 2] {
     let wave = 2e-4 * f64::from(step % 5) - 3e-4;
-    simulation.set_displacement(BoundaryIndex(0), 0, wave);
-    simulation.set_displacement(BoundaryIndex(0), 2, 0.5 * wave);
-    simulation.set_displacement(BoundaryIndex(2), 2, -3e-4 * f64::from(step));
+    simulation.set_input(BoundaryIndex(0), 0, wave);
+    simulation.set_input(BoundaryIndex(0), 2, 0.5 * wave);
+    simulation.set_input(BoundaryIndex(2), 2, -3e-4 * f64::from(step));
     let before = [0, 2].map(|boundary| simulation.state().boundaries[boundary].displacement);
     // Neither a whole number of time steps nor the same each time.
     simulation.advance(3.3e-4 + 1e-5 * f64::from(step % 3)).expect("it runs");

@@ -33,7 +33,7 @@ fn speed_after(text: &str, driven: bool, interval: f64) -> f64 {
     let count = (0.3 / interval).round() as usize;
     for done in 1..=count {
         if driven {
-            simulation.set_displacement(BoundaryIndex(0), 2, 0.1 * done as f64 * interval);
+            simulation.set_input(BoundaryIndex(0), 2, 0.1 * done as f64 * interval);
         }
         simulation.advance(interval).expect("it runs");
     }
@@ -59,7 +59,7 @@ fn a_given_step_is_refused_before_numbers_are_nonsense_and_the_bound_is_renewed(
     let mut simulation = start(&plane_hits_sphere("step = 1e-3", "driven = [\"z\"]"));
     simulation.advance(0.01).expect("nothing moves yet");
     let resting = simulation.state().clock.stable;
-    simulation.set_displacement(BoundaryIndex(0), 2, 0.1);
+    simulation.set_input(BoundaryIndex(0), 2, 0.1);
     let error = simulation.advance(0.1).expect_err("the plane comes at 1 m/s");
     let RunError::StepTooLong { step, stable, by, .. } = &error else { panic!("{error}") };
     assert!(*step == 1e-3 && *stable < 1e-3 && *stable < resting, "{error}");

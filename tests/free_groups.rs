@@ -69,7 +69,7 @@ fn a_free_group_falls_as_a_stone() {
 fn axes_that_are_not_free_stay_and_driven_ones_follow() {
     let motion = r#"{ driven = ["z"], free = ["x"] }"#;
     let mut simulation = start(&format!("gravity = [1.0, 2.0, 3.0]\n{}", top(1e-3, motion, "")));
-    simulation.set_displacement(FIRST, 2, -0.25);
+    simulation.set_input(FIRST, 2, -0.25);
     simulation.advance(0.5).expect("it runs");
     let moved = group(&simulation);
     assert!(apart(moved.displacement, [0.125, 0.0, -0.25]) < 1e-14, "{:?}", moved.displacement);
@@ -266,7 +266,7 @@ fn books_close(motion: &str, input: &str, drive: impl Fn(&mut Simulation, f64)) 
     let start = momentum(&simulation);
     let (mut turnover, mut pressed) = ([0.0_f64; 2], 0.0_f64);
     for step in 1..=30 {
-        simulation.set_displacement(BoundaryIndex(1), 2, 2e-5 * f64::from(step % 3));
+        simulation.set_input(BoundaryIndex(1), 2, 2e-5 * f64::from(step % 3));
         drive(&mut simulation, f64::from(step));
         let before = simulation.state().boundaries.clone();
         simulation.advance(1e-3).expect("it runs");
@@ -341,21 +341,21 @@ fn books_of_a_free_group_close() {
 #[test]
 fn books_of_a_group_driven_along_one_axis_and_free_along_others_close() {
     let motion = r#"{ driven = ["z"], free = ["x", "y", "rotation.z"] }"#;
-    books_close(motion, "", |simulation, step| simulation.set_displacement(FIRST, 2, -2e-5 * step));
+    books_close(motion, "", |simulation, step| simulation.set_input(FIRST, 2, -2e-5 * step));
 }
 
 #[test]
 fn books_of_a_driven_group_that_turns_freely_close() {
     let motion = r#"{ driven = ["z"], free = ["rotation.x", "rotation.y", "rotation.z"] }"#;
-    books_close(motion, "", |simulation, step| simulation.set_displacement(FIRST, 2, -2e-5 * step));
+    books_close(motion, "", |simulation, step| simulation.set_input(FIRST, 2, -2e-5 * step));
 }
 
 #[test]
 fn books_of_a_group_driven_about_an_axis_close() {
     for input in ["", "input = \"smooth\""] {
         books_close(r#"{ driven = ["z", "rotation.z"] }"#, input, |simulation, step| {
-            simulation.set_displacement(FIRST, 2, -1e-5 * step);
-            simulation.set_displacement(FIRST, 5, 0.05 * step);
+            simulation.set_input(FIRST, 2, -1e-5 * step);
+            simulation.set_input(FIRST, 5, 0.05 * step);
         });
     }
 }
@@ -363,16 +363,16 @@ fn books_of_a_group_driven_about_an_axis_close() {
 #[test]
 fn books_of_a_group_driven_about_all_axes_close() {
     books_close(r#"{ driven = ["rotation.x", "rotation.y", "rotation.z"], free = ["z"] }"#, "", |simulation, step| {
-        simulation.set_displacement(FIRST, 3, 0.02 * step);
-        simulation.set_displacement(FIRST, 4, -0.01 * step);
-        simulation.set_displacement(FIRST, 5, 0.05 * step);
+        simulation.set_input(FIRST, 3, 0.02 * step);
+        simulation.set_input(FIRST, 4, -0.01 * step);
+        simulation.set_input(FIRST, 5, 0.05 * step);
     });
 }
 
 #[test]
 fn a_driven_rotation_takes_the_spheres_along_and_arrives() {
     let mut simulation = start(&top(1e-3, r#"{ driven = ["rotation.z"] }"#, "reference = [0.0, 0.0, 0.0]"));
-    simulation.set_displacement(FIRST, 5, 3.5 * std::f64::consts::PI);
+    simulation.set_input(FIRST, 5, 3.5 * std::f64::consts::PI);
     simulation.advance(0.35).expect("it runs");
     let moved = group(&simulation);
     assert_eq!(moved.rotation[2], 3.5 * std::f64::consts::PI, "one axis turns by any angle");
@@ -393,11 +393,11 @@ fn a_driven_rotation_about_several_axes_turns_at_constant_angular_velocity() {
     let motion = r#"{ driven = ["rotation.x", "rotation.y", "rotation.z"] }"#;
     let mut simulation = start(&top(1e-3, motion, ""));
     for axis in 3..6 {
-        simulation.set_displacement(FIRST, axis, 0.5);
+        simulation.set_input(FIRST, axis, 0.5);
     }
     simulation.advance(0.1).expect("it runs");
-    simulation.set_displacement(FIRST, 3, -0.4);
-    simulation.set_displacement(FIRST, 5, 0.1);
+    simulation.set_input(FIRST, 3, -0.4);
+    simulation.set_input(FIRST, 5, 0.1);
     simulation.advance(0.1).expect("it runs");
     let moved = group(&simulation);
     assert_eq!(moved.rotation, [-0.4, 0.5, 0.1]);
@@ -421,8 +421,8 @@ fn turned(rotation: [f64; 3], vector: [f64; 3]) -> [f64; 3] {
 #[test]
 fn half_a_turn_about_several_axes_is_refused_and_changes_nothing() {
     let mut simulation = start(&top(1e-3, r#"{ driven = ["rotation.x", "rotation.y"] }"#, ""));
-    simulation.set_displacement(FIRST, 3, 2.5);
-    simulation.set_displacement(FIRST, 4, 2.5);
+    simulation.set_input(FIRST, 3, 2.5);
+    simulation.set_input(FIRST, 4, 2.5);
     let before = simulation.state().clone();
     let error = simulation.advance(0.1).expect_err("it is refused");
     assert!(matches!(error, RunError::Turn { .. }), "{error}");
@@ -432,7 +432,7 @@ fn half_a_turn_about_several_axes_is_refused_and_changes_nothing() {
          less than half a turn (pi) is right"
     );
     assert_eq!(*simulation.state(), before);
-    simulation.set_displacement(FIRST, 4, 0.0);
+    simulation.set_input(FIRST, 4, 0.0);
     simulation.advance(0.1).expect("2.5 rad are less");
 }
 
@@ -454,8 +454,8 @@ fn a_saved_free_group_continues_bit_for_bit() {
         let saved = State::from_bytes(&bytes, 7).expect("it reads back");
         let mut resumed = Simulation::resume(Arc::clone(whole.scene()), saved).unwrap();
         for simulation in [&mut whole, &mut resumed] {
-            simulation.set_displacement(FIRST, 2, -1e-5);
-            simulation.set_displacement(FIRST, 3, 0.1);
+            simulation.set_input(FIRST, 2, -1e-5);
+            simulation.set_input(FIRST, 3, 0.1);
             simulation.advance(5e-3).expect("it runs");
         }
         assert_eq!(whole.state(), resumed.state());
@@ -570,7 +570,7 @@ fn bonds_resist_a_driven_rotation_with_their_torsional_stiffness() {
     let mut simulation = start(&format!("{straight}{held}motion = {{ driven = [\"rotation.x\"] }}\n"));
     // Several turns: the twist is followed on.
     let angle = 10.0;
-    simulation.set_displacement(BoundaryIndex(1), 3, angle);
+    simulation.set_input(BoundaryIndex(1), 3, angle);
     simulation.advance(2e-3).expect("it runs");
     simulation.advance(4e-3).expect("it comes to rest");
     // Five bonds in a row, each k_t J with J = π R⁴/2.
@@ -586,7 +586,7 @@ fn a_group_that_is_put_elsewhere_at_once_meets_what_is_there() {
         paddle(r#"{ driven = ["x"] }"#, "input = \"hold\"").replace("0.0249", "0.0149").replace("0.0259", "0.0149");
     let text = text.replace("[-0.01, 0.0", "[-0.31, 0.0").replace("[0.0, 0.001", "[-0.3, 0.001");
     let mut simulation = start(&text.replace("[0.009, 0.0", "[-0.291, 0.0"));
-    simulation.set_displacement(FIRST, 0, 0.2711);
+    simulation.set_input(FIRST, 0, 0.2711);
     simulation.advance(2e-5).expect("it runs");
     assert!(apart(group(&simulation).force, [0.0; 3]) > 0.0, "it stands in the bed and feels nothing");
 }

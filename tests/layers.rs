@@ -233,6 +233,7 @@ const MOTIONS: Rule = Rule {
         "AxisMotion::Prescribed",
         "AxisMotion::Scheduled",
         "AxisMotion::Free",
+        "AxisMotion::Loaded",
     ],
     why: "which motion an axis has is asked in its room alone; others ask what it can do",
 };

@@ -154,7 +154,7 @@ fn block(skin: &str, law: &str, bonds: &str) -> Simulation {
 /// Runs so many time steps, with a floor that moves; lists are renewed after each `every`.
 fn run(simulation: &mut Simulation, steps: usize, every: usize) {
     for step in 1..=steps {
-        simulation.set_displacement(BoundaryIndex(0), 2, 2.0e-6 * (step % 5) as f64);
+        simulation.set_input(BoundaryIndex(0), 2, 2.0e-6 * (step % 5) as f64);
         simulation.advance(1.0e-5).expect("it runs");
         if step % every == 0 {
             simulation.renew_lists();

@@ -85,7 +85,7 @@ fn simulation_with(threads: usize, skin: &str) -> Simulation {
 /// Runs some communication steps with a moving floor.
 fn run(simulation: &mut Simulation, steps: std::ops::Range<u32>) {
     for step in steps {
-        simulation.set_displacement(BoundaryIndex(0), 2, 1e-5 * f64::from(step % 7));
+        simulation.set_input(BoundaryIndex(0), 2, 1e-5 * f64::from(step % 7));
         simulation.advance(4.0e-4).expect("it runs");
     }
 }

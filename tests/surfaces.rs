@@ -280,7 +280,8 @@ fn every_shape_pushes_across_itself_with_the_force_of_a_plane() {
 fn planes_push_whatever_surfaces_stand_before_and_between_them() {
     // A plane whose list stood behind that of another surface once worked on that one's list: it pushed nobody.
     let disc = "disc = { centre = [0.0, 0.0, 1.0], normal = [0.0, 0.0, 1.0], radius = 0.02 }";
-    let plane = |x: f64, normal: f64| format!("plane = {{ point = [{x:?}, 0.0, 0.0], normal = [{normal:?}, 0.0, 0.0] }}");
+    let plane =
+        |x: f64, normal: f64| format!("plane = {{ point = [{x:?}, 0.0, 0.0], normal = [{normal:?}, 0.0, 0.0] }}");
     let boundaries: String = [("a", disc.to_owned()), ("b", plane(-0.05, 1.0)), ("c", disc.replace("1.0]", "2.0]"))]
         .into_iter()
         .chain([("d", plane(0.05, -1.0))])

@@ -69,7 +69,7 @@ pub(crate) fn book(state: &mut State, fields: &Fields, bodies: &[Option<RigidBod
     let count = particles.len();
     let loads = &ledger.loads;
     let of_piece = |piece: usize| {
-        let mut sum = [0.0; 6];
+        let mut sum = [0.0; Source::COUNT];
         let slots = piece * CHUNK..((piece + 1) * CHUNK).min(count);
         for slot in slots.filter(|&slot| particles.owner[slot] == 0) {
             let drift = mean(&particles.velocity[slot], &particles.force[slot], step);
@@ -88,9 +88,9 @@ pub(crate) fn book(state: &mut State, fields: &Fields, bodies: &[Option<RigidBod
     };
     let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
         let body = body.as_ref().filter(|body| body.is_free())?;
-        Some(of_group(body, moved, particles, loads, fields, step))
+        Some(of_body(body, moved, particles, loads, fields, step))
     });
-    let add = |(mut work, mut turnover): ([f64; 6], f64), sum: [f64; 6]| {
+    let add = |(mut work, mut turnover): ([f64; Source::COUNT], f64), sum: [f64; Source::COUNT]| {
         for (work, part) in work.iter_mut().zip(sum) {
             *work += part;
             turnover += part.abs();
@@ -101,18 +101,18 @@ pub(crate) fn book(state: &mut State, fields: &Fields, bodies: &[Option<RigidBod
     (ledger.work, ledger.turnover) = groups.fold(booked, add);
 }
 
-/// Work of each kind of force on the free axes of a group in the half kick that is about to be made \[J\].
-fn of_group(
+/// Work of each kind of force on the free axes of a body in the half kick that is about to be made \[J\].
+fn of_body(
     body: &RigidBody,
     moved: &BoundaryState,
     particles: &Particles,
     loads: &[Loads],
     fields: &Fields,
     step: f64,
-) -> [f64; 6] {
+) -> [f64; Source::COUNT] {
     let [drift, turn] = body.mean_motion(moved, step);
     let power = |force: Vector, moment: Vector| 0.5 * step * (force.dot(drift) + moment.dot(turn));
-    let mut sum = [0.0; 6];
+    let mut sum = [0.0; Source::COUNT];
     // Damping acts on the group as a whole.
     for (sum, loads) in sum.iter_mut().zip(loads).take(Source::Damping as usize) {
         for &member in &body.members {
@@ -123,7 +123,14 @@ fn of_group(
             }
         }
     }
+    if body.members.is_empty() {
+        // What touches a surface has not been booked particle by particle: bonds to it stand here, too.
+        sum[Source::Walls as usize] = power(moved.force.into(), moved.moment.into());
+    }
     let [weight, applied] = fields.on_body(body, moved, particles);
+    let [x, y, z, a, b, c] = moved.inertial.support;
+    sum[Source::Support as usize] = power(Vector::new(x, y, z), Vector::new(a, b, c));
+    sum[Source::AddedInertia as usize] = body.added_work(moved, step);
     sum[Source::Damping as usize] = power(moved.inertial.braking_force.into(), moved.inertial.braking_moment.into());
     sum[Source::Gravity as usize] = power(weight[0], weight[1]);
     sum[Source::Applied as usize] = power(applied[0], applied[1]);

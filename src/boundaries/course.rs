@@ -6,6 +6,7 @@ use crate::motion::{self, AxisMotion, InputCourse, Progress};
 use crate::number::Vector;
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
+use crate::state::boundaries::Inertial;
 use crate::state::{Attitude, BoundaryState, State};
 
 /// Half a turn, less what rounding may hide \[rad\].
@@ -20,11 +21,15 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
     }
     for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
         let turn = turn_ahead(boundary, moved, interval, time)?;
+        moved.start = six(moved.displacement, moved.rotation);
+        apply_inputs(boundary, moved);
         for axis in 0..6 {
+            if boundary.axes[axis].takes_force() {
+                moved.start[axis] = moved.target[axis];
+            }
             moved.target[axis] += moved.target_rate[axis] * interval;
         }
         moved.target_rate = [0.0; 6];
-        moved.start = six(moved.displacement, moved.rotation);
         moved.start_attitude = moved.attitude;
         moved.turn = turn;
         moved.fastest = fastest(boundary, moved, interval);
@@ -32,6 +37,16 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
         moved.angular_impulse = [0.0; 3];
     }
     Ok(())
+}
+
+/// Puts the loads that the outside gives, as they are to be from now on, on a boundary.
+pub(crate) fn apply_inputs(boundary: &Boundary, moved: &mut BoundaryState) {
+    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
+        let Inertial { load, couple, applied, .. } = &mut moved.inertial;
+        let change = moved.target[axis] - applied[axis];
+        *(if axis < 3 { &mut load[axis] } else { &mut couple[axis - 3] }) += change;
+        applied[axis] = moved.target[axis];
+    }
 }
 
 /// Largest speed of each driven axis on its way through a communication step of `interval` \[s\]: along it \[m/s\] and
@@ -140,6 +155,7 @@ pub(crate) fn advance(
         let mut way = Way::default();
         if let Some(body) = body {
             body.kick(moved, progress.step);
+            follow_inputs(boundary, moved, &progress);
         }
         for axis in 0..3 {
             if boundary.axes[axis].is_free() {
@@ -165,6 +181,15 @@ pub(crate) fn advance(
             way.carried += shift.length();
         }
         ways.push(way);
+    }
+}
+
+/// Brings the loads that the outside gives to the end of the present time step.
+fn follow_inputs(boundary: &Boundary, moved: &mut BoundaryState, progress: &Progress) {
+    let share = if progress.is_last() { 1.0 } else { progress.share(InputCourse::Ramp) };
+    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
+        let (start, target) = (moved.start[axis], moved.target[axis]);
+        moved.inertial.applied[axis] = if share < 1.0 { start + (target - start) * share } else { target };
     }
 }
 

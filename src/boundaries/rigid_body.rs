@@ -1,5 +1,7 @@
-//! Groups of particles as rigid bodies: what they weigh, and how forces move their free axes.
+//! Boundaries as rigid bodies: what they weigh, and how forces move their free axes.
 
+use super::implicit::{self, Triangle};
+use super::inertia::{Matrix, sphere_inertia};
 use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
@@ -12,7 +14,7 @@ const ITERATIONS: usize = 40;
 /// Change of an angular velocity, over its length, that is no change.
 const STANDS: f64 = 4.0 * f64::EPSILON;
 
-/// How a group turns.
+/// How a body turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turning {
     /// It does not.
@@ -25,10 +27,10 @@ pub(crate) enum Turning {
     Freely,
 }
 
-/// A group that turns, or that forces move.
+/// A boundary that turns, or that forces move.
 #[derive(Clone, Debug)]
 pub(crate) struct RigidBody {
-    /// Indices into the scene's particles.
+    /// Indices into the scene's particles; empty for a surface.
     pub members: Vec<u32>,
     /// Mass \[kg\].
     pub mass: f64,
@@ -42,16 +44,30 @@ pub(crate) struct RigidBody {
     pub moves: [bool; 3],
     /// How it turns.
     pub turning: Turning,
-    /// From the reference point to the centre furthest away \[m\].
+    /// From the reference point to the centre furthest away \[m\]; 0 for a surface.
     pub farthest: f64,
-    /// Radius of the smallest sphere \[m\].
+    /// Radius of its smallest sphere, for a surface of the smallest that it may touch \[m\].
     pub smallest: f64,
-    /// Radius of the largest sphere \[m\].
+    /// Radius of its largest sphere \[m\].
     pub largest: f64,
+    /// Springs to the ground \[N/m, N m/rad\].
+    stiffness: [f64; 6],
+    /// Dashpots to the ground \[N s/m, N m s/rad\].
+    damping: [f64; 6],
 }
 
 /// A motion: velocity of the reference point \[m/s\] and angular velocity \[rad/s\].
 pub(crate) type Motion = [Vector; 2];
+
+/// What half a kick makes of the free axes.
+struct Kick {
+    /// Their motion afterwards.
+    motion: Motion,
+    /// Angular momentum afterwards \[kg m²/s\].
+    momentum: Vector,
+    /// Impulse and angular impulse of what stiff contacts add to the inertia \[N s, N m s\].
+    added: [f64; 6],
+}
 
 /// The bodies of a scene; `None` for boundaries that only stand or shift.
 pub(crate) fn of(scene: &Scene) -> Vec<Option<RigidBody>> {
@@ -67,9 +83,7 @@ impl RigidBody {
         if moves == [false; 3] && turning == Turning::Still {
             return None;
         }
-        if members.is_empty() {
-            return Some(Self::led(turning));
-        }
+        let crate::scene::Body { stiffness, damping, .. } = boundary.body;
         let mut body = Self {
             members: members.to_vec(),
             mass: 0.0,
@@ -81,7 +95,13 @@ impl RigidBody {
             farthest: 0.0,
             smallest: f64::INFINITY,
             largest: 0.0,
+            stiffness,
+            damping,
         };
+        if members.is_empty() {
+            body.fill_surface(scene, boundary);
+            return Some(body);
+        }
         for particle in members.iter().map(|&member| &scene.particles[member as usize]) {
             let (mass, radius) = (particle.mass(), particle.radius);
             let arm = Vector::from(particle.position) - boundary.reference.into();
@@ -97,20 +117,17 @@ impl RigidBody {
         Some(body)
     }
 
-    /// A surface that turns as it is led: it has no mass, and nobody asks for it.
-    fn led(turning: Turning) -> Self {
-        Self {
-            members: Vec::new(),
-            mass: 1.0,
-            offset: Vector::zero(),
-            inertia: Matrix::default(),
-            inverse: Matrix::default(),
-            moves: [false; 3],
-            turning,
-            farthest: 0.0,
-            smallest: f64::INFINITY,
-            largest: 0.0,
+    /// Takes over what the scene gives for a surface.
+    fn fill_surface(&mut self, scene: &Scene, boundary: &Boundary) {
+        let crate::scene::Body { mass, centre, inertia, .. } = boundary.body;
+        (self.mass, self.inertia) = (mass, Matrix(inertia));
+        if !self.is_free() {
+            return;
         }
+        self.offset = Vector::from(centre) - boundary.reference.into();
+        self.inertia.add_point(mass, self.offset);
+        self.inverse = self.inertia.inverse();
+        self.smallest = scene.particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
     }
 
     /// Whether forces move any of its axes.
@@ -149,9 +166,25 @@ impl RigidBody {
         }
     }
 
+    /// Whether stiff contacts add to its inertia: a surface may be far lighter than what touches it.
+    pub(crate) fn is_implicit(&self) -> bool {
+        self.members.is_empty() && self.is_free()
+    }
+
+    /// Which of its six freedoms are free.
+    fn freedoms(&self) -> [bool; 6] {
+        let [x, y, z] = self.moves;
+        let [a, b, c] = match self.turning {
+            Turning::Still | Turning::Led => [false; 3],
+            Turning::About(axis) => [0, 1, 2].map(|k| k == axis),
+            Turning::Freely => [true; 3],
+        };
+        [x, y, z, a, b, c]
+    }
+
     /// Half a kick to the free axes.
     pub(crate) fn kick(&self, moved: &mut BoundaryState, step: f64) {
-        let [velocity, spin] = self.kicked(moved, step);
+        let Kick { motion: [velocity, spin], momentum, added } = self.kicked(moved, step);
         let before = moved.angular_velocity;
         for axis in 0..3 {
             if self.moves[axis] {
@@ -160,10 +193,21 @@ impl RigidBody {
             }
         }
         if self.spins() {
-            let momentum = Vector::from(moved.inertial.angular_momentum) + self.twist(moved, step);
             moved.inertial.angular_momentum = momentum.to_array();
             moved.angular_velocity = spin.to_array();
             moved.inertial.spin_kick = (spin - before.into()).to_array();
+        }
+        self.book(moved, added, step);
+    }
+
+    /// Books what half a kick gave beside the particles, weight and damping.
+    fn book(&self, moved: &mut BoundaryState, added: [f64; 6], step: f64) {
+        let inertial = &mut moved.inertial;
+        let freedoms = self.freedoms();
+        for axis in (0..6).filter(|&axis| freedoms[axis]) {
+            inertial.applied_impulse[axis] += 0.5 * step * inertial.applied[axis];
+            inertial.support_impulse[axis] += 0.5 * step * inertial.support[axis];
+            inertial.added_impulse[axis] += added[axis];
         }
     }
 
@@ -172,30 +216,96 @@ impl RigidBody {
         self.about_free(moved.inertial.couple) * (0.5 * step)
     }
 
-    /// The motion of the free axes after half a kick with the present load.
-    fn kicked(&self, moved: &BoundaryState, step: f64) -> Motion {
-        let velocity =
-            self.along_free(moved.velocity) + self.along_free(moved.inertial.load) * (0.5 * step / self.mass);
-        let momentum = Vector::from(moved.inertial.angular_momentum) + self.twist(moved, step);
-        [velocity, self.spin(Quaternion::from(moved.attitude), momentum)]
+    /// Half a kick with the present load.
+    fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
+        let (attitude, inertial) = (Quaternion::from(moved.attitude), &moved.inertial);
+        let before = Vector::from(inertial.angular_momentum);
+        let added = implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step);
+        if added == [0.0; 21] {
+            let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
+            let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
+            let momentum = before + self.twist(moved, step);
+            return Kick { motion: [velocity, self.spin(attitude, momentum)], momentum, added: [0.0; 6] };
+        }
+        let [shift, turn, impulse] = self.kicked_implicitly(moved, &added, step);
+        let velocity = self.along_free(moved.velocity) + shift;
+        let momentum = before + self.about_free(self.inertia.turned(attitude).times(turn).to_array());
+        let [x, y, z] = impulse.to_array();
+        let [a, b, c] = (momentum - before - self.twist(moved, step)).to_array();
+        Kick { motion: [velocity, self.spin(attitude, momentum)], momentum, added: [x, y, z, a, b, c] }
+    }
+
+    /// The change of velocity and of angular velocity by half a kick, and the impulse of what is added to the mass.
+    fn kicked_implicitly(&self, moved: &BoundaryState, added: &Triangle, step: f64) -> [Vector; 3] {
+        let free = self.freedoms();
+        let mut matrix = *added;
+        let inertia = self.inertia.turned(Quaternion::from(moved.attitude));
+        for row in 0..6 {
+            let held = if free[row] { 0.0 } else { 1.0 };
+            for column in 0..=row {
+                let own = match (row, column) {
+                    (0..3, _) if row == column => self.mass,
+                    (3..6, 3..6) => inertia.0[row - 3][column - 3],
+                    _ => 0.0,
+                };
+                let both = free[row] && free[column];
+                matrix[row * (row + 1) / 2 + column] += if both {
+                    own
+                } else if row == column {
+                    held
+                } else {
+                    0.0
+                };
+            }
+        }
+        let force = self.along_free(moved.inertial.load) * (0.5 * step);
+        let [[x, y, z], [a, b, c]] = [force, self.twist(moved, step)].map(Vector::to_array);
+        let [x, y, z, a, b, c] = implicit::solve(matrix, [x, y, z, a, b, c]);
+        let shift = Vector::new(x, y, z);
+        [shift, Vector::new(a, b, c), shift * self.mass - force]
+    }
+
+    /// Puts what springs and dashpots to the ground do.
+    pub(crate) fn support(&self, moved: &mut BoundaryState) {
+        let places = [moved.displacement, moved.rotation].concat();
+        let rates = [moved.velocity, moved.angular_velocity].concat();
+        for axis in 0..6 {
+            moved.inertial.support[axis] = -self.stiffness[axis] * places[axis] - self.damping[axis] * rates[axis];
+        }
+    }
+
+    /// Starts a sum of what resists its motion: springs and dashpots to the ground.
+    pub(crate) fn supports(&self) -> [Triangle; 2] {
+        [self.stiffness, self.damping].map(|parts| {
+            let mut block = [0.0; 21];
+            implicit::add_diagonal(&mut block, parts);
+            block
+        })
+    }
+
+    /// Power of what is added to its inertia, as work of the half kick that is about to be made \[J\].
+    pub(crate) fn added_work(&self, moved: &BoundaryState, step: f64) -> f64 {
+        let [x, y, z, a, b, c] = self.kicked(moved, step).added;
+        let [drift, turn] = self.mean_motion(moved, step);
+        drift.dot(Vector::new(x, y, z)) + turn.dot(Vector::new(a, b, c))
     }
 
     /// Mean of the motion of the free axes before and after half a kick with the present load.
     pub(crate) fn mean_motion(&self, moved: &BoundaryState, step: f64) -> Motion {
-        let after = self.kicked(moved, step);
-        let before = self.kicked(moved, 0.0);
+        let after = self.kicked(moved, step).motion;
+        let before = self.kicked(moved, 0.0).motion;
         [0, 1].map(|part| (before[part] + after[part]) * 0.5)
     }
 
     /// Largest speed that one of its spheres can have after half a kick with the present load \[m/s\].
     pub(crate) fn coming_speed(&self, moved: &BoundaryState, step: f64) -> f64 {
-        let [velocity, spin] = self.kicked(moved, step);
+        let [velocity, spin] = self.kicked(moved, step).motion;
         velocity.length() + spin.length() * self.farthest
     }
 
     /// Kinetic energy of the free axes \[J\].
     pub(crate) fn kinetic(&self, moved: &BoundaryState) -> f64 {
-        let [velocity, spin] = self.kicked(moved, 0.0);
+        let [velocity, spin] = self.kicked(moved, 0.0).motion;
         0.5 * self.mass * velocity.dot(velocity) + 0.5 * spin.dot(moved.inertial.angular_momentum.into())
     }
 
@@ -260,8 +370,11 @@ impl RigidBody {
         mobility
     }
 
-    /// Starts with the momentum and angular momentum that its spheres have.
+    /// Starts with the momentum and angular momentum that its spheres have; a surface starts at rest.
     pub(crate) fn begin(&self, scene: &Scene, boundary: &Boundary, moved: &mut BoundaryState) {
+        if self.members.is_empty() {
+            return;
+        }
         let (mut momentum, mut angular) = (Vector::zero(), Vector::zero());
         for particle in self.members.iter().map(|&member| &scene.particles[member as usize]) {
             let (mass, radius) = (particle.mass(), particle.radius);
@@ -293,11 +406,6 @@ fn turning(boundary: &Boundary) -> Turning {
         [axis] => Turning::About(axis),
         _ => Turning::Freely,
     }
-}
-
-/// Moment of inertia of a full sphere \[kg m²\].
-pub(crate) fn sphere_inertia(mass: f64, radius: f64) -> f64 {
-    0.4 * mass * radius * radius
 }
 
 /// Puts the particles of groups where their boundary stands, with the motion that it has.
@@ -380,36 +488,5 @@ fn give_free_motion(body: &RigidBody, moved: &BoundaryState, particles: &mut Par
     for &member in &body.members {
         let slot = particles.slot[member as usize] as usize;
         particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
-    }
-}
-
-/// A symmetric 3 × 3 matrix.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Matrix([[f64; 3]; 3]);
-
-impl Matrix {
-    /// Adds the inertia of a sphere at an arm \[m\].
-    fn add_sphere(&mut self, mass: f64, radius: f64, arm: Vector) {
-        let (square, parts) = (arm.dot(arm), arm.to_array());
-        for a in 0..3 {
-            self.0[a][a] += sphere_inertia(mass, radius) + mass * square;
-            for b in 0..3 {
-                self.0[a][b] -= mass * parts[a] * parts[b];
-            }
-        }
-    }
-
-    /// Its product with a vector.
-    fn times(&self, vector: Vector) -> Vector {
-        Vector::from(self.0.map(|row| Vector::from(row).dot(vector)))
-    }
-
-    /// The inverse of a positive definite one.
-    fn inverse(&self) -> Self {
-        let rows = self.0.map(Vector::from);
-        // Each row of the inverse is normal to two rows of the matrix.
-        let across = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
-        let determinant = rows[0].dot(across[0]);
-        Self(across.map(|row| (row * (1.0 / determinant)).to_array()))
     }
 }

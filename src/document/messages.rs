@@ -17,7 +17,7 @@ const ABSENT: [(&[&str], &str, &str); 6] = [
         "spheres are",
     ),
     (&["nodes"], "deforming meshes", "rigid ones are"),
-    (&["servo", "loaded"], "boundaries that follow a given force", "fixed, driven, prescribed and free axes are"),
+    (&["servo"], "boundaries that follow a given force", "fixed, driven, prescribed, free and loaded axes are"),
     (&["region", "regions"], "averaging regions", "outputs of boundaries are"),
 ];
 

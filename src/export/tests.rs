@@ -294,7 +294,7 @@ fn nothing_is_left_where_a_unit_cannot_be_written() {
 fn a_unit_that_begins_in_a_state_holds_it_and_names_its_displacements() {
     let scene = std::sync::Arc::new(Scene::from_source(&source()).unwrap());
     let mut simulation = crate::step::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
-    simulation.set_displacement(crate::quantity::BoundaryIndex(0), 2, 1.0e-5);
+    simulation.set_input(crate::quantity::BoundaryIndex(0), 2, 1.0e-5);
     simulation.advance(1.0e-3).unwrap();
     let unit = Folder::new().exported("unit.fmu", Some(simulation.state()));
     let begun = State::from_bytes(&unit["resources/state.bin"], scene.fingerprint).unwrap();

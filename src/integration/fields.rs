@@ -20,10 +20,12 @@ pub(crate) struct Fields {
     applied: Vec<[f64; 3]>,
     /// Damping of each particle of the scene; empty where there is none.
     damping: Vec<Damped>,
+    /// Damping of surfaces that forces move.
+    surfaces: Damped,
 }
 
-/// Cundall's damping of all particles, put aside.
-pub(crate) struct Damping(Vec<Damped>);
+/// Cundall's damping of everything, put aside.
+pub(crate) struct Damping(Vec<Damped>, Damped);
 
 /// Cundall's damping of one particle.
 #[derive(Clone, Copy, Default)]
@@ -63,27 +65,28 @@ impl Fields {
                 }
             }
         }
-        Self { gravity: scene.gravity, applied, damping }
+        Self { gravity: scene.gravity, applied, damping, surfaces: Damped::default() }
     }
 
-    /// Damps particles that the scene does not damp by this fraction of force and torque, gravity included.
+    /// Damps what the scene does not damp by this fraction of force and torque, gravity included.
     pub(crate) fn damp_rest(&mut self, fraction: f64, count: usize) {
+        let rest = Damped { linear: fraction, angular: fraction, gravity: true, applied: true };
         self.damping.resize(count, Damped::default());
-        for damped in &mut self.damping {
+        for damped in self.damping.iter_mut().chain([&mut self.surfaces]) {
             if damped.linear == 0.0 && damped.angular == 0.0 {
-                *damped = Damped { linear: fraction, angular: fraction, gravity: true, applied: true };
+                *damped = rest;
             }
         }
     }
 
     /// Takes all damping away, until [`Fields::damp_as`] puts it back.
     pub(crate) fn without_damping(&mut self) -> Damping {
-        Damping(std::mem::take(&mut self.damping))
+        Damping(std::mem::take(&mut self.damping), std::mem::take(&mut self.surfaces))
     }
 
     /// Damps as before.
     pub(crate) fn damp_as(&mut self, damping: Damping) {
-        self.damping = damping.0;
+        (self.damping, self.surfaces) = (damping.0, damping.1);
     }
 
     /// Whether any particle is damped.
@@ -95,6 +98,19 @@ impl Fields {
     /// changes its sign in every step, which is the mode that grows first, every load acts on the way out.
     pub(crate) fn amplification(&self, id: u32) -> [f64; 2] {
         self.damping.get(id as usize).map_or([1.0; 2], |damped| [1.0 + damped.linear, 1.0 + damped.angular])
+    }
+
+    /// The larger of these factors of a surface that forces move.
+    pub(crate) fn amplification_of_surfaces(&self) -> f64 {
+        1.0 + self.surfaces.linear.max(self.surfaces.angular)
+    }
+
+    /// Damping of a body: the spheres of a group are damped alike.
+    fn of_body(&self, body: &RigidBody) -> Damped {
+        match body.members.first() {
+            Some(&member) => self.damping.get(member as usize).copied().unwrap_or_default(),
+            None => self.surfaces,
+        }
     }
 
     /// Largest acceleration that gravity and applied forces give a particle \[m/s²\].
@@ -154,20 +170,22 @@ impl Fields {
         sum
     }
 
-    /// Puts the whole load on each group that forces move: that of the particles, weight, applied forces and damping.
+    /// Puts the whole load on each body that forces move: that of the particles, weight, applied forces, springs and dashpots to
+    /// the ground, and damping.
     /// Returns the sum of the damping forces \[N\].
     pub(crate) fn load_bodies(&self, bodies: &[Option<RigidBody>], state: &mut State) -> [f64; 3] {
         let mut sum = Vector::zero();
         for (index, body) in bodies.iter().enumerate() {
             let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+            body.support(&mut state.boundaries[index]);
             let [weight, applied] = self.on_body(body, &state.boundaries[index], &state.particles);
-            // The spheres of a group are damped alike.
-            let damped = self.damping.get(body.members[0] as usize).copied().unwrap_or_default();
+            let damped = self.of_body(body);
             let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
             let moved = &mut state.boundaries[index];
+            let held = halves(moved.inertial.support);
             let before: Load = [0, 1].map(|k| {
                 let particles = if k == 0 { moved.force } else { moved.moment };
-                Vector::from(particles) + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
+                Vector::from(particles) + held[k] + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
             });
             let braking = [
                 body.along_free(brakes(damped.linear, before[0], moved.velocity)),
@@ -183,11 +201,11 @@ impl Fields {
         sum.to_array()
     }
 
-    /// Weight of a group and the forces applied to its spheres.
+    /// Weight of a body, and the forces applied to it and to its spheres.
     pub(crate) fn on_body(&self, body: &RigidBody, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
         let weight = Vector::from(self.weight(body.mass));
         let weight = [weight, Quaternion::from(moved.attitude).turn(body.offset).cross(weight)];
-        let mut applied = [Vector::zero(); 2];
+        let mut applied = halves(moved.inertial.applied);
         for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
             let row = particles.position[particles.slot[member as usize] as usize];
             let force = Vector::from(self.applied(member));
@@ -239,6 +257,11 @@ impl Fields {
         }
         (before, after)
     }
+}
+
+/// Force and moment of a load.
+fn halves([x, y, z, a, b, c]: [f64; 6]) -> Load {
+    [Vector::new(x, y, z), Vector::new(a, b, c)]
 }
 
 /// What damping takes from a component of a load: a fraction that lowers its power, also at rest.

@@ -63,6 +63,8 @@ pub(super) struct Write {
     pub(super) set_rate: fn(&mut Simulation, At, f64),
     /// The value last given.
     pub(super) held: fn(&State, At) -> f64,
+    /// The value before anything is given.
+    start: fn(&Scene, At) -> f64,
 }
 
 /// A kind of variable.
@@ -112,12 +114,13 @@ const OF_AXIS: Row = Row { each: Each::Axis, ..OUTPUT };
 /// A number of things.
 const COUNT: Row = Row { quantity: Quantity::Count, variability: Variability::Discrete, minimum: Some(0.0), ..OUTPUT };
 
-/// How a driven axis is given: `FIRST` is 0 for displacements and 3 for rotations.
-const fn driven<const FIRST: usize>() -> Option<Write> {
+/// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
+const fn given<const FIRST: usize>() -> Option<Write> {
     Some(Write {
-        set: |simulation, at, value| simulation.set_displacement(at.boundary, FIRST + at.axis, value),
-        set_rate: |simulation, at, rate| simulation.set_displacement_rate(at.boundary, FIRST + at.axis, rate),
+        set: |simulation, at, value| simulation.set_input(at.boundary, FIRST + at.axis, value),
+        set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis, rate),
         held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
+        start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis].first_input(),
     })
 }
 
@@ -133,12 +136,17 @@ fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
 
 /// Whether it moves without the outside.
 fn moves_by_itself(scene: &Scene, at: At, first: usize) -> bool {
-    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate)
+    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate | Seen::Load)
 }
 
 /// Whether forces move it.
 fn is_free(scene: &Scene, at: At, first: usize) -> bool {
-    seen(scene, at, first) == Seen::PlaceAndRate
+    matches!(seen(scene, at, first), Seen::PlaceAndRate | Seen::Load)
+}
+
+/// Whether the outside loads it.
+fn is_loaded(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Load
 }
 
 /// A number of things as a value.
@@ -146,21 +154,23 @@ fn count(number: u64) -> Value {
     Value::Integer(i32::try_from(number).unwrap_or(i32::MAX))
 }
 
-/// Mass of the particles of a boundary; 0 for one that has none \[kg\].
+/// Mass of a boundary: of its particles, or as the scene gives it; 0 for one that has none \[kg\].
 fn mass(scene: &Scene, at: At) -> f64 {
-    let members = scene.boundaries[at.boundary.index()].shape.members().iter();
-    members.filter_map(|&member| scene.particles.get(member as usize)).map(crate::scene::Particle::mass).sum()
+    let boundary = &scene.boundaries[at.boundary.index()];
+    let members = boundary.shape.members().iter();
+    let particles = members.filter_map(|&member| scene.particles.get(member as usize));
+    particles.map(crate::scene::Particle::mass).sum::<f64>() + boundary.body.mass
 }
 
 /// Variables of each boundary, inputs first.
-static OF_BOUNDARIES: [Row; 12] = [
+static OF_BOUNDARIES: [Row; 14] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
                       communication step; at initialisation taken without motion",
         quantity: Quantity::Length,
         exists: |scene, at| is_driven(scene, at, 0),
-        write: driven::<0>(),
+        write: given::<0>(),
         read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
         ..OF_AXIS
     },
@@ -170,7 +180,27 @@ static OF_BOUNDARIES: [Row; 12] = [
                       communication step; at initialisation taken without motion",
         quantity: Quantity::Angle,
         exists: |scene, at| is_driven(scene, at, 3),
-        write: driven::<3>(),
+        write: given::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "applied_force",
+        description: "force that the outside lays on {boundary} along {axis}, without its weight; held in a communication \
+                      step, or changing at its rate",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_loaded(scene, at, 0),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "applied_moment",
+        description: "moment that the outside lays on {boundary} about {axis} through its moved reference point; held in a \
+                      communication step, or changing at its rate",
+        quantity: Quantity::Torque,
+        exists: |scene, at| is_loaded(scene, at, 3),
+        write: given::<3>(),
         read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
         ..OF_AXIS
     },
@@ -250,12 +280,12 @@ static OF_BOUNDARIES: [Row; 12] = [
     Row {
         name: "mass",
         each: Each::Boundary,
-        description: "mass of the particles of {boundary}; their weight and inertia are not in its force",
+        description: "mass of {boundary}; its weight and inertia are not in its force",
         quantity: Quantity::Mass,
         variability: Variability::Constant,
         minimum: Some(0.0),
         follows_inputs_at_start: false,
-        exists: |scene, at| !scene.boundaries[at.boundary.index()].shape.members().is_empty(),
+        exists: |scene, at| mass(scene, at) > 0.0,
         constant: Some(mass),
         read: |now, at| Value::Real(mass(now.simulation.scene(), at)),
         ..OUTPUT
@@ -429,7 +459,10 @@ impl Source {
             quantity: row.quantity,
             causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
             variability: row.variability,
-            start: if row.write.is_some() { Some(0.0) } else { row.constant.map(|constant| constant(scene, at)) },
+            start: match row.write {
+                Some(write) => Some((write.start)(scene, at)),
+                None => row.constant.map(|constant| constant(scene, at)),
+            },
             minimum: row.minimum,
             follows_inputs_at_start: row.follows_inputs_at_start && row.write.is_none(),
             source: self,

@@ -3,7 +3,7 @@
 use super::*;
 use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::{AxisMotion, Boundary, InputCourse, Output, Particle, Shape};
+use crate::scene::{AxisMotion, Body, Boundary, InputCourse, Output, Particle, Shape};
 use crate::state::BoundaryState;
 use crate::surface::{Group, Plane};
 
@@ -16,6 +16,7 @@ fn scene() -> Scene {
         axes,
         input: InputCourse::Ramp,
         reference: [0.0; 3],
+        body: Body::default(),
     };
     let sphere = Particle {
         id: ParticleId(7),

@@ -2,8 +2,8 @@
 
 use super::{AxisMotion, Schedule};
 use crate::quantity::Finite;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -81,16 +81,52 @@ struct Table {
     /// Those that move by the forces on the boundary.
     #[serde(default)]
     free: Vec<Axis>,
+    /// Those that move by the forces on the boundary and a given one.
+    #[serde(default)]
+    loaded: Loads,
+}
+
+/// Axes with a load: a list, or a table of what each load starts with \[N, N m\].
+#[derive(Clone, Debug, Default)]
+struct Loads(BTreeMap<Axis, Finite>);
+
+impl<'de> Deserialize<'de> for Loads {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a list or a table.
+        struct ListOrTable;
+        impl<'de> Visitor<'de> for ListOrTable {
+            type Value = Loads;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a list of axes, or a table of axes and the load [N, N m] that each starts with")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Loads, A::Error> {
+                let axes = Vec::<Axis>::deserialize(SeqAccessDeserializer::new(list))?;
+                let mut loads = BTreeMap::new();
+                for axis in axes {
+                    if loads.insert(axis, Finite::default()).is_some() {
+                        let axis = AxisMotion::WORDS[axis as usize];
+                        return Err(A::Error::custom(format!("axis {axis} found twice; once is right")));
+                    }
+                }
+                Ok(Loads(loads))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Loads, A::Error> {
+                BTreeMap::deserialize(MapAccessDeserializer::new(map)).map(Loads)
+            }
+        }
+        deserializer.deserialize_any(ListOrTable)
+    }
 }
 
 impl Keys {
     /// What each axis does, and those that are named twice.
     pub(crate) fn axes(&self) -> ([AxisMotion; 6], Vec<usize>) {
-        let Table { fixed, driven, prescribed, free } = &self.0;
+        let Table { fixed, driven, prescribed, free, loaded } = &self.0;
         let named = (fixed.iter().map(|axis| (*axis, AxisMotion::Fixed)))
             .chain(driven.iter().map(|axis| (*axis, AxisMotion::Driven)))
             .chain(prescribed.iter().map(|(axis, motion)| (*axis, motion.0)))
-            .chain(free.iter().map(|axis| (*axis, AxisMotion::Free)));
+            .chain(free.iter().map(|axis| (*axis, AxisMotion::Free)))
+            .chain(loaded.0.iter().map(|(axis, start)| (*axis, AxisMotion::Loaded(start.get()))));
         let (mut axes, mut twice) = ([None; 6], Vec::new());
         for (axis, motion) in named {
             if axes[axis as usize].replace(motion).is_some() {
@@ -106,7 +142,7 @@ impl<'de> Deserialize<'de> for Keys {
         /// Takes `"fixed"` or a table.
         struct WordOrTable;
         /// What is right.
-        const RIGHT: &str = "\"fixed\" or a table of driven, prescribed and free axes";
+        const RIGHT: &str = "\"fixed\" or a table of driven, prescribed, free and loaded axes";
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = Keys;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -8,12 +8,13 @@ mod driven;
 mod fixed;
 mod free;
 mod keys;
+mod loaded;
 mod prescribed;
 mod schedule;
 
 pub use course::InputCourse;
 pub(crate) use course::Progress;
-pub(crate) use keys::Keys;
+pub(crate) use keys::{Axis, Keys};
 pub use schedule::{Schedule, Sine, Trapezoid};
 
 /// What an axis of a boundary does.
@@ -29,6 +30,9 @@ pub enum AxisMotion {
     Scheduled(Schedule),
     /// Moves by the forces on it.
     Free,
+    /// Moves by the forces on it, an input among them: `<boundary>.applied_force.<axis>` or
+    /// `<boundary>.applied_moment.<axis>`, which starts with this value \[N, N m\].
+    Loaded(f64),
 }
 
 /// What is asked of every motion.
@@ -42,6 +46,11 @@ trait Motion {
     /// Whether forces move it.
     fn is_free(&self) -> bool {
         false
+    }
+
+    /// What its input starts with, if it has one; in the unit of the input.
+    fn first_input(&self) -> f64 {
+        0.0
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], where the scene alone says them.
@@ -79,31 +88,44 @@ pub(crate) enum Seen {
     Place,
     /// Its displacement and its velocity are outputs.
     PlaceAndRate,
+    /// So they are, and a load on it is an input.
+    Load,
 }
 
 impl AxisMotion {
     /// The axes of a boundary in their order, as scenes and variables name them.
     pub const WORDS: [&str; 6] = ["x", "y", "z", "rotation.x", "rotation.y", "rotation.z"];
 
-    /// The row of this motion.
-    fn row(&self) -> &dyn Motion {
+    /// Asks the row of this motion.
+    fn ask<T>(&self, question: impl FnOnce(&dyn Motion) -> T) -> T {
         match self {
-            Self::Fixed => &fixed::Fixed,
-            Self::Driven => &driven::Driven,
-            Self::Prescribed(velocity) => velocity,
-            Self::Scheduled(schedule) => schedule,
-            Self::Free => &free::Free,
+            Self::Fixed => question(&fixed::Fixed),
+            Self::Driven => question(&driven::Driven),
+            Self::Prescribed(velocity) => question(velocity),
+            Self::Scheduled(schedule) => question(schedule),
+            Self::Free => question(&free::Free),
+            Self::Loaded(start) => question(&loaded::Loaded { start: *start }),
         }
     }
 
     /// What the axis does, for a report, with the unit of a velocity; nothing where it stays.
     pub(crate) fn words(&self, unit: &str) -> Option<String> {
-        self.row().words(unit)
+        self.ask(|row| row.words(unit))
     }
 
     /// What the outside sees of it.
     pub(crate) fn seen(&self) -> Seen {
-        self.row().seen()
+        self.ask(|row| row.seen())
+    }
+
+    /// Whether an input of it is a force or moment.
+    pub(crate) fn takes_force(&self) -> bool {
+        self.seen() == Seen::Load
+    }
+
+    /// What its input starts with; 0 where it has none.
+    pub(crate) fn first_input(&self) -> f64 {
+        self.ask(|row| row.first_input())
     }
 
     /// Whether it stays.
@@ -128,16 +150,16 @@ impl AxisMotion {
 
     /// Whether forces move it.
     pub fn is_free(&self) -> bool {
-        self.row().is_free()
+        self.ask(|row| row.is_free())
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], where the scene alone says them.
     pub(crate) fn at(&self, time: f64) -> Option<[f64; 2]> {
-        self.row().at(time)
+        self.ask(|row| row.at(time))
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, where it is led through it.
     pub(crate) fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        self.row().lead(way, progress)
+        self.ask(|row| row.lead(way, progress))
     }
 }

@@ -1,7 +1,8 @@
-//! The momentum balance of the particles and groups that move freely.
+//! The momentum balance of the particles and bodies that move freely.
 
 use crate::scene::Scene;
 use crate::state::State;
+use crate::state::boundaries::Inertial;
 use crate::step::Simulation;
 use serde::Serialize;
 
@@ -14,6 +15,9 @@ struct Account {
     boundaries: [f64; 3],
     /// Impulse of global damping since time 0 \[N s\].
     damping: [f64; 3],
+    /// Impulses since time 0 of inputs, of springs and dashpots to the ground, and of what stiff contacts add to the inertia
+    /// of light bodies \[N s\].
+    of_bodies: [[f64; 3]; 3],
     /// Time \[s\].
     time: f64,
 }
@@ -31,6 +35,10 @@ pub struct MomentumBalance {
     pub boundaries: [f64; 3],
     /// Impulse of global damping \[N s\].
     pub damping: [f64; 3],
+    /// Impulse of springs and dashpots from bodies to the ground \[N s\].
+    pub support: [f64; 3],
+    /// Impulse of what stiff contacts add to the inertia of light bodies \[N s\].
+    pub added_inertia: [f64; 3],
     /// What the impulses leave of the change, over the largest of all these numbers.
     pub relative_residual: f64,
 }
@@ -53,18 +61,21 @@ impl Start {
         let duration = end.time - start.time;
         let over_time = |force: [f64; 3]| force.map(|force| force * duration);
         let change = less(end.momentum, start.momentum);
+        let [inputs, support, added_inertia] = [0, 1, 2].map(|term| less(end.of_bodies[term], start.of_bodies[term]));
         let terms = [
             over_time(weight),
-            over_time(applied),
+            [0, 1, 2].map(|axis| applied[axis] * duration + inputs[axis]),
             less(end.boundaries, start.boundaries),
             less(end.damping, start.damping),
+            support,
+            added_inertia,
         ];
         let rest = terms.iter().fold(change, |rest, &term| less(rest, term));
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, number| most.max(number.abs()));
         let scale = largest(terms.as_flattened()).max(largest(&change));
-        let [gravity, applied, boundaries, damping] = terms;
+        let [gravity, applied, boundaries, damping, ..] = terms;
         let relative_residual = if scale > 0.0 { largest(&rest) / scale } else { 0.0 };
-        MomentumBalance { change, gravity, applied, boundaries, damping, relative_residual }
+        MomentumBalance { change, gravity, applied, boundaries, damping, support, added_inertia, relative_residual }
     }
 }
 
@@ -83,13 +94,20 @@ fn account(scene: &Scene, state: &State) -> Account {
             momentum[axis] += velocity[3] * along[axis];
         }
     }
-    let mut boundaries = [0.0; 3];
-    for boundary in &state.boundaries {
+    let (mut boundaries, mut of_bodies) = ([0.0; 3], [[0.0; 3]; 3]);
+    for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
+        let Inertial { applied_impulse, support_impulse, added_impulse, .. } = &moved.inertial;
         for axis in 0..3 {
-            boundaries[axis] -= boundary.total_impulse[axis];
+            boundaries[axis] -= moved.total_impulse[axis];
+            for (sum, part) in of_bodies.iter_mut().zip([applied_impulse, support_impulse, added_impulse]) {
+                sum[axis] += part[axis];
+            }
+            if boundary.axes[axis].is_free() {
+                momentum[axis] += boundary.body.mass * moved.velocity[axis];
+            }
         }
     }
-    Account { momentum, boundaries, damping: state.damping_impulse, time: state.clock.time }
+    Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, time: state.clock.time }
 }
 
 /// Along which axes forces move a particle with this owner.
@@ -108,6 +126,11 @@ fn constant_forces(scene: &Scene, state: &State) -> ([f64; 3], [f64; 3]) {
         let free = free_axes(scene, particles.owner[slot]);
         for axis in (0..3).filter(|&axis| free[axis]) {
             weight[axis] += velocity[3] * scene.gravity[axis];
+        }
+    }
+    for boundary in &scene.boundaries {
+        for axis in (0..3).filter(|&axis| boundary.axes[axis].is_free()) {
+            weight[axis] += boundary.body.mass * scene.gravity[axis];
         }
     }
     for force in &scene.forces {

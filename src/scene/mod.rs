@@ -3,12 +3,14 @@
 //! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
 //! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
 
+mod body;
 mod source;
 
 pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
 pub use crate::motion::{AxisMotion, InputCourse};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
+pub use body::Body;
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;
@@ -205,6 +207,8 @@ pub struct Boundary {
     pub input: InputCourse,
     /// The point about which its moment is taken, at time 0 \[m\].
     pub reference: [f64; 3],
+    /// What it is as a rigid body that forces move.
+    pub body: Body,
 }
 
 impl Boundary {

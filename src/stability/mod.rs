@@ -9,6 +9,7 @@
 mod blocks;
 mod lanczos;
 mod network;
+mod surfaces;
 
 use crate::boundaries::RigidBody;
 use crate::integration::Fields;
@@ -17,6 +18,7 @@ use crate::scene::Scene;
 use crate::state::{Particles, State};
 use crate::threads::Context;
 use network::Network;
+pub(crate) use surfaces::{has_more_contacts, put_blocks};
 
 /// What limits the time step.
 #[derive(Clone, Debug, PartialEq)]
@@ -218,7 +220,7 @@ impl System<'_> {
     /// speed \[m/s\], with what falling over a radius adds; likewise of each group that forces move.
     fn impact(&self, speed: f64, ahead: &Ahead) -> Option<(f64, Meeting)> {
         let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
-            let body = body.as_ref().filter(|body| body.is_free())?;
+            let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let turn = answer(&body.mobility(moved), body.farthest + body.largest);
             Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0], across: false })
         });

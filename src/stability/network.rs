@@ -44,6 +44,9 @@ pub(crate) struct Network<'a> {
     pub(super) roots: Vec<[f64; 2]>,
     /// Of each boundary.
     pub(super) groups: Vec<Option<Group>>,
+    /// Boundaries whose contacts count twice for their particles: surfaces that forces move, to whose inertia the other half is
+    /// added ([`crate::boundaries::implicit`]).
+    light: Vec<bool>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
     /// Whether any of them has a dashpot.
@@ -66,7 +69,7 @@ impl<'a> Network<'a> {
             [(linear / mass).sqrt(), (angular / inertia).sqrt()]
         };
         let group = |(body, moved): (&Option<RigidBody>, _)| {
-            let body = body.as_ref().filter(|body| body.is_free())?;
+            let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let [linear, angular] = fields.amplification(body.members[0]);
             let mut mobility = body.mobility(moved);
             for (row, numbers) in mobility.iter_mut().enumerate() {
@@ -80,6 +83,7 @@ impl<'a> Network<'a> {
             state,
             roots: (0..particles.len()).map(root).collect(),
             groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
+            light: bodies.iter().map(|body| body.as_ref().is_some_and(RigidBody::is_implicit)).collect(),
             elements: Vec::new(),
             damped: false,
         };
@@ -109,12 +113,14 @@ impl<'a> Network<'a> {
             (None, Some(second)) => ([second, UNMOVED], [link.arms[1], 0.0]),
             (None, None) => return None,
         };
+        let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
+        let share = |part: f64| if twice { 2.0 * part } else { part };
         Some(Element {
             slots,
             normal: [x as f32, y as f32, z as f32],
             arms: [a as f32, b as f32],
-            stiffness: link.stiffness.map(|part| part as f32),
-            damping: link.damping.map(|part| part as f32),
+            stiffness: link.stiffness.map(|part| share(part) as f32),
+            damping: link.damping.map(|part| share(part) as f32),
         })
     }
 

@@ -55,6 +55,8 @@ impl BoundaryState {
     /// Counts impulse and work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.total_impulse, self.work) = ([0.0; 3], 0.0);
+        let Inertial { applied_impulse, support_impulse, added_impulse, .. } = &mut self.inertial;
+        (*applied_impulse, *support_impulse, *added_impulse) = ([0.0; 6], [0.0; 6], [0.0; 6]);
     }
 }
 
@@ -63,7 +65,7 @@ impl BoundaryState {
 pub struct Inertial {
     /// Angular momentum about the reference point \[kg m²/s\].
     pub angular_momentum: [f64; 3],
-    /// Force on the body: of the particles, weight, applied forces and damping \[N\].
+    /// Force on the body: of the particles, weight, applied forces, springs and dashpots to the ground, damping \[N\].
     pub load: [f64; 3],
     /// Moment of all these about the moved reference point \[N m\].
     pub couple: [f64; 3],
@@ -75,6 +77,23 @@ pub struct Inertial {
     pub kick: [f64; 3],
     /// What the last half kick added to the angular velocity \[rad/s\].
     pub spin_kick: [f64; 3],
+    /// The input load at the present time \[N, N m\].
+    pub applied: [f64; 6],
+    /// What springs and dashpots to the ground do at the present time \[N, N m\].
+    pub support: [f64; 6],
+    /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
+    /// \[N/m, N, N m\].
+    pub stiffness: [f64; 21],
+    /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
+    pub damping: [f64; 21],
+    /// How many contacts there were when these were found.
+    pub contacts: u64,
+    /// Impulse of the input loads since time 0 \[N s, N m s\].
+    pub applied_impulse: [f64; 6],
+    /// Impulse of springs and dashpots to the ground since time 0 \[N s, N m s\].
+    pub support_impulse: [f64; 6],
+    /// Impulse of what stiff contacts add to the inertia since time 0 \[N s, N m s\].
+    pub added_impulse: [f64; 6],
 }
 
 /// A unit quaternion: scalar, x, y, z.

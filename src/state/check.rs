@@ -423,10 +423,22 @@ impl BoundaryState {
             &inertial.kick,
             &inertial.spin_kick,
         ];
-        let sixes = [start, target, target_rate, fastest];
+        let sixes = [
+            start,
+            target,
+            target_rate,
+            fastest,
+            &inertial.applied,
+            &inertial.support,
+            &inertial.applied_impulse,
+            &inertial.support_impulse,
+            &inertial.added_impulse,
+        ];
+        let blocks = inertial.stiffness.iter().chain(&inertial.damping);
         let rows = [attitude.0, start_attitude.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
+            && blocks.clone().all(|number| number.is_finite())
             && work.is_finite()
     }
 }

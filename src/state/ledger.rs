@@ -19,13 +19,28 @@ pub enum Source {
     Gravity,
     /// Applied forces.
     Applied,
+    /// Springs and dashpots from bodies to the ground.
+    Support,
+    /// What stiff contacts add to the inertia of light bodies.
+    AddedInertia,
 }
 
 impl Source {
     /// Kinds whose loads are remembered from one half kick to the next; the others follow from the scene.
     pub const RECORDED: usize = 4;
     /// All kinds, recorded ones first.
-    pub const ALL: [Self; 6] = [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Contacts,
+        Self::Bonds,
+        Self::Walls,
+        Self::Damping,
+        Self::Gravity,
+        Self::Applied,
+        Self::Support,
+        Self::AddedInertia,
+    ];
+    /// How many there are.
+    pub const COUNT: usize = 8;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -36,6 +51,8 @@ impl Source {
             Self::Damping => "damping",
             Self::Gravity => "gravity",
             Self::Applied => "applied",
+            Self::Support => "support",
+            Self::AddedInertia => "added_inertia",
         }
     }
 }
@@ -71,7 +88,7 @@ pub struct Ledger {
     /// Elastic energy then \[J\].
     pub initial_elastic: f64,
     /// Work of each of [`Source::ALL`] since then \[J\].
-    pub work: [f64; 6],
+    pub work: [f64; Source::COUNT],
     /// Sum of the magnitudes of all entries \[J\]: what a residual is measured against.
     pub turnover: f64,
     /// Loads of each recorded kind at the present time.
@@ -83,7 +100,7 @@ clone_in_place!(Ledger { initial_kinetic, initial_elastic, work, turnover, loads
 impl Ledger {
     /// Counts work from here.
     pub(super) fn begin_counting(&mut self) {
-        (self.work, self.turnover) = ([0.0; 6], 0.0);
+        (self.work, self.turnover) = ([0.0; Source::COUNT], 0.0);
     }
 
     /// Work of one kind of force \[J\].

@@ -1,7 +1,7 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
 use crate::boundaries::RigidBody;
-use crate::boundaries::rigid_body::sphere_inertia;
+use crate::boundaries::{course, sphere_inertia};
 use crate::contact::Law;
 use crate::interactions::Pass;
 use crate::interactions::bonds::BondPass;
@@ -83,8 +83,10 @@ fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
         velocity: [x, y, z],
         angular_velocity: [about_x, about_y, about_z],
         pivot: boundary.reference,
+        target: [0, 1, 2, 3, 4, 5].map(|axis: usize| boundary.axes[axis].first_input()),
         ..BoundaryState::default()
     };
+    course::apply_inputs(boundary, &mut moved);
     if let Some(body) = RigidBody::of(scene, boundary) {
         body.begin(scene, boundary, &mut moved);
     }

@@ -2,7 +2,7 @@
 
 use super::{RunError, Simulation};
 use crate::bond::creation::{Creation, Due, Window};
-use crate::boundaries::course;
+use crate::boundaries::{RigidBody, course};
 use crate::interactions::Ahead;
 use crate::scene::{Scene, Step};
 use crate::stability::{self, Limit, System};
@@ -99,12 +99,25 @@ impl Simulation {
             to: window.map_or(0.0, |window| window.to),
         };
         self.state.clock.stable = found.safe();
+        let blocks = self.system().blocks(&sight.ahead);
+        stability::put_blocks(&mut self.state, blocks);
         if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
             let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
             let by = by.map_or_else(String::new, |by| self.words(&by));
             return Err(RunError::StepTooLong { step, stable: found.safe(), by, time: self.time() });
         }
         self.check_contacts()
+    }
+
+    /// Finds anew what contacts offer to surfaces that forces move, where one has come to more contacts than it had.
+    pub(super) fn follow_contacts(&mut self, step: f64) {
+        let light = |(_, body): &(usize, &Option<RigidBody>)| body.as_ref().is_some_and(RigidBody::is_implicit);
+        let bodies = self.bodies.iter().enumerate().filter(light);
+        if bodies.map(|(index, _)| index).any(|index| stability::has_more_contacts(&self.state, index)) {
+            let sight = self.sight(step);
+            let blocks = self.system().blocks(&sight.ahead);
+            stability::put_blocks(&mut self.state, blocks);
+        }
     }
 
     /// What limits the time step, in words.

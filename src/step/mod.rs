@@ -252,16 +252,16 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// Where a driven axis is to be at the end of the next interval: along x, y, z (0 to 2) \[m\] or about them (3 to
-    /// 5) \[rad\].
-    pub fn set_displacement(&mut self, boundary: BoundaryIndex, axis: usize, displacement: f64) {
+    /// What the outside gives for an axis in the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven
+    /// one is to be at its end \[m, rad\], the load on one that forces move \[N, N m\].
+    pub fn set_input(&mut self, boundary: BoundaryIndex, axis: usize, value: f64) {
         let boundary = &mut self.state.boundaries[boundary.index()];
-        boundary.target[axis] = displacement;
+        boundary.target[axis] = value;
         boundary.target_rate[axis] = 0.0;
     }
 
-    /// The rate of that value over the next interval: it then ends at the value plus rate × interval \[m/s, rad/s\].
-    pub fn set_displacement_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
+    /// The rate of that value over the next interval: it then ends at the value plus rate × interval.
+    pub fn set_input_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
     }
 
@@ -360,6 +360,7 @@ impl Simulation {
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
         result = result.and(self.evaluate(gravity.is_none(), context));
+        self.follow_contacts(step);
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);

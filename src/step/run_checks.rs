@@ -39,14 +39,18 @@ impl Simulation {
                 return Err(self.runaway(particles.id[slot], way / radius, cause));
             }
         }
-        for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
+        for (index, (body, moved)) in self.bodies.iter().zip(&self.state.boundaries).enumerate() {
             let Some(body) = body else { continue };
             let way = step * body.coming_speed(moved, step);
             if way > RUNAWAY * body.smallest {
                 let now = body.coming_speed(moved, 0.0);
                 let force = Vector::from(moved.inertial.load).length();
                 let cause = self.cause_of_way(now, force, step * now > 0.5 * way);
-                return Err(self.runaway(body.members[0], way / body.smallest, cause));
+                let Some(&member) = body.members.first() else {
+                    let (boundary, time) = (self.scene.boundaries[index].name.clone(), self.time());
+                    return Err(RunError::SurfaceRunaway { boundary, way, radii: way / body.smallest, time, cause });
+                };
+                return Err(self.runaway(member, way / body.smallest, cause));
             }
         }
         Ok(())
@@ -200,6 +204,7 @@ impl Simulation {
             }
             RunError::StepTooLong { .. }
             | RunError::EnergyGain { .. }
+            | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
             | RunError::Stopped { .. }

@@ -40,7 +40,7 @@ impl Simulation {
         if unbuilt {
             self.build()?;
         }
-        let mut moves = false;
+        let (mut moves, mut loads) = (false, false);
         let boundaries = self.scene.boundaries.iter().zip(&mut self.state.boundaries);
         for ((boundary, moved), given) in boundaries.zip(inputs) {
             for axis in (0..6).filter(|&axis| boundary.axes[axis].is_driven()) {
@@ -49,12 +49,17 @@ impl Simulation {
                 course::put(moved, axis, given.target[axis]);
                 moved.target_rate[axis] = given.target_rate[axis];
             }
+            for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
+                loads |= moved.target[axis] != given.target[axis];
+                (moved.target[axis], moved.target_rate[axis]) = (given.target[axis], given.target_rate[axis]);
+            }
+            course::apply_inputs(boundary, moved);
         }
         if moves {
             rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
         }
-        if moves || unbuilt { self.start() } else { Ok(()) }
+        if moves || loads || unbuilt { self.start() } else { Ok(()) }
     }
 
     /// Lets every count and book begin anew at the present state.

@@ -25,10 +25,6 @@ impl Surface for Group {
         &self.members
     }
 
-    fn has_mass(&self) -> bool {
-        true
-    }
-
     fn turns(&self) -> bool {
         true
     }

@@ -106,11 +106,6 @@ pub trait Surface: Debug + Send + Sync {
         None
     }
 
-    /// Whether forces can move it: it has a mass.
-    fn has_mass(&self) -> bool {
-        false
-    }
-
     /// Whether it can turn.
     fn turns(&self) -> bool {
         false

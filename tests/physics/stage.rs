@@ -6,7 +6,7 @@ use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
-use cograin::scene::{AxisMotion, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
+use cograin::scene::{AxisMotion, Body, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
 use cograin::step::Simulation;
 use cograin::surface::Plane;
 use std::sync::Arc;
@@ -77,6 +77,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,
+        body: Body::default(),
     }
 }
 

@@ -87,7 +87,7 @@ fn set_walls(simulation: &mut Simulation, drift: [f64; 3], squeezed: f64, sheare
         for along in 0..3 {
             let squeeze = if along == axis { 0.5 * sign * squeezed * WIDTH } else { 0.0 };
             let shear = if axis == 2 && along == 0 { -0.5 * sign * sheared * WIDTH } else { 0.0 };
-            simulation.set_displacement(BoundaryIndex(index as u32), along, drift[along] + squeeze + shear);
+            simulation.set_input(BoundaryIndex(index as u32), along, drift[along] + squeeze + shear);
         }
     }
 }

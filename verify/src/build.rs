@@ -8,7 +8,7 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -134,6 +134,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
             }),
             input: InputCourse::Ramp,
             reference: case.particles[case.by_id()[first]].position,
+            body: Body::default(),
         });
     }
     Ok(all)
@@ -176,7 +177,14 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
             reference = *point;
         }
     }
-    Ok(Boundary { name: format!("wall{index}"), shape, axes, input: InputCourse::Ramp, reference })
+    Ok(Boundary {
+        name: format!("wall{index}"),
+        shape,
+        axes,
+        input: InputCourse::Ramp,
+        reference,
+        body: Body::default(),
+    })
 }
 
 /// One plane.
@@ -211,6 +219,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
         axes: [AxisMotion::Fixed; 6],
         input: InputCourse::Ramp,
         reference: point,
+        body: Body::default(),
     })
 }
 

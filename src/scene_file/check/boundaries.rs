@@ -1,5 +1,6 @@
 //! Boundaries: shape, motion, point of reference.
 
+use super::body;
 use super::contacts::material_index;
 use super::motion;
 use super::particles::Born;
@@ -36,7 +37,11 @@ pub(super) fn boundaries(
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
         let input = boundary.input.unwrap_or_default();
-        boundaries.push(Boundary { name: name.clone(), shape, axes, input, reference });
+        let body = body::body(boundary, &axes, (&*shape, reference), &table, faults);
+        // What moves and turns by forces does so about its mass centre.
+        let reference =
+            if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
+        boundaries.push(Boundary { name: name.clone(), shape, axes, input, reference, body });
     }
     boundaries
 }

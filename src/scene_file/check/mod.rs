@@ -1,5 +1,6 @@
 //! From tables, each right in itself, to a scene that is right as a whole.
 
+mod body;
 mod bonded_pairs;
 mod bonds;
 mod boundaries;

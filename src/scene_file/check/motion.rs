@@ -11,7 +11,7 @@ pub(super) fn axes(motion: &Keys, table: &str, faults: &mut Faults) -> [AxisMoti
     let (axes, twice) = motion.axes();
     for axis in twice {
         let what = format!("axis {} is named twice", AxisMotion::WORDS[axis]);
-        let right = "an axis is fixed, driven, prescribed or free".to_owned();
+        let right = "an axis is fixed, driven, prescribed, free or loaded".to_owned();
         faults.add(table, "motion", Mistake::Senseless { what, right });
     }
     axes
@@ -23,12 +23,6 @@ pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool,
     let mut refuse = |what: String, right: &str| {
         faults.add(table, "motion", Mistake::Senseless { what, right: right.to_owned() });
     };
-    let free = axes.iter().position(AxisMotion::is_free);
-    if let Some(axis) = free.filter(|_| !shape.has_mass()) {
-        let (axis, shape) = (AxisMotion::WORDS[axis], shape.key());
-        let what = format!("{axis} is free, but a {shape} has no mass that forces could move");
-        return refuse(what, "driven, prescribed or fixed axes, or a group of particles are right");
-    }
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
         let what = format!("{}: {}s that turn are not there", AxisMotion::WORDS[axis], shape.key());
         return refuse(what, "a group of particles turns");
@@ -61,13 +55,18 @@ fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
     faults.add(table, "motion", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
 }
 
-/// A group that moves and turns, and does one of it freely, does so about its mass centre.
-fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
+/// Whether a body moves and turns, and does one of it by forces: then it turns about its mass centre.
+pub(super) fn turns_about_its_centre(axes: &[AxisMotion; 6]) -> bool {
     let any = |axes: &[AxisMotion], chosen: fn(&AxisMotion) -> bool| axes.iter().any(chosen);
     let (free, held) = (AxisMotion::is_free, |it: &AxisMotion| !it.is_fixed());
     let (along, about) = axes.split_at(3);
-    if referred && (any(along, free) && any(about, held) || any(about, free) && any(along, held)) {
-        let what = "a group that moves and turns, one of both freely, turns about its mass centre".to_owned();
+    any(along, free) && any(about, held) || any(about, free) && any(along, held)
+}
+
+/// A body that moves and turns, and does one of it freely, does so about its mass centre.
+fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
+    if referred && turns_about_its_centre(axes) {
+        let what = "what moves and turns, one of both freely, turns about its mass centre".to_owned();
         faults.add(table, "reference", Mistake::Senseless { what, right: "leave it out".to_owned() });
     }
 }

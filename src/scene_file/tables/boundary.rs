@@ -1,7 +1,8 @@
 //! `[boundary.<name>]`
 
+use super::body::{Inertia, Supports};
 use crate::motion::{self, InputCourse};
-use crate::quantity::Triple;
+use crate::quantity::{Positive, Triple};
 use crate::surface::{self, Around, Shape, ShapeKeys, with_shapes};
 use serde::Deserialize;
 
@@ -25,6 +26,18 @@ macro_rules! boundary_table {
             pub(in crate::scene_file) input: Option<InputCourse>,
             /// Point of reference of the moment \[m\].
             pub(in crate::scene_file) reference: Option<Triple>,
+            /// Mass of a surface \[kg\].
+            pub(in crate::scene_file) mass: Option<Positive>,
+            /// Mass centre of a surface at time 0 \[m\].
+            pub(in crate::scene_file) centre: Option<Triple>,
+            /// Inertia of a surface about its mass centre \[kg m²\].
+            pub(in crate::scene_file) inertia: Option<Inertia>,
+            /// Springs to the ground.
+            #[serde(default)]
+            pub(in crate::scene_file) stiffness: Supports,
+            /// Dashpots to the ground.
+            #[serde(default)]
+            pub(in crate::scene_file) damping: Supports,
         }
 
         impl BoundaryTable {

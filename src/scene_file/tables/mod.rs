@@ -1,11 +1,13 @@
 //! The scene as it is written: one type for each table, single values checked as they are read.
 
+mod body;
 mod boundary;
 mod particles;
 mod values;
 
 pub(super) use crate::quantity::{Corners, Triple};
 pub(super) use crate::surface::Selection;
+pub(super) use body::{Inertia, Supports};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{Between, Safety, StepKey};

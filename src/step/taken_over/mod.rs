@@ -103,7 +103,11 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
         moved.start_attitude = other.attitude;
         let [x, y, z] = other.displacement;
         let [a, b, c] = other.rotation;
-        moved.target = [x, y, z, a, b, c];
+        for (axis, place) in [x, y, z, a, b, c].into_iter().enumerate() {
+            if !boundary.axes[axis].takes_force() {
+                moved.target[axis] = place;
+            }
+        }
         course::begin_prescribed(boundary, moved, time);
         for axis in (0..3).filter(|&axis| boundary.axes[axis].is_free()) {
             moved.velocity[axis] = other.velocity[axis];

@@ -1,0 +1,48 @@
+//! Mass, inertia and support of a boundary, as the scene writes them.
+
+use crate::motion::Axis;
+use crate::quantity::{NonNegative, Triple};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
+
+/// Springs or dashpots to the ground: one for each axis that is named.
+pub(in crate::scene_file) type Supports = BTreeMap<Axis, NonNegative>;
+
+/// A symmetric, positive definite matrix: three moments of inertia, or the whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene_file) struct Inertia(pub(in crate::scene_file) [[f64; 3]; 3]);
+
+impl<'de> Deserialize<'de> for Inertia {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Three numbers, or three rows of them.
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            /// Moments about x, y and z; no products.
+            Moments(Triple),
+            /// Row by row.
+            Rows([Triple; 3]),
+        }
+        /// What is right.
+        const RIGHT: &str = "[xx, yy, zz] or three rows of a symmetric, positive definite matrix [kg m²]";
+        let rows =
+            match Written::deserialize(deserializer).map_err(|_| D::Error::custom(format!("{RIGHT} is right")))? {
+                Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
+                Written::Rows(rows) => rows.map(|row| row.0),
+            };
+        if is_positive(&rows) {
+            Ok(Self(rows))
+        } else {
+            Err(D::Error::custom(format!("{rows:?} found; {RIGHT} is right")))
+        }
+    }
+}
+
+/// Whether a matrix is symmetric and positive definite (Sylvester's criterion).
+fn is_positive(rows: &[[f64; 3]; 3]) -> bool {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
+    let symmetric = b == d && c == g && f == h;
+    let minor = a * e - b * b;
+    symmetric && a > 0.0 && minor > 0.0 && i * minor - f * (a * f - b * c) + c * (b * f - c * e) > 0.0
+}

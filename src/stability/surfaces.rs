@@ -1,0 +1,60 @@
+//! What contacts offer to the surfaces that forces move: the stiffness and damping that are added to their inertia.
+
+use super::System;
+use crate::boundaries::implicit;
+use crate::interactions::Ahead;
+use crate::number::Vector;
+use crate::state::contacts::TOUCHING;
+use crate::state::{State, boundaries::Inertial};
+
+/// Stiffness and damping that a surface feels in its six freedoms.
+type Blocks = [implicit::Triangle; 2];
+
+impl System<'_> {
+    /// Stiffness and damping of all springs and dashpots at each surface that forces move, as they may get; none of other
+    /// boundaries.
+    pub(crate) fn blocks(&self, ahead: &Ahead) -> Vec<Option<Blocks>> {
+        let implicit = |body: &&crate::boundaries::RigidBody| body.is_implicit();
+        let mut blocks: Vec<Option<Blocks>> =
+            self.bodies.iter().map(|body| Some(body.as_ref().filter(implicit)?.supports())).collect();
+        if blocks.iter().all(Option::is_none) {
+            return blocks;
+        }
+        for pass in self.passes {
+            pass.stiffness(self.state, ahead, &mut |link| {
+                let Some(boundary) = link.boundary.map(|boundary| boundary as usize) else { return };
+                let Some([stiffness, damping]) = &mut blocks[boundary] else { return };
+                let centre = Vector::from(self.state.particles.position[link.first as usize]);
+                let arm = centre - link.normal * link.arms[0] - self.state.boundaries[boundary].pivot.into();
+                implicit::add(stiffness, link.normal, arm, link.stiffness);
+                implicit::add(damping, link.normal, arm, link.damping);
+            });
+        }
+        let more = self.fields.amplification_of_surfaces();
+        for block in blocks.iter_mut().flatten().flatten().flatten() {
+            *block *= more;
+        }
+        blocks
+    }
+}
+
+/// Contacts at a boundary.
+fn contacts(state: &State, boundary: usize) -> u64 {
+    let lists = state.walls.iter().filter(|list| list.boundary as usize == boundary);
+    lists.map(|list| list.flags.iter().filter(|flags| **flags & TOUCHING != 0).count() as u64).sum()
+}
+
+/// Puts what was found in its place.
+pub(crate) fn put_blocks(state: &mut State, blocks: Vec<Option<Blocks>>) {
+    for (boundary, block) in blocks.into_iter().enumerate() {
+        let Some([stiffness, damping]) = block else { continue };
+        let contacts = contacts(state, boundary);
+        let inertial = &mut state.boundaries[boundary].inertial;
+        *inertial = Inertial { stiffness, damping, contacts, ..*inertial };
+    }
+}
+
+/// Whether a surface that forces move has more contacts than when its blocks were found.
+pub(crate) fn has_more_contacts(state: &State, boundary: usize) -> bool {
+    contacts(state, boundary) > state.boundaries[boundary].inertial.contacts
+}
