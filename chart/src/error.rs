@@ -11,6 +11,9 @@ pub enum ChartError {
     /// A scene stopped.
     #[error(transparent)]
     Run(#[from] cograin::step::RunError),
+    /// A scene does not say when it ends.
+    #[error("the scene has no [run] end; a chart of it needs one (--set run.end=0.5)")]
+    NoEnd,
     /// A file was not written.
     #[error("{path}: {source}")]
     File {

@@ -5,8 +5,10 @@
 pub mod charts;
 mod error;
 pub mod picture;
+mod scene;
 mod stage;
 pub mod table;
 
 pub use charts::{CHARTS, Chart, Drawing, named};
 pub use error::ChartError;
+pub use scene::SceneChart;

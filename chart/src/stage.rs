@@ -33,6 +33,10 @@ impl Stage {
         self.simulation.state().clock.step
     }
 
+    /// The stable time step as the program states it \[s\].
+    pub(crate) fn stable(&self) -> f64 {
+        self.simulation.state().clock.stable
+    }
 
     /// How many particles there are.
     pub(crate) fn count(&self) -> usize {

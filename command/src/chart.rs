@@ -2,15 +2,22 @@
 
 use super::{Ending, say};
 use clap::Args;
-use cograin_chart::{CHARTS, Chart, named};
-use std::path::PathBuf;
+use cograin::scene::Setting;
+use cograin_chart::{CHARTS, Chart, ChartError, Drawing, SceneChart, named};
+use std::path::{Path, PathBuf};
 
 /// `cograin chart`
 #[derive(Args)]
 pub(super) struct ChartArguments {
-    /// Names of charts
-    #[arg(required_unless_present_any = ["list", "all"], conflicts_with_all = ["list", "all"])]
+    /// Names of charts; or scene files, whose outputs are charted over the time step
+    #[arg(required_unless_present_any = ["list", "all"], conflicts_with_all = ["list", "all"], value_name = "NAME|SCENE")]
     names: Vec<String>,
+    /// A value of the scenes instead of what their files say, as run.end=0.5; may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<Setting>,
+    /// Error of a scene's outputs, over the largest value of each quantity, for which a step is recommended
+    #[arg(long, value_name = "ERROR", default_value_t = 0.01)]
+    wanted: f64,
     /// Name all charts, what they show and what they cost
     #[arg(long)]
     list: bool,
@@ -30,15 +37,15 @@ pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
         }
         return Ok(());
     }
-    let charts = if arguments.all { CHARTS.iter().collect() } else { chosen(&arguments.names)? };
     std::fs::create_dir_all(&arguments.output)
         .map_err(|error| Ending::failed(format_args!("{}: {error}", arguments.output.display())))?;
-    let cost: f64 = charts.iter().map(|chart| chart.seconds).sum();
-    say(format_args!("about {cost} s on one core"));
+    let charts = if arguments.all { CHARTS.iter().map(Wanted::Named).collect() } else { chosen(arguments)? };
+    let cost: f64 = charts.iter().map(Wanted::seconds).sum();
+    say(format_args!("about {cost:.0} s on one core"));
     for chart in charts {
-        say(format_args!("{}: {}", chart.name, chart.shows));
-        let drawing = (chart.draw)().map_err(Ending::failed)?;
-        for path in drawing.write(&arguments.output, chart.name).map_err(Ending::failed)? {
+        say(chart.headline());
+        let drawing = chart.draw().map_err(Ending::failed)?;
+        for path in drawing.write(&arguments.output, chart.name()).map_err(Ending::failed)? {
             say(format_args!("  wrote {}", path.display()));
         }
         for note in &drawing.notes {
@@ -48,11 +55,67 @@ pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
     Ok(())
 }
 
-/// The charts of these names.
-fn chosen(names: &[String]) -> Result<Vec<&'static Chart>, Ending> {
+/// A chart that is wanted.
+enum Wanted {
+    /// One of the program's own.
+    Named(&'static Chart),
+    /// That of a user's scene, under the name of its file.
+    Scene(String, SceneChart),
+}
+
+impl Wanted {
+    /// Name of its files.
+    fn name(&self) -> &str {
+        match self {
+            Self::Named(chart) => chart.name,
+            Self::Scene(name, _) => name,
+        }
+    }
+
+    /// What it costs, about \[s\].
+    fn seconds(&self) -> f64 {
+        match self {
+            Self::Named(chart) => chart.seconds,
+            Self::Scene(_, chart) => chart.seconds,
+        }
+    }
+
+    /// What is said before it is drawn.
+    fn headline(&self) -> String {
+        match self {
+            Self::Named(chart) => format!("{}: {}", chart.name, chart.shows),
+            Self::Scene(name, chart) => {
+                format!("{name}: outputs over the time step against the finest one, about {:.1} s", chart.seconds)
+            }
+        }
+    }
+
+    /// Computes it.
+    fn draw(&self) -> Result<Drawing, ChartError> {
+        match self {
+            Self::Named(chart) => (chart.draw)(),
+            Self::Scene(_, chart) => chart.draw(),
+        }
+    }
+}
+
+/// The charts of the names that were given.
+fn chosen(arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
     let all = || CHARTS.iter().map(|chart| chart.name).collect::<Vec<_>>().join(", ");
     let find = |name: &String| {
-        named(name).ok_or_else(|| Ending::refused(format_args!("{name} is no chart; one of {} is right", all())))
+        if let Some(chart) = named(name) {
+            return Ok(Wanted::Named(chart));
+        }
+        let path = Path::new(name);
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            return Err(Ending::refused(format_args!(
+                "{name} is no chart; one of {}, or a scene file, is right",
+                all()
+            )));
+        }
+        let chart = SceneChart::of(path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
+        let stem = path.file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());
+        Ok(Wanted::Scene(stem, chart))
     };
-    names.iter().map(find).collect()
+    arguments.names.iter().map(find).collect()
 }

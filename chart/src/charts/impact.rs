@@ -53,14 +53,20 @@ fn largest(rebounds: &[Rebound], restitution: f64) -> f64 {
     rebounds.iter().map(|[velocity, _]| (velocity[2] / SPEED - restitution).abs()).fold(0.0, f64::max)
 }
 
+/// The largest error of restitution with so many steps in an elastic contact.
+fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
+    let mut error = 0.0_f64;
+    for end in ENDS {
+        error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
+    }
+    Ok(error)
+}
+
 /// Adds a row for each number of steps.
 fn fill(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
     let series = scheme.series(&format!("e = {restitution}"));
     for steps in STEPS {
-        let mut error = 0.0_f64;
-        for end in ENDS {
-            error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
-        }
+        let error = error(normal, restitution, scheme, steps)?;
         table.push([normal.name.into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
     }
     Ok(())
@@ -68,8 +74,8 @@ fn fill(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -
 
 /// Adds a row for the step that the program chooses.
 fn fill_default(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
-    let (rebounds, steps) = normal.throw(restitution).automatic(scheme.run)?;
-    let error = largest(&rebounds, restitution);
+    let (_, steps) = normal.throw(restitution).automatic(scheme.run)?;
+    let error = error(normal, restitution, scheme, steps)?;
     table.push([normal.name.into(), scheme.series(DEFAULT).into(), restitution.into(), steps.into(), error.into()]);
     Ok(())
 }
@@ -104,7 +110,11 @@ fn draw() -> Result<Drawing, ChartError> {
         Panel { only: Some(("law", law)), single: vec![DEFAULT], ..Panel::new(&title, axes[0], axes[1], "series") }
     };
     let notes = notes(&table);
-    Ok(Drawing { table, picture: Picture { panels: vec![panel("hertz"), panel("hooke")] }, notes })
+    Ok(Drawing {
+        table,
+        picture: Picture { panels: vec![panel("hertz"), panel("hooke")], ..Picture::default() },
+        notes,
+    })
 }
 
 /// What the default step costs in accuracy.

@@ -83,5 +83,9 @@ fn draw() -> Result<Drawing, ChartError> {
         single: vec!["experiment"],
         ..Panel::new("aluminium oxide at 3.9 m/s, e = 0.98, µ = 0.092", linear(COLUMNS[0]), linear(column), "series")
     };
-    Ok(Drawing { table, picture: Picture { panels: vec![panel(COLUMNS[1]), panel(COLUMNS[2])] }, notes: Vec::new() })
+    Ok(Drawing {
+        table,
+        picture: Picture { panels: vec![panel(COLUMNS[1]), panel(COLUMNS[2])], ..Picture::default() },
+        notes: Vec::new(),
+    })
 }

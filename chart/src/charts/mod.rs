@@ -1,10 +1,18 @@
 //! The charts, a row each.
 
+mod border;
+mod cantilever;
+mod cohesion;
+mod dashpots;
 mod drops;
+mod features;
 mod impact;
 mod kharaz;
 mod oblique;
+mod rolling;
+mod runs;
 mod schemes;
+mod size_ratio;
 
 use crate::ChartError;
 use crate::picture::Picture;
@@ -45,7 +53,17 @@ impl Drawing {
 }
 
 /// All charts.
-pub const CHARTS: &[Chart] = &[impact::CHART, oblique::CHART, kharaz::CHART];
+pub const CHARTS: &[Chart] = &[
+    impact::CHART,
+    oblique::CHART,
+    kharaz::CHART,
+    rolling::CHART,
+    cantilever::CHART,
+    dashpots::CHART,
+    cohesion::CHART,
+    size_ratio::CHART,
+    features::CHART,
+];
 
 /// The chart of this name.
 pub fn named(name: &str) -> Option<&'static Chart> {

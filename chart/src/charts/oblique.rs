@@ -100,5 +100,5 @@ fn draw() -> Result<Drawing, ChartError> {
         let upwards = logarithmic("largest error of rebound over impact speed");
         Panel { only: Some(("case", case)), single: vec![DEFAULT], ..Panel::new(case, across, upwards, "series") }
     };
-    Ok(Drawing { table, picture: Picture { panels: CASES.map(panel).into() }, notes })
+    Ok(Drawing { table, picture: Picture { panels: CASES.map(panel).into(), ..Picture::default() }, notes })
 }

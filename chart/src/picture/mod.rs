@@ -3,10 +3,12 @@
 //! It is drawn as SVG: text that printers and journals take, and that shows in any browser. Series differ in their
 //! markers and dashes, so that they can be told apart without colour.
 
+mod bars;
 mod panel;
 mod scale;
 mod style;
 
+pub use bars::Bars;
 pub use scale::Scale;
 
 use crate::table::Table;
@@ -59,13 +61,15 @@ impl Panel {
 }
 
 /// Width of a panel with its legend \[px\].
-const WIDTH: f64 = 640.0;
+const WIDTH: f64 = 720.0;
 
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Its diagrams, from above to below.
     pub panels: Vec<Panel>,
+    /// Bars, below them.
+    pub bars: Vec<Bars>,
 }
 
 impl Picture {
@@ -73,8 +77,8 @@ impl Picture {
     pub fn draw(&self, table: &Table) -> String {
         let mut bodies = String::new();
         let mut height = 0.0;
-        for panel in &self.panels {
-            let (body, high) = panel::draw(panel, table, WIDTH);
+        let panels = self.panels.iter().map(|panel| panel::draw(panel, table, WIDTH));
+        for (body, high) in panels.chain(self.bars.iter().map(|bars| bars::draw(bars, table, WIDTH))) {
             write!(bodies, "<g transform=\"translate(0 {height})\">\n{body}</g>\n").expect("a text grows");
             height += high;
         }
@@ -91,6 +95,11 @@ impl Picture {
     }
 }
 
+/// Text that holds no markup.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Panel, Picture, linear, logarithmic};
@@ -102,7 +111,10 @@ mod tests {
         for (law, steps) in [("a < b", 10.0), ("a < b", 100.0), ("c & d", 10.0)] {
             table.push([law.into(), steps.into(), (1.0 / steps).into()]);
         }
-        let picture = Picture { panels: vec![Panel::new("title", linear("steps"), logarithmic("error"), "law")] };
+        let picture = Picture {
+            panels: vec![Panel::new("title", linear("steps"), logarithmic("error"), "law")],
+            ..Picture::default()
+        };
         let text = picture.draw(&table);
         assert!(text.contains("a &lt; b") && text.contains("c &amp; d"), "{text}");
         assert_eq!((text.matches("<polyline").count(), text.matches("<circle").count()), (2, 5), "{text}");

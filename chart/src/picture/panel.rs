@@ -2,7 +2,7 @@
 
 use super::scale::Ruler;
 use super::style::Style;
-use super::{Axis, Panel};
+use super::{Axis, Panel, escaped};
 use crate::table::Table;
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ const ORIGIN: [f64; 2] = [80.0, 34.0];
 const BELOW: f64 = 56.0;
 
 /// Width of the legend \[px\].
-const LEGEND: f64 = 205.0;
+const LEGEND: f64 = 285.0;
 
 /// From one line of the legend to the next \[px\].
 const LINE: f64 = 18.0;
@@ -162,9 +162,4 @@ impl Plot {
         }
         self
     }
-}
-
-/// Text that holds no markup.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,0 +1,196 @@
+//! A user's scene over the time step: how far its outputs are from those of a fine step, what it costs, and which setting suffices.
+
+use crate::ChartError;
+use crate::charts::Drawing;
+use crate::picture::{Panel, Picture, logarithmic};
+use crate::table::Table;
+use cograin::interface::{Interface, Quantity};
+use cograin::scene::{Scene, Setting, Step};
+use cograin::step::Simulation;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Time steps, over the stable one where the step is automatic, over the given one where it is given; the last one is what the
+/// others are held against.
+const AUTOMATIC: [f64; 6] = [0.8, 0.4, 0.2, 0.1, 0.05, 0.025];
+
+/// The same where the step is given.
+const GIVEN: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+
+/// Rows of outputs that are compared, where the scene does not say how often it writes them.
+const ROWS: f64 = 100.0;
+
+/// Wall time of the trial that tells what the chart costs \[s\].
+const TRIAL: f64 = 0.5;
+
+/// A user's scene that is to be charted.
+pub struct SceneChart {
+    /// The scene.
+    scene: Arc<Scene>,
+    /// Its end \[s\].
+    end: f64,
+    /// Time between compared outputs \[s\].
+    interval: f64,
+    /// Largest error that is wanted, over the largest value of each quantity.
+    wanted: f64,
+    /// What the chart costs, about \[s\].
+    pub seconds: f64,
+}
+
+/// A run at one step.
+struct Run {
+    /// Its step: the fraction, or the factor.
+    part: f64,
+    /// Time steps made.
+    steps: u64,
+    /// Wall time \[s\].
+    seconds: f64,
+    /// Outputs, row by row.
+    rows: Vec<Vec<f64>>,
+}
+
+impl SceneChart {
+    /// Reads a scene and finds out what its chart costs.
+    pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
+        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+        let end = scene.run.end.ok_or(ChartError::NoEnd)?;
+        let rows = (end / scene.output.history_interval.unwrap_or(end / ROWS)).ceil();
+        let mut chart = Self { scene: Arc::new(scene), end, interval: end / rows, wanted, seconds: 0.0 };
+        let mut simulation = Simulation::new(Arc::clone(&chart.scene))?;
+        let (begun, step) = (Instant::now(), simulation.state().clock.step);
+        let (mut made, mut each) = (0, f64::INFINITY);
+        while begun.elapsed().as_secs_f64() < TRIAL && simulation.time() < end {
+            simulation.advance((10.0 * step).min(end))?;
+            made += 10;
+            each = begun.elapsed().as_secs_f64() / f64::from(made);
+        }
+        let own = match chart.scene.run.step {
+            Step::Automatic { safety } => step / safety,
+            Step::Given(step) => step,
+        };
+        chart.seconds = chart.parts().iter().map(|part| end / (part * own) * each).sum();
+        Ok(chart)
+    }
+
+    /// The steps that are tried.
+    fn parts(&self) -> [f64; 6] {
+        match self.scene.run.step {
+            Step::Automatic { .. } => AUTOMATIC,
+            Step::Given(_) => GIVEN,
+        }
+    }
+
+    /// The scene at one of them.
+    fn at(&self, part: f64) -> Scene {
+        let mut scene = Scene::clone(&self.scene);
+        scene.run.step = match scene.run.step {
+            Step::Automatic { .. } => Step::Automatic { safety: part },
+            Step::Given(step) => Step::Given(part * step),
+        };
+        scene
+    }
+
+    /// Runs it.
+    fn run(&self, part: f64) -> Result<Run, ChartError> {
+        let mut simulation = Simulation::new(Arc::new(self.at(part)))?;
+        let interface = Interface::of(&self.scene);
+        let begun = Instant::now();
+        let mut rows = Vec::new();
+        for _ in 0..(self.end / self.interval).round() as u64 {
+            simulation.advance(self.interval)?;
+            rows.push(interface.outputs().map(|(index, _)| interface.value(&simulation, index).number()).collect());
+        }
+        let (steps, seconds) = (simulation.state().clock.steps, begun.elapsed().as_secs_f64());
+        Ok(Run { part, steps, seconds, rows })
+    }
+
+    /// Computes the chart.
+    pub fn draw(&self) -> Result<Drawing, ChartError> {
+        let [coarser @ .., finest] = self.parts();
+        let right = self.run(finest)?;
+        let word = match self.scene.run.step {
+            Step::Automatic { .. } => "safety",
+            Step::Given(_) => "given step times",
+        };
+        let mut table = Table::new(COLUMNS);
+        let mut notes = Vec::new();
+        let mut enough = [None, None];
+        for part in coarser {
+            let run = match self.run(part) {
+                Ok(run) => run,
+                Err(error) => {
+                    notes.push(format!("{word} {part}: {error}"));
+                    continue;
+                }
+            };
+            let worst = self.compare(&run, &right, &mut table);
+            notes.push(format!(
+                "{word} {part}: {} time steps, {:.2e} s, error {:.1e} at any moment, {:.1e} in the mean",
+                run.steps, run.seconds, worst[0], worst[1]
+            ));
+            for (enough, worst) in enough.iter_mut().zip(worst) {
+                if enough.is_none() && worst <= self.wanted {
+                    *enough = Some(part);
+                }
+            }
+        }
+        for (enough, when) in enough.into_iter().zip(["at any moment", "in the mean"]) {
+            let wanted = self.wanted;
+            notes.push(match enough {
+                Some(part) => format!("recommended for an error of {wanted} {when}: {word} {part}"),
+                None => {
+                    format!("an error of {wanted} {when} was not reached: a chaotic scene, or a finer step is needed")
+                }
+            });
+        }
+        let panel = |title: &str, column| Panel::new(title, logarithmic("time steps"), logarithmic(column), "quantity");
+        let panels = vec![
+            panel("outputs at any moment", "largest error over the largest value"),
+            panel("means of outputs over time", "error of the mean over the largest value"),
+        ];
+        Ok(Drawing { table, picture: Picture { panels, ..Picture::default() }, notes })
+    }
+
+    /// Adds how far a run is from the finest one, a row for each quantity. Returns the worst at any moment and in the mean.
+    fn compare(&self, run: &Run, right: &Run, table: &mut Table) -> [f64; 2] {
+        let interface = Interface::of(&self.scene);
+        let columns: Vec<(usize, Quantity)> =
+            interface.outputs().map(|(_, variable)| variable.quantity).enumerate().collect();
+        let mut kinds: Vec<Quantity> = columns.iter().map(|(_, quantity)| *quantity).collect();
+        kinds.sort();
+        kinds.dedup();
+        let mut worst = [0.0_f64; 2];
+        for kind in kinds.into_iter().filter(|kind| *kind != Quantity::Time) {
+            let own = || columns.iter().filter(|(_, quantity)| *quantity == kind).map(|(place, _)| *place);
+            let largest =
+                own().flat_map(|place| right.rows.iter().map(move |row| row[place].abs())).fold(0.0, f64::max);
+            if largest == 0.0 {
+                continue;
+            }
+            let (mut moment, mut mean) = (0.0_f64, 0.0_f64);
+            for place in own() {
+                let difference = |(a, b): (&Vec<f64>, &Vec<f64>)| a[place] - b[place];
+                let all = || run.rows.iter().zip(&right.rows).map(difference);
+                moment = all().map(f64::abs).fold(moment, f64::max);
+                mean = mean.max((all().sum::<f64>() / right.rows.len() as f64).abs());
+            }
+            let errors = [moment / largest, mean / largest];
+            worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
+            let (steps, seconds) = (run.steps as f64, run.seconds);
+            let [moment, mean] = errors;
+            table.push([kind.name().into(), run.part.into(), steps.into(), seconds.into(), moment.into(), mean.into()]);
+        }
+        worst
+    }
+}
+
+/// Columns of the table.
+const COLUMNS: [(&str, &str); 6] = [
+    ("quantity", ""),
+    ("part", "1"),
+    ("time steps", "1"),
+    ("wall time", "s"),
+    ("largest error over the largest value", "1"),
+    ("error of the mean over the largest value", "1"),
+];
