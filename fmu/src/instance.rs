@@ -8,11 +8,11 @@ use crate::refusal::Refusal;
 use crate::saved::{BlobError, Course, Saved};
 use crate::types::{Reference, Status};
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Findings, Interface, Value, Variable};
-use cograin::scene::{Scene, SceneErrors};
+use cograin::interface::{Causality, Findings, Interface, Value, Variable};
+use cograin::scene::{Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
-use cograin::step::{RunError, Simulation};
+use cograin::step::{Description, RunError, Simulation};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -85,6 +85,8 @@ pub(crate) struct Request {
 struct Unit {
     /// The scene.
     scene: Arc<Scene>,
+    /// Its text and files, from which it is read anew with other parameters.
+    source: Source,
     /// The state to begin in, if it is not the scene's own.
     start: Option<State>,
     /// The variables.
@@ -113,21 +115,46 @@ impl Unit {
         }
         let scene = Scene::from_source(&contents.source)?;
         let start = contents.state.map(|bytes| State::from_bytes(&bytes, scene.fingerprint)).transpose()?;
-        Ok(Self { interface: Interface::of(&scene), scene: Arc::new(scene), start, identity: expected })
+        let (interface, source) = (Interface::of(&scene), contents.source);
+        Ok(Self { interface, scene: Arc::new(scene), source, start, identity: expected })
     }
 
-    /// A simulation at its beginning.
-    fn begin(&self) -> Result<Simulation, StartError> {
-        match &self.start {
-            Some(state) => {
-                let resumed = Simulation::resume(Arc::clone(&self.scene), state.clone());
-                let mut simulation = resumed.map_err(SnapshotError::from)?;
-                simulation.open_books();
-                Ok(simulation)
-            }
-            None => Ok(Simulation::new(Arc::clone(&self.scene))?),
+    /// A simulation at its beginning, with these values of parameters.
+    fn begin(&self, given: Given) -> Result<Begun, StartError> {
+        if given.is_empty() {
+            let simulation = match &self.start {
+                Some(state) => {
+                    let resumed = Simulation::resume(Arc::clone(&self.scene), state.clone());
+                    let mut simulation = resumed.map_err(SnapshotError::from)?;
+                    simulation.open_books();
+                    simulation
+                }
+                None => Simulation::new(Arc::clone(&self.scene))?,
+            };
+            return Ok(Begun { simulation, start: self.start.clone(), given });
         }
+        let scene = Arc::new(self.interface.scene_with(&self.source, &given)?);
+        let Some(state) = &self.start else {
+            return Ok(Begun { simulation: Simulation::new(scene)?, start: None, given });
+        };
+        let from = Description::of(&self.scene, &self.source.name, state.clock.time);
+        let (simulation, _) = Simulation::taken_over(scene, state, &from)?;
+        Ok(Begun { start: Some(simulation.state().clone()), simulation, given })
     }
+}
+
+/// Values of parameters that were given before the start, by their places among the variables; those of the scene
+/// itself are left out.
+pub(crate) type Given = BTreeMap<usize, f64>;
+
+/// A simulation and what it began with.
+struct Begun {
+    /// The scene in motion.
+    simulation: Simulation,
+    /// The state that it began in, if it was not the scene's own.
+    start: Option<State>,
+    /// The parameters it was made with.
+    given: Given,
 }
 
 /// A saved state, and its bytes once they were asked for.
@@ -144,6 +171,12 @@ pub(crate) struct Instance {
     unit: Unit,
     /// The scene in motion.
     simulation: Simulation,
+    /// The state that it began in, if it was not the scene's own.
+    start: Option<State>,
+    /// The parameters it was made with.
+    made_with: Given,
+    /// The parameters it is to be made with.
+    given: Given,
     /// What changes beside it.
     course: Course,
     /// Saved states, by the numbers that the host knows them by.
@@ -160,12 +193,15 @@ impl Instance {
     /// An instance as the host asks for it.
     pub(crate) fn new(request: &Request) -> Result<Self, StartError> {
         let unit = Unit::read(request)?;
-        let simulation = unit.begin()?;
+        let Begun { simulation, start, given } = unit.begin(Given::new())?;
         let course = Self::at_the_beginning(&simulation);
         let stop = Arc::<AtomicBool>::default();
         let mut instance = Self {
             unit,
             simulation,
+            start,
+            made_with: given.clone(),
+            given,
             course,
             kept: BTreeMap::new(),
             findings: Findings::default(),
@@ -248,18 +284,37 @@ impl Instance {
 
     /// `fmi2Reset`. Saved states stay.
     pub(crate) fn reset(&mut self) -> Result<(), Refusal> {
-        self.simulation = self.unit.begin().map_err(|error| Refusal::Reset { error: error.to_string() })?;
+        let begun = self.unit.begin(Given::new()).map_err(|error| Refusal::Reset { error: error.to_string() })?;
+        self.given.clear();
+        self.take(begun);
+        self.course = Self::at_the_beginning(&self.simulation);
+        Ok(())
+    }
+
+    /// Goes on with another simulation.
+    fn take(&mut self, Begun { simulation, start, given }: Begun) {
+        (self.simulation, self.start, self.made_with) = (simulation, start, given);
         self.simulation.stop_when(&self.stop);
         self.findings = Findings::default();
-        self.course = Self::at_the_beginning(&self.simulation);
+    }
+
+    /// Makes the simulation anew where other parameters were given than it was made with.
+    fn make(&mut self) -> Result<(), Refusal> {
+        if self.given != self.made_with {
+            let begun = self.unit.begin(self.given.clone());
+            let mut begun = begun.map_err(|error| Refusal::Parameters { error: error.to_string() })?;
+            begun.simulation.take_inputs(&self.simulation);
+            self.take(begun);
+        }
         Ok(())
     }
 
     /// Takes the boundaries to the start values of the inputs, without motion.
     fn place(&mut self) -> Result<(), Refusal> {
         if !self.course.placed {
+            self.make()?;
             self.findings = Findings::default();
-            self.simulation.place(self.unit.start.as_ref()).map_err(Refusal::Start)?;
+            self.simulation.place(self.start.as_ref()).map_err(Refusal::Start)?;
             self.course.placed = true;
         }
         Ok(())
@@ -303,19 +358,45 @@ impl Instance {
         }
     }
 
-    /// `fmi2SetReal`: all or nothing.
-    pub(crate) fn set_reals(&mut self, references: Items<Reference>, values: Items<f64>) -> Result<(), Refusal> {
+    /// `fmi2SetReal` and `fmi2SetInteger`: all or nothing.
+    pub(crate) fn set<T: Copy + Into<f64>>(
+        &mut self,
+        references: Items<Reference>,
+        values: Items<T>,
+        kind: &'static str,
+    ) -> Result<(), Refusal> {
+        let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
+        let mut tuned = Vec::new();
         for (reference, value) in references.iter().zip(values.iter()) {
-            let (index, _) = self.variable(reference, "Real")?;
-            self.unit.interface.check(index, value)?;
-        }
-        for (reference, value) in references.iter().zip(values.iter()) {
-            self.unit.interface.set(&mut self.simulation, reference as usize, Value::Real(value))?;
-            if matches!(self.course.phase, Phase::Instantiated | Phase::Initialization) {
-                self.course.placed = false;
+            let (index, variable) = self.variable(reference, kind)?;
+            self.unit.interface.check(index, value.into())?;
+            if variable.causality == Causality::Parameter && !starting {
+                tuned.push((index, value.into()));
             }
         }
+        if !tuned.is_empty() {
+            self.unit.interface.tune(&mut self.simulation, &tuned)?;
+            self.findings = Findings::default();
+        }
+        for (reference, value) in references.iter().zip(values.iter()) {
+            let (index, value) = (reference as usize, value.into());
+            if starting {
+                self.course.placed = false;
+                self.give(index, value);
+            }
+            self.unit.interface.set(&mut self.simulation, index, Value::Real(value))?;
+        }
         Ok(())
+    }
+
+    /// Notes the value of a parameter that the simulation is to be made with.
+    fn give(&mut self, index: usize, value: f64) {
+        let variable = &self.unit.interface.variables()[index];
+        if variable.start == Some(value) {
+            self.given.remove(&index);
+        } else if variable.causality == Causality::Parameter {
+            self.given.insert(index, value);
+        }
     }
 
     /// The other setters: there are no inputs of these types, so every reference is a wrong one.
@@ -339,7 +420,7 @@ impl Instance {
             if order != 1 {
                 return Err(Refusal::Order { order, reference, name: variable.name.clone() });
             }
-            self.unit.interface.check(index, rate)?;
+            self.unit.interface.check_rate(index, rate)?;
         }
         for (reference, rate) in references.iter().zip(rates.iter()) {
             self.unit.interface.set_rate(&mut self.simulation, reference as usize, rate)?;
@@ -390,7 +471,9 @@ impl Instance {
         if address != 0 && !self.kept.contains_key(&address) {
             return Err(Refusal::Handle);
         }
-        let saved = Saved { state: self.simulation.state().clone(), course: self.course };
+        self.make()?;
+        let (state, given) = (self.simulation.state().clone(), self.made_with.clone());
+        let saved = Saved { state, course: self.course, given };
         Ok(self.keep(saved, address))
     }
 
@@ -407,10 +490,19 @@ impl Instance {
 
     /// `fmi2SetFMUstate`
     pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
-        let kept = self.kept.get(&address).ok_or(Refusal::Handle)?;
+        let Kept { saved, .. } = self.kept.get(&address).ok_or(Refusal::Handle)?;
+        let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(saved)?) };
+        let simulation = other.as_ref().map_or(&self.simulation, |begun| &begun.simulation);
+        simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
+        let course = saved.course;
+        if let Some(begun) = other {
+            self.given.clone_from(&begun.given);
+            self.take(begun);
+        }
+        self.given.clone_from(&self.made_with);
         self.findings = Findings::default();
-        self.simulation.restore(&kept.saved.state).map_err(|fault| BlobError::State(fault.into()))?;
-        self.course = kept.saved.course;
+        self.simulation.restore(&self.kept[&address].saved.state).map_err(|fault| BlobError::State(fault.into()))?;
+        self.course = course;
         Ok(())
     }
 
@@ -455,7 +547,17 @@ impl Instance {
             return Err(Refusal::Handle);
         }
         let saved = Saved::from_bytes(bytes, &self.unit.identity, self.unit.scene.fingerprint)?;
-        self.simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
+        for (&index, &value) in &saved.given {
+            self.unit.interface.check(index, value)?;
+        }
+        let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(&saved)?) };
+        let simulation = other.as_ref().map_or(&self.simulation, |begun| &begun.simulation);
+        simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
         Ok(self.keep(saved, address))
+    }
+
+    /// A simulation with the parameters of a saved state.
+    fn made_with_those_of(&self, saved: &Saved) -> Result<Begun, Refusal> {
+        self.unit.begin(saved.given.clone()).map_err(|error| Refusal::Parameters { error: error.to_string() })
     }
 }

@@ -155,6 +155,12 @@ pub(crate) enum Refusal {
     /// The scene cannot start so.
     #[error(transparent)]
     Start(RunError),
+    /// The parameters make no scene.
+    #[error("{error}")]
+    Parameters {
+        /// Why, in the words of the scene's mistakes.
+        error: String,
+    },
     /// The unit does not begin anew.
     #[error("{error}")]
     Reset {

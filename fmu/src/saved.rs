@@ -1,6 +1,7 @@
 //! Saved states of an instance, and their bytes.
 
 use crate::calls::Phase;
+use crate::instance::Given;
 use crate::types::Status;
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
@@ -13,6 +14,8 @@ pub(crate) struct Saved {
     pub(crate) state: State,
     /// What else there is.
     pub(crate) course: Course,
+    /// The parameters that the simulation was made with.
+    pub(crate) given: Given,
 }
 
 /// What changes beside the simulation.
@@ -33,7 +36,7 @@ pub(crate) struct Course {
 /// What the bytes start with.
 const MAGIC: &[u8; 8] = b"cogunit\0";
 /// Version of the layout.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Length of what stands before the state: magic, version, checksum, three bytes, origin, stop, length of the GUID.
 const HEADER: usize = 8 + 4 + 8 + 3 + 8 + 8 + 4;
 /// Where the part begins that the checksum covers.
@@ -83,6 +86,11 @@ impl Saved {
         // a GUID is some 36 bytes
         bytes.extend_from_slice(&u32::try_from(identity.len()).unwrap_or(u32::MAX).to_le_bytes());
         bytes.extend_from_slice(identity.as_bytes());
+        bytes.extend_from_slice(&(self.given.len() as u64).to_le_bytes());
+        for (&index, value) in &self.given {
+            bytes.extend_from_slice(&(index as u64).to_le_bytes());
+            bytes.extend_from_slice(&value.to_le_bytes());
+        }
         bytes.extend_from_slice(&state);
         let checksum = xxh3_64(&bytes[CHECKED..]).to_le_bytes();
         bytes[CHECKED - 8..CHECKED].copy_from_slice(&checksum);
@@ -122,7 +130,12 @@ impl Saved {
             origin,
             stop: stop.is_finite().then_some(stop),
         };
-        Ok(Self { state: State::from_bytes(&reader.bytes[length..], scene_fingerprint)?, course })
+        reader.bytes = &reader.bytes[length..];
+        let mut given = Given::new();
+        for _ in 0..u64::from_le_bytes(reader.take()?) {
+            given.insert(u64::from_le_bytes(reader.take()?) as usize, f64::from_le_bytes(reader.take()?));
+        }
+        Ok(Self { state: State::from_bytes(reader.bytes, scene_fingerprint)?, course, given })
     }
 }
 

@@ -96,7 +96,7 @@ pub unsafe extern "C" fn fmi2SetReal(
         // SAFETY: demands of FMI 2.0.
         let (references, values) =
             unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
-        instance.set_reals(references, values)
+        instance.set(references, values, "Real")
     })
 }
 
@@ -120,7 +120,7 @@ unsafe fn refuse_to_set<T: Copy>(
     })
 }
 
-/// `fmi2SetInteger`: there are no such inputs.
+/// `fmi2SetInteger`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetInteger(
     component: Component,
@@ -128,8 +128,12 @@ pub unsafe extern "C" fn fmi2SetInteger(
     count: usize,
     values: *const c_int,
 ) -> Status {
-    // SAFETY: demands of FMI 2.0.
-    unsafe { refuse_to_set(component, &calls::SET_INTEGER, "Integer", (references, count, values)) }
+    call(component, &calls::SET_INTEGER, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, values) =
+            unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
+        instance.set(references, values, "Integer")
+    })
 }
 
 /// `fmi2SetBoolean`: there are no such inputs.

@@ -4,6 +4,7 @@ mod cost;
 mod environment;
 mod host;
 mod order;
+mod parameters;
 mod refusals;
 mod starting;
 mod states;

@@ -49,7 +49,7 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
     let force = unit.reference("floor.force.z");
-    let right = format!("fmi2SetReal: {force} is an output (floor.force.z); only inputs may be set");
+    let right = format!("fmi2SetReal: {force} is an output (floor.force.z); only inputs and parameters may be set");
     host.refused(host.set("floor.force.z", 1.0), &[&right]);
 
     let count = unit.reference("contacts.count");
@@ -61,7 +61,7 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
         let status = fmi2GetInteger(host.component, &raw const force, 1, &raw mut integer);
         host.refused(status, &["floor.force.z", "is Real", "type Integer"]);
         let status = fmi2SetInteger(host.component, &raw const count, 1, &raw const integers);
-        host.refused(status, &["contacts.count", "only inputs may be set"]);
+        host.refused(status, &["contacts.count", "only inputs and parameters may be set"]);
         let status = fmi2GetBoolean(host.component, &raw const force, 1, &raw mut integer);
         host.refused(status, &["type Boolean"]);
         let status = fmi2SetBoolean(host.component, &raw const force, 1, &raw const integers);
@@ -85,7 +85,7 @@ fn only_first_derivatives_are_taken() {
         fmi2SetRealInputDerivatives(host.component, &raw const reference, 1, &raw const order, &raw const rate)
     };
     host.refused(status, &["order 2", "floor.displacement.z", "order 1 is right"]);
-    host.refused(host.set_rate("floor.force.z", 0.1), &["only inputs may be set"]);
+    host.refused(host.set_rate("floor.force.z", 0.1), &["only inputs and parameters may be set"]);
 }
 
 #[test]

@@ -120,25 +120,29 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> 
     let causality = match variable.causality {
         Causality::Input => "input",
         Causality::Output => "output",
+        Causality::Parameter => "parameter",
     };
     let variability = match variable.variability {
         Variability::Constant => "constant",
+        Variability::Fixed => "fixed",
+        Variability::Tunable => "tunable",
         Variability::Discrete => "discrete",
         Variability::Continuous => "continuous",
     };
     let initial = match (variable.causality, variable.start) {
         (Causality::Input, _) => None,
-        (Causality::Output, Some(_)) => Some(("initial", "exact")),
+        (Causality::Parameter, _) | (Causality::Output, Some(_)) => Some(("initial", "exact")),
         (Causality::Output, None) => Some(("initial", "calculated")),
     };
     let (kind, integer) = if variable.quantity.unit().is_some() { ("Real", false) } else { ("Integer", true) };
     let number = |value: f64| if integer { format!("{value:.0}") } else { format!("{value:?}") };
     let start = variable.start.map(number);
-    let minimum = variable.minimum.map(number);
+    let [minimum, maximum] = [variable.minimum, variable.maximum].map(|bound| bound.map(number));
     let of_type = [
         Some(("quantity", variable.quantity.name())),
         variable.quantity.unit().map(|unit| ("unit", unit)),
         minimum.as_ref().map(|minimum| ("min", minimum.as_str())),
+        maximum.as_ref().map(|maximum| ("max", maximum.as_str())),
         start.as_ref().map(|start| ("start", start.as_str())),
     ];
     xml.create_element("ScalarVariable")
@@ -157,16 +161,25 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> 
     Ok(())
 }
 
-/// `ModelStructure`. Setting an input changes no output before the next step; at the start it moves the boundary.
+/// Places of variables in the list, from 1.
+fn places<'a>(variables: impl Iterator<Item = (usize, &'a Variable)>) -> String {
+    variables.map(|(index, _)| (index + 1).to_string()).collect::<Vec<_>>().join(" ")
+}
+
+/// `ModelStructure`. Setting an input changes no output before the next step; at the start it moves the boundary. What
+/// the unit is made of, the parameters, decides all that is calculated at the start.
 fn structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
-    let inputs: Vec<String> = interface.inputs().map(|(index, _)| (index + 1).to_string()).collect();
-    let inputs = inputs.join(" ");
+    let parameters = places(interface.of_causality(Causality::Parameter));
+    let given = places(interface.inputs().chain(interface.of_causality(Causality::Parameter)));
     let outputs: Vec<(String, &str)> = interface.outputs().map(|(index, _)| ((index + 1).to_string(), "")).collect();
     let initial: Vec<(String, &str)> = interface
         .outputs()
         .filter(|(_, variable)| variable.start.is_none())
         .map(|(index, variable)| {
-            ((index + 1).to_string(), if variable.follows_inputs_at_start { inputs.as_str() } else { "" })
+            (
+                (index + 1).to_string(),
+                if variable.follows_inputs_at_start { given.as_str() } else { parameters.as_str() },
+            )
         })
         .collect();
     xml.create_element("ModelStructure").write_inner_content(|xml| {

@@ -12,6 +12,7 @@ pub(super) fn write(model: &Model<'_>) -> String {
         let causality = match variable.causality {
             Causality::Input => "input",
             Causality::Output => "output",
+            Causality::Parameter => "parameter",
         };
         // writing to a string does not fail
         let _ = writeln!(

@@ -174,7 +174,7 @@ fn the_table_and_the_description_list_the_same_variables() {
         assert!(element.get("variability").is_some(), "{}: the default would be continuous", variable.name);
         let initial = match (variable.causality, variable.start) {
             (Causality::Input, _) => None,
-            (Causality::Output, Some(_)) => Some("exact"),
+            (Causality::Output, Some(_)) | (Causality::Parameter, _) => Some("exact"),
             (Causality::Output, None) => Some("calculated"),
         };
         assert_eq!(element.get("initial"), initial, "{}", variable.name);
@@ -223,10 +223,11 @@ fn the_structure_counts_from_one_and_knows_what_the_start_depends_on() {
         let unknown = below(&elements, list, "Unknown").into_iter().find(|it| it.get("index") == Some(place.as_str()));
         unknown.unwrap().get("dependencies").unwrap().to_owned()
     };
-    let inputs = format!("{} {}", place("floor.displacement.x"), place("floor.displacement.z"));
+    let parameters = positions(&|it| it.get("causality") == Some("parameter")).join(" ");
+    let given = format!("{} {} {parameters}", place("floor.displacement.x"), place("floor.displacement.z"));
     assert_eq!(dependencies("Outputs", "floor.force.z"), "");
-    assert_eq!(dependencies("InitialUnknowns", "floor.force.z"), inputs);
-    assert_eq!(dependencies("InitialUnknowns", "floor.work"), "");
+    assert_eq!(dependencies("InitialUnknowns", "floor.force.z"), given);
+    assert_eq!(dependencies("InitialUnknowns", "floor.work"), parameters);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use super::walls::PlanePass;
 use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::run_error::RunError;
+use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
 use crate::threads::Context;
@@ -37,6 +38,9 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Takes over the coefficients of contact laws that a state has.
     fn take_coefficients(&mut self, _state: &State) {}
+
+    /// Takes over the strengths of bonds that a state has.
+    fn take_strengths(&mut self, _scene: &Scene, _state: &State) {}
 
     /// Whether its part of a state from outside has the columns that the law trusts. Slots, order and finite numbers have
     /// been looked at.

@@ -210,6 +210,12 @@ impl Work<'_> {
 }
 
 impl Pass for WallBondPass {
+    fn take_strengths(&mut self, scene: &Scene, state: &State) {
+        if let Ok(law) = scene.tuned_law(self.index, &state.tuned) {
+            self.law = law;
+        }
+    }
+
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let count = state.bonds[self.index].first.len();
         let pairs: Vec<Pair> = (0..count).map(|bond| self.pair(state, bond)).collect();

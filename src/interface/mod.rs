@@ -4,16 +4,19 @@
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
 mod findings;
+mod parameters;
 mod quantity;
 mod rows;
 
 pub use findings::Findings;
 pub use quantity::Quantity;
 
-use crate::scene::Scene;
+use crate::scene::{self, Scene, SceneErrors};
 use crate::state::State;
-use crate::step::Simulation;
+use crate::step::{Simulation, TuneError};
+use parameters::Parameter;
 use rows::Present;
+use std::collections::BTreeMap;
 
 /// Whether a variable is given from outside or computed here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +25,8 @@ pub enum Causality {
     Input,
     /// Computed here.
     Output,
+    /// Given from outside before the start or, where it is tunable, between communication steps.
+    Parameter,
 }
 
 /// When a variable changes.
@@ -29,6 +34,10 @@ pub enum Causality {
 pub enum Variability {
     /// Never.
     Constant,
+    /// Not after the initialisation.
+    Fixed,
+    /// When it is set between communication steps.
+    Tunable,
     /// From one communication step to the next, in jumps.
     Discrete,
     /// At any time.
@@ -81,10 +90,21 @@ pub struct Variable {
     pub start: Option<f64>,
     /// Its lower bound, where nature sets one.
     pub minimum: Option<f64>,
+    /// Its upper bound, likewise.
+    pub maximum: Option<f64>,
     /// Whether its value at the start follows from the start values of the inputs.
     pub follows_inputs_at_start: bool,
     /// How it is read and written.
-    source: rows::Source,
+    source: Source,
+}
+
+/// Where a variable comes from.
+#[derive(Clone, Debug, PartialEq)]
+enum Source {
+    /// A row of the table.
+    Row(rows::Source),
+    /// The parameter of the scene with this place.
+    Parameter(Parameter),
 }
 
 /// Why a variable was not set.
@@ -98,14 +118,43 @@ pub enum InterfaceError {
         /// The last index there is.
         last: usize,
     },
-    /// It is not an input.
-    #[error("{index} is an output ({name}); only inputs may be set")]
+    /// It is neither input nor parameter.
+    #[error("{index} is an output ({name}); only inputs and parameters may be set")]
     Output {
         /// Its index.
         index: usize,
         /// Its name.
         name: String,
     },
+    /// A parameter does not take the value.
+    #[error("{index} ({name}): {refusal}")]
+    Range {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// What was found and what would be right, as the scene says it.
+        refusal: String,
+    },
+    /// A parameter is no input.
+    #[error("{index} is a parameter ({name}); only inputs have rates")]
+    NoRate {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A parameter that is fixed by now.
+    #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
+    Fixed {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// Tunable parameters that do not go together.
+    #[error(transparent)]
+    Tune(#[from] TuneError),
     /// The value is no number.
     #[error("{value} for {index} ({name}); a finite number is right")]
     NotFinite {
@@ -128,14 +177,16 @@ pub struct Interface {
 impl Interface {
     /// The variables of a scene.
     pub fn of(scene: &Scene) -> Self {
-        Self { variables: rows::variables(scene) }
+        let mut variables = rows::variables(scene);
+        variables.extend(parameters::variables(scene));
+        Self { variables }
     }
 
     /// The same variables, with the start values of a scene that begins in this state.
     pub fn starting_in(mut self, state: &State) -> Self {
         for variable in &mut self.variables {
-            if let Some(write) = variable.source.row.write {
-                variable.start = Some((write.held)(state, variable.source.at));
+            if let Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) = variable.source {
+                variable.start = Some((write.held)(state, at));
             }
         }
         self
@@ -179,8 +230,10 @@ impl Interface {
 
     /// The same, where several values are asked for: what was found for one serves the others.
     pub fn value_with(&self, simulation: &Simulation, findings: &Findings, index: usize) -> Value {
-        let rows::Source { row, at } = self.variables[index].source;
-        (row.read)(Present { simulation, findings }, at)
+        match &self.variables[index].source {
+            Source::Row(rows::Source { row, at }) => (row.read)(Present { simulation, findings }, *at),
+            Source::Parameter(parameter) => parameter.value(simulation),
+        }
     }
 
     /// Whether the variable at an index may be set to a value.
@@ -188,6 +241,11 @@ impl Interface {
         let variable = self.variable(index)?;
         if variable.causality == Causality::Output {
             return Err(InterfaceError::Output { index, name: variable.name.clone() });
+        }
+        if let Source::Parameter(parameter) = &variable.source
+            && let Err(refusal) = parameter.range.check(value)
+        {
+            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
         }
         if !value.is_finite() {
             return Err(InterfaceError::NotFinite { index, name: variable.name.clone(), value });
@@ -198,19 +256,50 @@ impl Interface {
     /// Sets an input; it takes effect in the next communication step.
     pub fn set(&self, simulation: &mut Simulation, index: usize, value: Value) -> Result<(), InterfaceError> {
         self.check(index, value.number())?;
-        let rows::Source { row, at } = self.variables[index].source;
-        if let Some(write) = row.write {
+        if let Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) =
+            self.variables[index].source
+        {
             (write.set)(simulation, at, value.number());
         }
         Ok(())
     }
 
+    /// Sets tunable parameters between communication steps, all or none. Others than tunable parameters are left out.
+    pub fn tune(&self, simulation: &mut Simulation, values: &[(usize, f64)]) -> Result<(), InterfaceError> {
+        let mut changes = Vec::new();
+        for &(index, value) in values {
+            self.check(index, value)?;
+            if let Source::Parameter(parameter) = &self.variables[index].source {
+                let name = || self.variables[index].name.clone();
+                let place = parameter.tunable.ok_or_else(|| InterfaceError::Fixed { index, name: name() })?;
+                changes.push((place, value));
+            }
+        }
+        if changes.is_empty() { Ok(()) } else { Ok(simulation.tune(&changes)?) }
+    }
+
+    /// The scene of this source with these values of parameters, by index.
+    pub fn scene_with(&self, source: &scene::Source, values: &BTreeMap<usize, f64>) -> Result<Scene, SceneErrors> {
+        let named = values.iter().map(|(&index, &value)| (self.variables[index].name.as_str(), value));
+        Scene::with_parameters(source, named)
+    }
+
+    /// Whether the variable at an index may be given a rate.
+    pub fn check_rate(&self, index: usize, rate: f64) -> Result<(), InterfaceError> {
+        let variable = self.variable(index)?;
+        match variable.causality {
+            Causality::Parameter => Err(InterfaceError::NoRate { index, name: variable.name.clone() }),
+            Causality::Input | Causality::Output => self.check(index, rate),
+        }
+    }
+
     /// Sets the rate of an input: in the next communication step it goes on from its value at this rate
     /// \[unit of the input/s\].
     pub fn set_rate(&self, simulation: &mut Simulation, index: usize, rate: f64) -> Result<(), InterfaceError> {
-        self.check(index, rate)?;
-        let rows::Source { row, at } = self.variables[index].source;
-        if let Some(write) = row.write {
+        self.check_rate(index, rate)?;
+        if let Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) =
+            self.variables[index].source
+        {
             (write.set_rate)(simulation, at, rate);
         }
         Ok(())

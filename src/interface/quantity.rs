@@ -1,32 +1,5 @@
 //! What variables measure, and their units.
 
-/// What a variable measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
-    /// \[m\]
-    Length,
-    /// \[m/s\]
-    Velocity,
-    /// \[rad\]
-    Angle,
-    /// \[rad/s\]
-    AngularVelocity,
-    /// \[N\]
-    Force,
-    /// Moment of forces \[N m\]
-    Torque,
-    /// \[J\]
-    Energy,
-    /// \[kg\]
-    Mass,
-    /// \[s\]
-    Time,
-    /// One length over another \[1\]
-    Ratio,
-    /// A whole number of things
-    Count,
-}
-
 /// Exponents of the SI base units in a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BaseUnits {
@@ -40,54 +13,87 @@ pub struct BaseUnits {
     pub radian: i32,
 }
 
+/// Declares the quantities: name, symbol of the unit, exponents of kilogram, metre, second and radian.
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident $unit:expr, $kilogram:literal $metre:literal $second:literal $radian:literal;)+) => {
+        /// What a variable measures.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Quantity {
+            $($(#[$doc])* $name,)+
+        }
+
+        impl Quantity {
+            /// All of them.
+            const ALL: &'static [Self] = &[$(Self::$name),+];
+
+            /// Its name.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$name => stringify!($name),)+ }
+            }
+
+            /// Symbol of its unit; none for a count, which is an integer.
+            pub fn unit(self) -> Option<&'static str> {
+                match self { $(Self::$name => $unit,)+ }
+            }
+
+            /// Its unit in SI base units.
+            pub fn base_units(self) -> BaseUnits {
+                let (kilogram, metre, second, radian) =
+                    match self { $(Self::$name => ($kilogram, $metre, $second, $radian),)+ };
+                BaseUnits { kilogram, metre, second, radian }
+            }
+        }
+    };
+}
+
+quantities! {
+    /// \[m\]
+    Length Some("m"), 0 1 0 0;
+    /// \[m/s\]
+    Velocity Some("m/s"), 0 1 -1 0;
+    /// \[rad\]
+    Angle Some("rad"), 0 0 0 1;
+    /// \[rad/s\]
+    AngularVelocity Some("rad/s"), 0 0 -1 1;
+    /// \[N\]
+    Force Some("N"), 1 1 -2 0;
+    /// Moment of forces \[N m\]
+    Torque Some("N.m"), 1 2 -2 0;
+    /// \[J\]
+    Energy Some("J"), 1 2 -2 0;
+    /// \[kg\]
+    Mass Some("kg"), 1 0 0 0;
+    /// \[s\]
+    Time Some("s"), 0 0 1 0;
+    /// One length over another \[1\]
+    Ratio Some("1"), 0 0 0 0;
+    /// \[kg/m³\]
+    Density Some("kg/m3"), 1 -3 0 0;
+    /// \[Pa\]
+    Pressure Some("Pa"), 1 -1 -2 0;
+    /// Force over length \[N/m\]
+    Stiffness Some("N/m"), 1 0 -2 0;
+    /// Pressure over length \[Pa/m\]
+    StiffnessPerArea Some("Pa/m"), 1 -2 -2 0;
+    /// Energy over volume \[J/m³\]
+    EnergyDensity Some("J/m3"), 1 -1 -2 0;
+    /// Energy over area \[J/m²\]
+    SurfaceEnergy Some("J/m2"), 1 0 -2 0;
+    /// Viscosity of a fluid \[Pa s\]
+    Viscosity Some("Pa.s"), 1 -1 -1 0;
+    /// Force over velocity \[kg/s\]
+    Damping Some("kg/s"), 1 0 -1 0;
+    /// Force over velocity and mass \[1/s\]
+    DampingRate Some("1/s"), 0 0 -1 0;
+    /// Force over velocity, mass and length \[1/(m s)\]
+    DampingRatePerLength Some("1/(m.s)"), 0 -1 -1 0;
+    /// A whole number of things
+    Count None, 0 0 0 0;
+}
+
 impl Quantity {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Length => "Length",
-            Self::Velocity => "Velocity",
-            Self::Angle => "Angle",
-            Self::AngularVelocity => "AngularVelocity",
-            Self::Force => "Force",
-            Self::Torque => "Torque",
-            Self::Energy => "Energy",
-            Self::Mass => "Mass",
-            Self::Time => "Time",
-            Self::Ratio => "Ratio",
-            Self::Count => "Count",
-        }
-    }
-
-    /// Symbol of its unit; none for a count, which is an integer.
-    pub fn unit(self) -> Option<&'static str> {
-        match self {
-            Self::Length => Some("m"),
-            Self::Velocity => Some("m/s"),
-            Self::Angle => Some("rad"),
-            Self::AngularVelocity => Some("rad/s"),
-            Self::Force => Some("N"),
-            Self::Torque => Some("N.m"),
-            Self::Energy => Some("J"),
-            Self::Mass => Some("kg"),
-            Self::Time => Some("s"),
-            Self::Ratio => Some("1"),
-            Self::Count => None,
-        }
-    }
-
-    /// Its unit in SI base units.
-    pub fn base_units(self) -> BaseUnits {
-        let (kilogram, metre, second, radian) = match self {
-            Self::Length => (0, 1, 0, 0),
-            Self::Velocity => (0, 1, -1, 0),
-            Self::Angle => (0, 0, 0, 1),
-            Self::AngularVelocity => (0, 0, -1, 1),
-            Self::Force => (1, 1, -2, 0),
-            Self::Torque | Self::Energy => (1, 2, -2, 0),
-            Self::Mass => (1, 0, 0, 0),
-            Self::Time => (0, 0, 1, 0),
-            Self::Ratio | Self::Count => (0, 0, 0, 0),
-        };
-        BaseUnits { kilogram, metre, second, radian }
+    /// That of a parameter with this unit; a whole number without one.
+    pub(super) fn of_unit(unit: Option<&str>) -> Self {
+        Self::ALL.iter().copied().find(|quantity| quantity.unit() == unit).unwrap_or(Self::Ratio)
     }
 }

@@ -464,8 +464,9 @@ impl Source {
                 None => row.constant.map(|constant| constant(scene, at)),
             },
             minimum: row.minimum,
+            maximum: None,
             follows_inputs_at_start: row.follows_inputs_at_start && row.write.is_none(),
-            source: self,
+            source: super::Source::Row(self),
         }
     }
 }

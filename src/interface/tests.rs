@@ -114,7 +114,7 @@ fn setting_an_output_or_no_number_is_refused_by_name() {
     let interface = Interface::of(&scene());
     let force = interface.find("floor.force.z").expect("the floor has a force");
     let message = interface.check(force, 1.0).unwrap_err().to_string();
-    assert_eq!(message, format!("{force} is an output (floor.force.z); only inputs may be set"));
+    assert_eq!(message, format!("{force} is an output (floor.force.z); only inputs and parameters may be set"));
     let message = interface.check(0, f64::NAN).unwrap_err().to_string();
     assert_eq!(message, "NaN for 0 (floor.displacement.z); a finite number is right");
     let count = interface.variables().len();

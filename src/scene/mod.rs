@@ -4,6 +4,7 @@
 //! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
 
 mod body;
+mod parameters;
 mod source;
 
 pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
@@ -11,6 +12,8 @@ pub use crate::motion::{AxisMotion, InputCourse};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
 pub use body::Body;
+pub(crate) use parameters::range_of;
+pub use parameters::{Parameter, Range};
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;
@@ -51,6 +54,8 @@ pub struct Scene {
     pub domain: Option<[[f64; 3]; 2]>,
     /// What a run writes.
     pub output: Output,
+    /// Numbers of the text that a unit shows as its parameters; none in a scene built in code.
+    pub parameters: Vec<Parameter>,
     /// Of the text, every file it names and the program's version; 0 for a scene built in code.
     pub fingerprint: u64,
 }

@@ -1,6 +1,7 @@
 //! The scene file: its tables, how they are read, and the checks across tables that make of them a [`Scene`].
 
 mod check;
+mod parameters;
 mod tables;
 
 use crate::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
@@ -51,6 +52,13 @@ impl Scene {
             }
         }
         check::scene(source, &document, faults, tell)
+    }
+
+    /// Reads a scene from its source alone, with some values set from outside.
+    pub fn from_source_with(source: &Source, settings: &[Setting]) -> Result<Self, SceneErrors> {
+        let mut changed = Source::clone(source);
+        let changes = document::apply(&mut changed.text, settings);
+        Self::from_source(&changed).map_err(|errors| changes.told(&source.name, errors))
     }
 
     /// Reads a scene from its source alone.

@@ -114,6 +114,7 @@ impl State {
         for rows in &self.coefficients {
             demand_all(rows.iter().map(|number| !number.is_nan()), "coefficients", "numbers")?;
         }
+        demand(self.tuned.len() == other.tuned.len(), "tuned", self.tuned.len(), same)?;
         for list in &self.contacts {
             list.check(&self.neighbours.slabs)?;
         }

@@ -47,6 +47,9 @@ pub struct State {
     /// Coefficients of each contact law: a row for each two materials, row by row; zeros where it does not govern them.
     #[serde(with = "plain::lists")]
     pub coefficients: Vec<Vec<f64>>,
+    /// Values of the tunable parameters, in the order of the scene's.
+    #[serde(with = "plain")]
+    pub tuned: Vec<f64>,
     /// Near pairs of particles and their springs, a list for each contact law.
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
@@ -73,6 +76,7 @@ clone_in_place!(State {
     particles,
     neighbours,
     coefficients,
+    tuned,
     contacts,
     walls,
     hidden,

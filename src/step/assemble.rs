@@ -28,6 +28,7 @@ pub(super) fn state(scene: &Scene) -> State {
         foresight: Foresight::default(),
         neighbours: lists,
         coefficients: scene.contacts.iter().map(|law| coefficients::rows(law, scene)).collect(),
+        tuned: scene.tunables().map(|parameter| parameter.value).collect(),
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
         hidden: Hidden::default(),

@@ -15,6 +15,7 @@ mod way_back;
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
+pub use coefficients::TuneError;
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -196,7 +197,7 @@ impl Simulation {
     pub fn restore(&mut self, state: &State) -> Result<(), StateFault> {
         self.check(state)?;
         self.way_back.forget();
-        let same = self.state.coefficients == state.coefficients;
+        let same = self.state.coefficients == state.coefficients && self.state.tuned == state.tuned;
         self.state.clone_from(state);
         if !same {
             self.take_coefficients();

@@ -29,8 +29,8 @@ impl Simulation {
     /// own. For use before the first interval only; if the scene cannot start so, nothing has changed.
     pub fn place(&mut self, begun: Option<&State>) -> Result<(), RunError> {
         self.way_back.forget();
-        let coefficients = self.state.coefficients.clone();
-        let from = State { coefficients, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
+        let (coefficients, tuned) = (self.state.coefficients.clone(), self.state.tuned.clone());
+        let from = State { coefficients, tuned, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
         let before = std::mem::replace(&mut self.state, from);
         self.put(&before.boundaries, begun.is_none()).inspect_err(|_| self.state = before)
     }
@@ -60,6 +60,17 @@ impl Simulation {
             self.rebuild(&self.standing());
         }
         if moves || loads || unbuilt { self.start() } else { Ok(()) }
+    }
+
+    /// Takes over what was given to the driven axes of another simulation of these boundaries.
+    pub fn take_inputs(&mut self, other: &Self) {
+        let boundaries = self.scene.boundaries.iter().zip(&mut self.state.boundaries);
+        for ((boundary, moved), given) in boundaries.zip(&other.state.boundaries) {
+            for axis in (0..6).filter(|&axis| boundary.axes[axis].is_driven()) {
+                moved.target[axis] = given.target[axis];
+                moved.target_rate[axis] = given.target_rate[axis];
+            }
+        }
     }
 
     /// Lets every count and book begin anew at the present state.

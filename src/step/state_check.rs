@@ -21,6 +21,17 @@ impl Simulation {
             Step::Automatic { .. } => state.clock.step <= LONGEST_AUTOMATIC_STEP,
         };
         demand(step, "clock", 2, "the time step of the scene")?;
+        for (place, (parameter, &value)) in self.scene.tunables().zip(&state.tuned).enumerate() {
+            demand(parameter.range.check(value).is_ok(), "tuned", place, "a value that the parameter takes")?;
+        }
+        for law in 0..self.scene.bonds.len() {
+            demand(
+                self.scene.tuned_law(law, &state.tuned).is_ok(),
+                "tuned",
+                law,
+                "strengths of bonds that go together",
+            )?;
+        }
         self.passes.iter().try_for_each(|pass| pass.check(state))
     }
 }

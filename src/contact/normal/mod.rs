@@ -26,3 +26,13 @@ choices! {
     hooke_viscous::HookeViscous,
     jkr::Jkr,
 }
+
+impl NormalChoice {
+    /// What the damping of sticky elastic spheres follows, where it is one of their models.
+    pub fn sticky(&self) -> Option<sticky::DampingKind> {
+        match self {
+            Self::Dmt(keys) | Self::Jkr(keys) => Some(keys.damping),
+            _ => None,
+        }
+    }
+}

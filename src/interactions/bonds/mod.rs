@@ -143,6 +143,15 @@ impl BondPass {
 }
 
 impl Pass for BondPass {
+    fn take_strengths(&mut self, scene: &Scene, state: &State) {
+        if let Ok(law) = scene.tuned_law(self.index, &state.tuned)
+            && law != self.law
+        {
+            self.after = After::of(&law);
+            self.law = law;
+        }
+    }
+
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.bonds[self.index];
         let particles = &mut state.particles;

@@ -14,6 +14,7 @@ pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
 
+use super::parameters;
 use super::tables::{OutputTable, RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
@@ -43,7 +44,7 @@ pub(super) fn scene(
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
-    let scene = Scene {
+    let mut scene = Scene {
         bonds,
         run,
         gravity: written.gravity.0,
@@ -57,8 +58,10 @@ pub(super) fn scene(
         forces,
         domain: written.domain.map(|domain| domain.corners.0),
         output,
+        parameters: Vec::new(),
         fingerprint: source.fingerprint(),
     };
+    scene.parameters = parameters::of_scene(&scene, document);
     for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
         report(finding, document, &mut faults);
     }

@@ -1,0 +1,108 @@
+//! Numbers of a scene that a unit shows as its parameters.
+//!
+//! A parameter is a number that stands in the text of the scene. Its name is the dotted key, as `--set` takes it, and it is
+//! checked by the type that reads the key.
+
+use super::Scene;
+use crate::bond::Law;
+use crate::bond::keys::KeyError;
+use crate::contact::PairProperties;
+use crate::quantity::{MaterialIndex, Positive};
+use serde::de::value::{Error, F64Deserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer};
+
+/// A number of the text that is a parameter of the unit.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name: the dotted key.
+    pub name: String,
+    /// Its value in this scene.
+    pub value: f64,
+    /// Its unit; none for a whole number.
+    pub unit: Option<&'static str>,
+    /// Which numbers it takes.
+    pub range: Range,
+    /// Whether it may be changed between communication steps.
+    pub tunable: bool,
+    /// What it is.
+    pub about: String,
+}
+
+/// Which numbers a key takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// The least, where there is one.
+    pub minimum: Option<f64>,
+    /// The largest, where there is one.
+    pub maximum: Option<f64>,
+    /// What the type that reads the key says of a number, if it refuses it.
+    check: fn(f64) -> Result<(), String>,
+}
+
+/// Numbers that a type takes.
+pub(crate) const fn range_of<T: DeserializeOwned>(minimum: Option<f64>, maximum: Option<f64>) -> Range {
+    let check = |value: f64| {
+        let reader: F64Deserializer<Error> = value.into_deserializer();
+        T::deserialize(reader).map(drop).map_err(|error| error.to_string())
+    };
+    Range { minimum, maximum, check }
+}
+
+impl Range {
+    /// Whether a number is one of them; otherwise what would be right, in the words of a scene's mistakes.
+    pub fn check(&self, value: f64) -> Result<(), String> {
+        (self.check)(value)?;
+        match self.maximum.filter(|&most| value > most) {
+            Some(most) => Err(format!("{value:?} found; at most {most:?} is right")),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Scene {
+    /// The parameters that may be changed between communication steps, in their order.
+    pub fn tunables(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().filter(|parameter| parameter.tunable)
+    }
+
+    /// The materials of a parameter `pair.<a>.<b>.<property>`.
+    pub(crate) fn pair_of(&self, name: &str) -> Option<[MaterialIndex; 2]> {
+        let [_, a, b, _] = name.strip_prefix("pair.").map(|_| name.split('.').collect::<Vec<_>>())?[..] else {
+            return None;
+        };
+        let find = |name: &str| self.materials.iter().position(|material| material.name == name);
+        Some([find(a)?, find(b)?].map(|index| MaterialIndex(index as u32)))
+    }
+
+    /// The bond law of a parameter `bond.<name>.breakage.<key>`, and the key.
+    pub(crate) fn strength_of<'a>(&self, name: &'a str) -> Option<(usize, &'a str)> {
+        let (bond, key) = name.strip_prefix("bond.")?.split_once(".breakage.")?;
+        Some((self.bonds.iter().position(|it| it.name == bond)?, key))
+    }
+
+    /// The properties of two materials with these values of the tunable parameters.
+    pub(crate) fn tuned_pair(&self, pair: [MaterialIndex; 2], tuned: &[f64]) -> Option<PairProperties> {
+        let (mut tuned, mut properties) = (tuned.iter(), toml::Table::new());
+        for parameter in &self.parameters {
+            let value = if parameter.tunable { *tuned.next()? } else { parameter.value };
+            if self.pair_of(&parameter.name) == Some(pair) {
+                properties.insert(parameter.name.rsplit('.').next()?.to_owned(), value.into());
+            }
+        }
+        properties.try_into().ok()
+    }
+
+    /// A bond law with these values of the tunable parameters, or what they contradict.
+    pub(crate) fn tuned_law(&self, bond: usize, tuned: &[f64]) -> Result<Law, Vec<KeyError>> {
+        let mut keys = self.bonds[bond].keys.clone();
+        let mut strengths = keys.breakage.as_mut().map(|keys| keys.strengths()).unwrap_or_default();
+        for (parameter, &value) in self.tunables().zip(tuned) {
+            let Some((_, key)) = self.strength_of(&parameter.name).filter(|(law, _)| *law == bond) else { continue };
+            let strength = strengths.iter_mut().find(|strength| strength.key == key);
+            if let (Some(strength), Some(value)) = (strength, Positive::new(value)) {
+                *strength.value = value;
+            }
+        }
+        keys.law()
+    }
+}

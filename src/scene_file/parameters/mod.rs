@@ -1,0 +1,151 @@
+//! Which numbers of a scene's text are parameters of its unit, and a scene with other values of them.
+
+mod rows;
+
+use crate::document::{Document, Setting};
+use crate::quantity::MaterialIndex;
+use crate::scene::{Parameter, Run, Scene, SceneErrors, Source, Step};
+use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, is_of};
+
+/// The parameters of a scene that was read from this text.
+pub(super) fn of_scene(scene: &Scene, document: &Document) -> Vec<Parameter> {
+    let mut all = settings(scene);
+    let mut leaves = Vec::new();
+    for table in ["run", "material", "pair", "damping", "bond"] {
+        find_numbers(document, table, &mut leaves);
+    }
+    for (name, value) in leaves {
+        all.extend(row(scene, &name, value).or_else(|| strength(scene, &name, value)));
+    }
+    all.retain(|parameter| !is_written_twice(document, &parameter.name));
+    all
+}
+
+/// Settings of the run that every scene has.
+fn settings(scene: &Scene) -> Vec<Parameter> {
+    let (step, safety) = match scene.run.step {
+        Step::Given(step) => (step, Run::SAFETY),
+        Step::Automatic { safety } => (0.0, safety),
+    };
+    let threads = scene.run.threads.unwrap_or(0) as f64;
+    let number = |name: &str, value, unit, range, about: &str| {
+        let (name, about) = (name.to_owned(), about.to_owned());
+        Parameter { name, value, unit, range, tunable: false, about }
+    };
+    vec![
+        number(TIME_STEP, step, Some("s"), NON_NEGATIVE, "time step; 0: automatic"),
+        number(
+            "run.safety",
+            safety,
+            Some("1"),
+            SAFETY,
+            "fraction of the stable step that an automatic time step takes",
+        ),
+        number(THREADS, threads, None, COUNT, "threads; 0: as many as the machine offers"),
+    ]
+}
+
+/// The time step, 0 where it is automatic.
+const TIME_STEP: &str = "run.time_step";
+/// The number of threads, 0 where the machine decides.
+const THREADS: &str = "run.threads";
+
+/// All numbers at or below a key, with their dotted keys, in the order of the text.
+fn find_numbers(document: &Document, path: &str, found: &mut Vec<(String, f64)>) {
+    if document.is_table(path) {
+        for name in document.names(path) {
+            find_numbers(document, &format!("{path}.{name}"), found);
+        }
+    } else if let Ok(value) = document.written(path).replace('_', "").parse() {
+        found.push((path.to_owned(), value));
+    }
+}
+
+/// Whether the properties of a pair of materials stand in the text in both orders: neither can be changed alone.
+fn is_written_twice(document: &Document, name: &str) -> bool {
+    match name.split('.').collect::<Vec<_>>()[..] {
+        ["pair", a, b, _] => a != b && document.has(&format!("pair.{b}.{a}")),
+        _ => false,
+    }
+}
+
+/// The parameter of this name, if it is one of the rows.
+fn row(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
+    let row = ROWS.iter().find(|row| is_of(name, row.keys))?;
+    let unit = match row.unit {
+        Always(unit) => unit,
+        ByLaw(unit) => {
+            let [a, b] = scene.pair_of(name)?.map(MaterialIndex::index);
+            unit(scene.contacts.iter().find(|law| law.between[a * scene.materials.len() + b])?)
+        }
+    };
+    let (name, about) = (name.to_owned(), row.about.to_owned());
+    Some(Parameter { name, value, unit: Some(unit), range: row.range, tunable: row.tunable, about })
+}
+
+/// The parameter of this name, if it is a strength of a bond law.
+fn strength(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
+    let (bond, key) = scene.strength_of(name)?;
+    let mut keys = scene.bonds[bond].keys.breakage?;
+    let unit = keys.strengths().iter().find(|strength| strength.key == key)?.unit;
+    let about = format!("strength of bonds: {}", key.replace(['.', '_'], " "));
+    Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range: POSITIVE, tunable: true, about })
+}
+
+impl Scene {
+    /// Reads a scene from its source alone, with these values of some of its parameters.
+    pub fn with_parameters<'a>(
+        source: &Source,
+        values: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, SceneErrors> {
+        let (mut settings, mut threads) = (Vec::new(), None);
+        for (name, value) in values {
+            let text = match name {
+                THREADS => {
+                    threads = Some(value);
+                    continue;
+                }
+                TIME_STEP if value == 0.0 => "run.step=auto".to_owned(),
+                TIME_STEP => format!("run.step={value:?}"),
+                _ => format!("{name}={value:?}"),
+            };
+            settings.extend(text.parse::<Setting>());
+        }
+        let mut scene = Self::from_source_with(source, &settings)?;
+        if let Some(threads) = threads {
+            scene.run.threads = Some(threads as usize).filter(|&threads| threads > 0);
+        }
+        Ok(scene)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::PairProperties;
+    use crate::scene::Range;
+
+    #[test]
+    fn every_property_of_a_pair_is_a_parameter() {
+        let nonsense = toml::Table::from_iter([("nonsense".to_owned(), 0.0.into())]);
+        let said = nonsense.try_into::<PairProperties>().unwrap_err().to_string();
+        let keys: Vec<&str> = said.split('`').skip(3).step_by(2).collect();
+        assert!(keys.len() > 15, "{said}");
+        for key in keys {
+            assert!(ROWS.iter().any(|row| is_of(&format!("pair.a.b.{key}"), row.keys)), "{key}");
+        }
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused_in_the_words_of_the_scene() {
+        let refused = |range: &Range, value: f64| range.check(value).unwrap_err();
+        assert_eq!(refused(&NON_NEGATIVE, -0.1), "-0.1 found; a number of 0 or above is right");
+        assert_eq!(refused(&SAFETY, 1.0), "1.0 found; a number above 0 and below 1 is right");
+        for row in ROWS {
+            let Range { minimum, maximum, .. } = row.range;
+            for bound in minimum.into_iter().chain(maximum) {
+                assert_eq!(row.range.check(bound), Ok(()), "{}", row.keys);
+            }
+        }
+    }
+}
