@@ -16,7 +16,11 @@ use std::f64::consts::PI;
 /// No packing of equal spheres is denser than π/√18; a search for more would only take long to fail.
 const DENSEST: f64 = 0.74;
 /// How often the spheres are shaken in each attempt; the slower shaking ends, the denser they lie.
-const ATTEMPTS: [usize; 3] = [500, 2000, 4000];
+const ATTEMPTS: [usize; 5] = [500, 2000, 4000, 16_000, 64_000];
+/// Attempts from this number of shakes on follow only where the one before came near: half a minute of work in vain.
+const LONG: usize = 16_000;
+/// Mean overlap over diameter, where the spheres lock, that longer shaking overcomes now and then.
+const NEAR: f64 = 0.01;
 /// Spheres times shakes of one attempt at most, a few minutes of work.
 const EFFORT: usize = 250_000_000;
 /// Mean overlap over diameter, where the spheres lock first, that shaking does not overcome.
@@ -63,6 +67,9 @@ fn parted(crowd: &mut Crowd, count: usize, random: &mut ChaCha8Rng) -> Result<()
         return Err(left);
     }
     for shakes in ATTEMPTS.into_iter().filter(|shakes| count.saturating_mul(*shakes) <= EFFORT) {
+        if shakes >= LONG && left.mean() > NEAR {
+            break;
+        }
         crowd.shake(shakes, random);
         match crowd.spread() {
             Ok(()) => return Ok(()),
