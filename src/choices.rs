@@ -26,6 +26,10 @@ macro_rules! choices {
             /// The models' names in a scene.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($file)),+];
 
+            /// What each model remembers of a contact, by its name.
+            pub const MEMORIES: &'static [(&'static str, Option<super::HistoryRow>)] =
+                &[$((stringify!($file), <$file::$model as $kind>::HISTORY)),+];
+
             /// The model's name in a scene.
             pub fn name(&self) -> &'static str {
                 match self { $(Self::$model(_) => stringify!($file),)+ }

@@ -202,5 +202,10 @@ fn bytes_of_another_layout_are_refused_in_words() {
     let mut bytes = Simulation::new(Arc::clone(&scene)).unwrap().state().to_bytes(scene.fingerprint);
     bytes[15] ^= 1;
     let refusal = State::from_bytes(&bytes, scene.fingerprint).unwrap_err().to_string();
-    assert!(refusal.starts_with("state of another build of this program: layout "), "{refusal}");
+    assert!(
+        refusal.starts_with(
+            "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout "
+        ),
+        "{refusal}"
+    );
 }

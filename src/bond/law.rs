@@ -112,6 +112,28 @@ impl TakeDamping for TakeLinear<'_> {
     }
 }
 
+/// Takes what a formulation remembers.
+struct TakeRemembered;
+
+impl TakeFormulation for TakeRemembered {
+    type Output = &'static str;
+    fn take<F: Formulation>(self) -> &'static str {
+        F::REMEMBERED
+    }
+}
+
+/// How many rows of state a bond of this formulation has.
+pub fn rows(formulation: FormulationChoice) -> usize {
+    formulation.visit(Asked { relaxation: true, rates: true }, TakeFunctions).rows
+}
+
+/// What each formulation of the program remembers of a bond, as text.
+pub fn remembered() -> String {
+    let asked = Asked { relaxation: true, rates: true };
+    let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(asked, TakeRemembered));
+    FormulationChoice::ALL.iter().map(line).collect()
+}
+
 impl Law {
     /// What a bond of this pair is to the stable time step: stiffness \[N/m, N m\] and dashpots \[kg/s, N m s\] of each part.
     pub fn linear(&self, pair: &Pair) -> [Parts; 2] {

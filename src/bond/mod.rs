@@ -35,7 +35,7 @@ pub mod motion;
 pub use crate::geometry::Quaternion;
 pub use elasticity::{Coefficients, Elasticity};
 pub use formulation::Formulation;
-pub use law::{Carried, Law, OneBond, Reaction};
+pub use law::{Carried, Law, OneBond, Reaction, remembered, rows};
 pub use motion::{Body, Lengths, Motion, Opening, Pair, Rates, Section};
 
 use crate::number::{Number, Vector};

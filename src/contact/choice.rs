@@ -24,6 +24,13 @@ pub struct LawChoice {
     pub switches: Switches,
 }
 
+/// What each sub-model of the program remembers of a contact, as text: name and signs of its row.
+pub fn remembered() -> String {
+    let kinds = [NormalChoice::MEMORIES, TangentialChoice::MEMORIES, RollingChoice::MEMORIES, CohesionChoice::MEMORIES];
+    let rows = kinds.into_iter().flatten().filter_map(|(model, row)| Some((model, row.as_ref()?)));
+    rows.map(|(model, row)| format!("{model}: {} {:?}\n", row.name, row.odd)).collect()
+}
+
 impl LawChoice {
     /// The coefficients of two materials: those of the normal model and the switches, then those of the tangential,
     /// the rolling and the cohesion model. Otherwise every property that is missing.

@@ -19,7 +19,7 @@ pub mod normal;
 pub mod rolling;
 pub mod tangential;
 
-pub use choice::LawChoice;
+pub use choice::{LawChoice, remembered};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
 pub use law::{CoefficientPlaces, HistoryPlaces, Law, Offset};
@@ -229,6 +229,8 @@ pub trait Normal: Copy + Send + Sync + 'static {
     type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: NormalForm;
+    /// What it remembers, if anything.
+    const HISTORY: Option<HistoryRow> = <Self::Form as NormalForm>::HISTORY;
     /// The coefficients for two materials; what friction has no use for is not asked of the scene.
     fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self::Form, Missing>;
     /// What speaks against these keys, if anything.
@@ -382,6 +384,8 @@ pub trait Cohesion: Copy + Send + Sync + 'static {
     type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: CohesionForm;
+    /// What it remembers: nothing.
+    const HISTORY: Option<HistoryRow> = None;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self::Form, Missing>;
     /// Whether these keys let friction see the attraction (`tangential_reduce`).

@@ -9,6 +9,7 @@ mod vtu;
 pub(crate) use format::{Format, Units};
 
 use crate::document::Mistake;
+use crate::memory;
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,6 +20,9 @@ const NEEDED: [&str; 4] = ["x", "y", "z", "radius"];
 
 /// Columns that a file may have: number, density \[kg/m³\], velocity \[m/s\], angular velocity \[rad/s\].
 const POSSIBLE: [&str; 8] = ["id", "density", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+/// Memory that a line of a text file takes as it is read, at least \[bytes\].
+const ROW: u64 = 100;
 
 /// The particles of a file.
 #[derive(Debug, Default)]
@@ -137,14 +141,27 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         };
         return Err(vec![FileFault { line: None, column: "timestep".to_owned(), mistake }]);
     }
+    if format != Format::Vtu {
+        has_room(bytes.iter().filter(|byte| **byte == b'\n').count(), ROW)?;
+    }
     let (mut rows, stated) = match format {
         Format::Csv => (csv::read(&bytes, request)?, Some("si".to_owned()).filter(|_| request.units.is_none())),
         Format::Vtu => (vtu::read(&bytes, request)?, Some("si".to_owned()).filter(|_| request.units.is_none())),
         Format::Data => data::read(text(&bytes)?, request)?,
         Format::Dump => dump::read(text(&bytes)?, request)?,
     };
+    has_room(rows.count, memory::SPHERE)?;
     convert(&mut rows, units(request, stated)?);
     Ok(rows)
+}
+
+/// Refuses more particles than there is memory for, where each needs so much \[bytes\].
+fn has_room(count: usize, each: u64) -> Result<(), Vec<FileFault>> {
+    let needed = each.saturating_mul(count as u64);
+    memory::lacking(needed).map_or(Ok(()), |right| {
+        let found = format!("{count} particles, which need about {:.2} GB of memory,", needed as f64 / 1e9);
+        Err(vec![FileFault::whole(Mistake::Wrong { found, right })])
+    })
 }
 
 /// The bytes of a file that may be packed by gzip.
@@ -152,8 +169,14 @@ fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Vec<FileFault>> {
     if !bytes.starts_with(&[0x1f, 0x8b]) {
         return Ok(Cow::Borrowed(bytes));
     }
+    // A list that grows is copied into one twice as long.
+    let most = memory::available().map_or(u64::MAX, |free| free / 3);
     let mut unpacked = Vec::new();
-    match MultiGzDecoder::new(bytes).read_to_end(&mut unpacked) {
+    match MultiGzDecoder::new(bytes).take(most).read_to_end(&mut unpacked) {
+        Ok(length) if length as u64 == most => Err(vec![FileFault::whole(Mistake::Wrong {
+            found: format!("a gzip file that holds more than {:.2} GB", most as f64 / 1e9),
+            right: "what fits into a third of the memory that is free".to_owned(),
+        })]),
         Ok(_) => Ok(Cow::Owned(unpacked)),
         Err(error) => Err(vec![FileFault::whole(Mistake::Wrong {
             found: format!("a damaged gzip file ({error})"),

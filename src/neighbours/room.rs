@@ -1,6 +1,9 @@
 //! How many pairs will be listed, found from a few particles before memory is asked for.
 
+use crate::geometry::Frame;
+use crate::number::Vector;
 use crate::state::Particles;
+use crate::surface::Features;
 
 /// Particles whose neighbours are counted, at most.
 const LOOKED_AT: usize = 64;
@@ -23,6 +26,20 @@ pub(crate) fn pairs(particles: &Particles, reach: impl Fn(f64, f64) -> f64) -> f
             .count();
     }
     0.5 * near as f64 * position.len() as f64 / looked_at.max(1) as f64
+}
+
+/// About how many parts of a surface that stands so are nearer to particles than their radius and the skin \[m\], each
+/// counted for each particle.
+pub(crate) fn parts(particles: &Particles, features: &dyn Features, (frame, skin): (&Frame, f64)) -> f64 {
+    let stride = particles.len().div_ceil(LOOKED_AT).max(1);
+    let (mut looked_at, mut near) = (0_usize, 0_usize);
+    let mut found = Vec::new();
+    for row in particles.position.iter().step_by(stride) {
+        found.clear();
+        features.near(frame.inside(Vector::from(*row)), row[3] + skin, &mut found);
+        (looked_at, near) = (looked_at + 1, near + found.len());
+    }
+    near as f64 * particles.len() as f64 / looked_at.max(1) as f64
 }
 
 #[cfg(test)]

@@ -13,6 +13,8 @@ pub(crate) use keys::{LatticeTable, PackingTable};
 pub(crate) use lattice::lattice;
 pub(crate) use random::packing;
 
+use crate::memory;
+
 /// How far a random packing is; told many times a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PackingProgress<'a> {
@@ -42,12 +44,9 @@ pub(crate) type Sphere = ([f64; 3], f64);
 /// How many spheres one set may have, so that a slip in a length does not fill the memory.
 const MOST: usize = 50_000_000;
 
-/// Memory that a sphere of a scene takes until it runs, with a few contacts: measured with a lattice of 4 million \[bytes\].
-const SPHERE: u64 = 600;
-
 /// What is right instead of so many spheres; nothing where there is room for them.
 fn too_many(count: f64) -> Option<String> {
-    let room = crate::memory::available().map_or(MOST, |free| MOST.min((free / SPHERE) as usize));
+    let room = memory::available().map_or(MOST, |free| MOST.min((free / memory::SPHERE) as usize));
     match room {
         _ if count > MOST as f64 => Some(format!("{MOST} at most")),
         room if count > room as f64 => Some(format!("{room} at most, for which there is memory,")),

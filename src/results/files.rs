@@ -3,8 +3,8 @@
 use super::UNFINISHED;
 use super::error::{OutputError, ResumeError, TakeOverError};
 use crate::scene::Scene;
-use crate::state::State;
 use crate::state::snapshot::SnapshotError;
+use crate::state::{State, StateFault};
 use crate::step::{Description, Simulation};
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -144,6 +144,8 @@ impl Checkpoint {
                 .map_err(|fault| ResumeError::Snapshot { path: self.path.clone(), source: fault.into() })?;
             return Ok(TakenOver { simulation, left_behind: Vec::new(), goes_on: true });
         }
+        let not = |fault: StateFault| ResumeError::Snapshot { path: self.path.clone(), source: fault.into() };
+        self.scene.check(&state).map_err(not)?;
         let (simulation, left_behind) = Simulation::taken_over(Arc::clone(scene), &state, &self.scene)?;
         Ok(TakenOver { simulation, left_behind, goes_on: false })
     }

@@ -5,6 +5,7 @@ mod parameters;
 mod tables;
 
 use crate::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
+use crate::memory;
 use crate::packing::PackingProgress;
 use crate::scene::{Scene, Source};
 use check::raw_tables;
@@ -44,11 +45,11 @@ impl Scene {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
         for (table, key, file) in raw_tables::files(&document) {
-            match fs::read(folder.join(&file)) {
+            match bytes(&folder.join(&file)) {
                 Ok(bytes) => {
                     source.files.insert(file, bytes);
                 }
-                Err(error) => faults.add(&table, key, Mistake::Unreadable { file, reason: reason(&error) }),
+                Err(reason) => faults.add(&table, key, Mistake::Unreadable { file, reason }),
             }
         }
         check::scene(source, &document, faults, tell)
@@ -80,6 +81,15 @@ fn unreadable(name: &str, error: &Error) -> SceneErrors {
     let mistake = Mistake::Unreadable { file: "the scene".to_owned(), reason: reason(error) };
     let (file, table, key) = (name.to_owned(), String::new(), String::new());
     SceneErrors { list: vec![SceneError { file, line: None, table, key, mistake }] }
+}
+
+/// The bytes of a file that there is memory for; otherwise why it cannot be read.
+fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+    let length = fs::metadata(path).map_or(0, |about| about.len());
+    if let Some(right) = memory::lacking(length) {
+        return Err(format!("it has {:.2} GB; {right} is right", length as f64 / 1e9));
+    }
+    fs::read(path).map_err(|error| reason(&error))
 }
 
 /// Why a file cannot be read, in the same words on every system.

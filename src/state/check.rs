@@ -99,11 +99,8 @@ fn in_slabs(
 impl State {
     /// Whether this can be a state of the simulation that `other` is one of, as far as it shows without the laws.
     pub(crate) fn check(&self, other: &Self) -> Result<(), StateFault> {
-        self.clock.check()?;
-        self.foresight.check()?;
-        self.particles.check(&other.particles)?;
-        let count = self.particles.len();
-        self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
+        self.check_lists()?;
+        self.particles.check_same(&other.particles)?;
         let same = "as many as the scene has";
         demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
@@ -111,6 +108,20 @@ impl State {
         demand(self.boundaries.len() == other.boundaries.len(), "boundaries", self.boundaries.len(), same)?;
         let lengths = self.coefficients.iter().map(Vec::len).eq(other.coefficients.iter().map(Vec::len));
         demand(lengths, "coefficients", 0, "a row for each two materials of each law")?;
+        for (list, same) in self.walls.iter().zip(&other.walls) {
+            let right = "the plane and the law of the scene";
+            demand((list.boundary, list.law) == (same.boundary, same.law), "walls", 0, right)?;
+        }
+        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, "a book where the scene asks for it")
+    }
+
+    /// Whether this can be a state of any scene: lengths and order of its lists, slots of particles, finite numbers.
+    pub(crate) fn check_lists(&self) -> Result<(), StateFault> {
+        self.clock.check()?;
+        self.foresight.check()?;
+        self.particles.check()?;
+        let count = self.particles.len();
+        self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
         for rows in &self.coefficients {
             demand_all(rows.iter().map(|number| !number.is_nan()), "coefficients", "numbers")?;
         }
@@ -118,8 +129,8 @@ impl State {
         for list in &self.contacts {
             list.check(&self.neighbours.slabs)?;
         }
-        for (list, same) in self.walls.iter().zip(&other.walls) {
-            list.check(count, same)?;
+        for list in &self.walls {
+            list.check(count)?;
         }
         for list in &self.bonds {
             list.check(count, &self.neighbours.slabs)?;
@@ -131,7 +142,6 @@ impl State {
         };
         demand_all(self.breaks.iter().map(broken), "breaks", "a bond law and particles of the scene")?;
         demand_all(self.boundaries.iter().map(BoundaryState::is_finite), "boundaries", FINITE)?;
-        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, "a book where the scene asks for it")?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")
@@ -161,27 +171,17 @@ impl Foresight {
 }
 
 impl Particles {
-    /// Whether these can be the same particles somewhere else.
-    fn check(&self, other: &Self) -> Result<(), StateFault> {
-        let count = other.len();
+    /// Whether these can be particles, each in one slot.
+    fn check(&self) -> Result<(), StateFault> {
+        let count = self.len();
         let lengths = [self.position.len(), self.velocity.len(), self.angular_velocity.len(), self.force.len()];
         let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len(), self.slot.len()];
-        let right = "one for each of the scene's particles";
+        let right = "one for each particle";
         demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", right)?;
         demand(self.attitude.is_empty() || self.attitude.len() == count, "attitude", self.attitude.len(), right)?;
-        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), right)?;
+        demand(self.bonds.is_empty() || self.bonds.len() == count, "bonds", self.bonds.len(), right)?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
         demand_all(numbers, "id", "each particle in one slot")?;
-        let same = |slot: usize| {
-            let there = other.slot[self.id[slot] as usize] as usize;
-            let constants = |of: &Self, at: usize| {
-                [of.position[at][3], of.velocity[at][3], of.angular_velocity[at][3]].map(f64::to_bits)
-            };
-            constants(self, slot) == constants(other, there)
-                && self.material[slot] == other.material[there]
-                && self.owner[slot] == other.owner[there]
-        };
-        demand_all((0..count).map(same), "particles", "the scene's radius, mass, inertia, material and group")?;
         let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
         demand_all(loads, "force", "0 behind each load")?;
         let rows = [
@@ -193,6 +193,23 @@ impl Particles {
             (&self.attitude, "attitude"),
         ];
         rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
+    }
+
+    /// Whether they are these particles somewhere else. Both have been looked through.
+    fn check_same(&self, other: &Self) -> Result<(), StateFault> {
+        let right = "one for each of the scene's particles";
+        demand(self.len() == other.len(), "particles", self.len(), right)?;
+        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), right)?;
+        let same = |slot: usize| {
+            let there = other.slot[self.id[slot] as usize] as usize;
+            let constants = |of: &Self, at: usize| {
+                [of.position[at][3], of.velocity[at][3], of.angular_velocity[at][3]].map(f64::to_bits)
+            };
+            constants(self, slot) == constants(other, there)
+                && self.material[slot] == other.material[there]
+                && self.owner[slot] == other.owner[there]
+        };
+        demand_all((0..self.len()).map(same), "particles", "the scene's radius, mass, inertia, material and group")
     }
 }
 
@@ -244,10 +261,8 @@ impl ContactList {
 }
 
 impl WallContacts {
-    /// Whether the list can be one of so many particles, at the plane and of the law of the other.
-    fn check(&self, particles: usize, other: &Self) -> Result<(), StateFault> {
-        let right = "the plane and the law of the scene";
-        demand((self.boundary, self.law) == (other.boundary, other.law), "walls", 0, right)?;
+    /// Whether the list can be one of so many particles.
+    fn check(&self, particles: usize) -> Result<(), StateFault> {
         demand(self.flags.len() == self.particle.len(), "walls", self.flags.len(), "columns of one length")?;
         let order = self.particle.windows(2).map(|pair| pair[0] <= pair[1]);
         demand_all(order, "walls", "ascending order")?;
@@ -282,6 +297,39 @@ impl WallContacts {
         let there = self.near.parts.iter().map(|&part| (part as usize) < parts);
         demand_all(there, "near", "parts of the surface")
     }
+}
+
+impl ContactList {
+    /// Whether it has as many rows as its law remembers, if there is one.
+    pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
+        described((&self.history, rows), self.first.len())
+    }
+}
+
+impl WallContacts {
+    /// The same.
+    pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
+        let feature = self.feature.is_empty() || self.feature.len() == self.particle.len();
+        demand(feature, "feature", self.feature.len(), "one for each contact, or none")?;
+        described((&self.history, rows), self.particle.len())
+    }
+}
+
+impl BondList {
+    /// Whether it has as many rows as its formulation, if there is one.
+    pub(crate) fn check_rows(&self, rows: Option<usize>) -> Result<(), StateFault> {
+        let count = self.first.len();
+        demand([0, count].contains(&self.foot.len()), "foot", self.foot.len(), "one for each bond, or none")?;
+        demand([0, count].contains(&self.lost.len()), "lost", self.lost.len(), "one for each bond, or none")?;
+        described((&self.rows, rows), count)
+    }
+}
+
+/// Whether a list of so many entries has as many rows as a description of its law says.
+fn described((found, rows): (&[Vec<Row>], Option<usize>), count: usize) -> Result<(), StateFault> {
+    let fits = Some(found.len()) == rows || count == 0;
+    demand(fits, "history", found.len(), "the rows of a law that is described")?;
+    found.iter().try_for_each(|row| column(row, count, true, "history"))
 }
 
 /// Whether a list of so many contacts has the rows that its law remembers, and the pair constants that it keeps or not.

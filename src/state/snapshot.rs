@@ -1,6 +1,7 @@
 //! State as bytes: versioned, checksummed, tied to its scene.
 
 use super::{State, StateFault, layout};
+use crate::{bond, contact};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::OnceLock;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
@@ -14,11 +15,17 @@ const VERSION: u32 = 7;
 /// Length of what stands before the payload: magic, version, layout, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8 + 8;
 
-/// A number that differs when any field of the state differs in name, type or place.
+/// A number that differs when any field of the state differs in name, type or place, or a law of the program remembers
+/// something else.
 fn layout() -> u64 {
     /// It is the same for a whole process.
     static LAYOUT: OnceLock<u64> = OnceLock::new();
-    *LAYOUT.get_or_init(|| xxh3_64(layout::of::<State>().as_bytes()))
+    *LAYOUT.get_or_init(|| xxh3_64(described().as_bytes()))
+}
+
+/// The fields of the state, and what laws of contacts and bonds keep in its rows, which are numbers alone.
+fn described() -> String {
+    layout::of::<State>() + &contact::remembered() + &bond::remembered()
 }
 
 /// Why serialising a state into memory cannot fail.
@@ -50,7 +57,9 @@ pub enum SnapshotError {
         expected: u32,
     },
     /// Of a program whose state has other fields.
-    #[error("state of another build of this program: layout {found:016x} found, {expected:016x} is right")]
+    #[error(
+        "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout {found:016x} found, {expected:016x} is right"
+    )]
     Layout {
         /// Layout in the bytes.
         found: u64,
@@ -206,5 +215,26 @@ impl State {
         let bonds = self.bonds.iter().map(|list| list.first.len() * (list.rows.len() * row + 8));
         let contacts = lists.chain(planes).sum::<usize>();
         4096 + 1024 * self.boundaries.len() + particles + contacts + bonds.sum::<usize>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_laws_remember_belongs_to_the_layout() {
+        let described = described();
+        for part in [
+            "coefficients",
+            "history: tangential spring [true, true, true, false]",
+            "eepa: plastic overlap, overlap before [false, false, false, false]",
+            "epsd2: rolling torque [true, true, true, false]",
+            "incremental: shear force x y z, free length; bending torque x y z, torsion",
+            "engine_exact: ",
+            "finite_rotation: axis in the first body",
+        ] {
+            assert!(described.contains(part), "{part} is missing in:\n{described}");
+        }
     }
 }

@@ -2,6 +2,7 @@
 //! much ends the program.
 
 use super::{RunError, Simulation};
+use crate::geometry::Frame;
 use crate::memory;
 use crate::neighbours::room;
 
@@ -13,6 +14,9 @@ const SPRING: f64 = 64.0;
 
 /// Bytes of a bond, while its list is brought into order.
 const BOND: f64 = 600.0;
+
+/// Bytes of a part of a surface that is near a particle, in the list and the pieces it is made of.
+const PART: f64 = 12.0;
 
 /// Pairs of a list are counted in 32 bits.
 const MOST_PAIRS: f64 = u32::MAX as f64;
@@ -38,6 +42,16 @@ impl Simulation {
             let Some(distance) = bond.create_distance.filter(|_| every * BOND > free as f64) else { continue };
             let pairs = room::pairs(particles, |_, _| distance);
             refuse(pairs, BOND, format!("pairs with a [bond.{}] create_distance of {distance:e} m", bond.name))?;
+        }
+        let skin = self.state.neighbours.skin;
+        for (boundary, stands) in self.scene.boundaries.iter().zip(&self.state.boundaries) {
+            let features = boundary.shape.features().filter(|_| !self.scene.contacts.is_empty());
+            let most = features.map_or(0, |features| features.counts()[0] * particles.len());
+            let Some(features) = features.filter(|_| most as f64 * PART > free as f64) else { continue };
+            let frame = Frame::of(boundary.reference.into(), stands.displacement.into(), stands.attitude.0);
+            let parts = room::parts(particles, features, (&frame, skin));
+            let why = format!("parts of [boundary.{}] near particles with a [run] skin of {skin:e} m", boundary.name);
+            refuse(parts, PART, why)?;
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 mod packed_sizes;
 
+use crate::memory;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
@@ -12,10 +13,15 @@ thread_local! {
     static EXPECTED: Cell<bool> = const { Cell::new(false) };
 }
 
+/// Memory that a byte of a file takes as it is read: the text, and the numbers in it, which grow from two bytes to eight.
+const PARSED: u64 = 6;
+
 /// Reads a VTK file, XML or legacy; otherwise what was found instead of a readable one.
 pub(crate) fn read(bytes: &[u8]) -> Result<Vtk, String> {
-    if let Some(found) = packed_sizes::implausible(bytes) {
-        return Err(found);
+    let unpacked = packed_sizes::stated(bytes)?;
+    let needed = (PARSED * bytes.len() as u64).saturating_add(unpacked.saturating_mul(2));
+    if let Some(right) = memory::lacking(needed) {
+        return Err(format!("data that need about {:.2} GB of memory instead of {right}", needed as f64 / 1e9));
     }
     let legacy = bytes.starts_with(b"# vtk DataFile");
     let found = match silently(|| if legacy { Vtk::parse_legacy_be(bytes) } else { Vtk::parse_xml(bytes) }) {

@@ -9,8 +9,16 @@ const DENSEST: u64 = 1032;
 /// Blocks that no array of a file of this program's sizes has, where the file is small: what is left for rounding.
 const SPARE: u64 = 1 << 16;
 
-/// What is wrong with the sizes that a file states, if anything.
-pub(super) fn implausible(bytes: &[u8]) -> Option<String> {
+/// Bytes of all compressed arrays when unpacked, as a file states them; otherwise what is wrong with that.
+pub(super) fn stated(bytes: &[u8]) -> Result<u64, String> {
+    let mut sum = 0_u64;
+    let wrong = add_up(bytes, &mut sum);
+    wrong.map_or(Ok(sum), Err)
+}
+
+/// Adds up what the compressed arrays of a file state. Hands out what is wrong with it, if anything; what cannot be read
+/// is left to the reader.
+fn add_up(bytes: &[u8], sum: &mut u64) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     let head = &text[text.find("<VTKFile")?..];
     let head = &head[..head.find('>')?];
@@ -35,6 +43,7 @@ pub(super) fn implausible(bytes: &[u8]) -> Option<String> {
             let name = attribute(tag, "Name").unwrap_or("of points");
             return Some(format!("an array {name} that states {blocks} blocks of {size} bytes"));
         }
+        *sum = sum.saturating_add(total.unwrap_or(u64::MAX));
     }
     None
 }
@@ -91,13 +100,14 @@ mod tests {
         // One block of 32768 bytes, the last of 48.
         let data = "AQAAAAAAAAAAgAAAAAAAADAAAAAAAAAA";
         assert_eq!(header(data, 8, false), Some([1, 32768, 48]));
-        assert_eq!(implausible(file(data).as_bytes()), None);
+        // (1 block + the last one): what is asked for at most.
+        assert_eq!(stated(file(data).as_bytes()), Ok(32768 + 48));
     }
 
     #[test]
     fn more_than_any_file_of_the_size_can_hold_is_refused() {
         // 2^40 blocks of 32768 bytes.
-        let found = implausible(file("AAAAAAABAAAAgAAAAAAAADAAAAAAAAAA").as_bytes()).unwrap();
+        let found = stated(file("AAAAAAABAAAAgAAAAAAAADAAAAAAAAAA").as_bytes()).unwrap_err();
         assert!(found.starts_with("an array radius that states"), "{found}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::ground::{Place, cograin, column, complaint, results, summary};
 use std::fs;
+use std::process::Command;
 
 #[test]
 fn check_tells_what_a_scene_uses_and_costs() {
@@ -96,4 +97,94 @@ fn lists_that_need_more_memory_than_there_is_are_refused_before_they_are_made() 
         assert!(said.contains("are free") && said.lines().count() == 1, "{said}");
     }
     assert!(!place.at("out").exists());
+}
+
+/// What `check` says of a scene, refused, where the process may have so much memory \[kB\].
+fn refused_within(kilobytes: u32, scene: &std::path::Path) -> String {
+    let call = format!("ulimit -v {kilobytes}; exec \"$0\" check \"$1\"");
+    let output = Command::new("sh").args(["-c", &call, env!("CARGO_BIN_EXE_cograin")]).arg(scene).output().unwrap();
+    let said = complaint(&output, 2);
+    assert_eq!(said.lines().count(), 1, "{said}");
+    said
+}
+
+/// A scene with one material, and the rest of it.
+fn with_files(place: &Place, name: &str, skin: &str, rest: &str) -> std::path::PathBuf {
+    let scene = place.at(name);
+    let text = format!(
+        "[run]\nend = 1.0\nstep = 1e-6\n{skin}\n[material.a]\ndensity = 1.0\nyoungs_modulus = 1e6\npoissons_ratio = 0.2\n\
+         [pair.a.a]\nrestitution = 0.9\n[contact.c.normal.hertz]\n{rest}"
+    );
+    fs::write(&scene, text).unwrap();
+    scene
+}
+
+/// A flat mesh of two triangles for each of `count` × `count` squares, as a binary STL file.
+fn write_mesh(path: &std::path::Path, count: u16) {
+    let mut bytes = vec![0; 80];
+    bytes.extend((2 * u32::from(count) * u32::from(count)).to_le_bytes());
+    for square in 0..u32::from(count) * u32::from(count) {
+        let [x, y] = [square % u32::from(count), square / u32::from(count)].map(|place| place as f32);
+        for corners in [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]] {
+            bytes.extend([0_u8; 12]);
+            corners
+                .iter()
+                .for_each(|[dx, dy]| [x + dx, y + dy, 0.0].iter().for_each(|part| bytes.extend(part.to_le_bytes())));
+            bytes.extend([0_u8; 2]);
+        }
+    }
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for() {
+    let place = Place::new("large_files");
+    let rows: String = (0..400_000).map(|k| format!("{k},0,2,0.4\n")).collect();
+    fs::write(place.at("many.csv"), format!("x,y,z,radius\n{rows}")).unwrap();
+    // One block of 300 MB that half a megabyte of text can well hold.
+    let packed = format!(
+        "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\
+         <DataArray type=\"Float64\" Name=\"radius\" format=\"binary\">{}</DataArray>{}</VTKFile>",
+        "AQAAAACj4REAo+ERFAAAAA==",
+        " ".repeat(700_000)
+    );
+    fs::write(place.at("packed.vtu"), packed).unwrap();
+    write_mesh(&place.at("large.stl"), 300);
+    let particles = "[particles.p]\nmaterial = \"a\"\n";
+    let mesh = format!(
+        "{particles}list = [{{ position = [1, 1, 2], radius = 0.5 }}]\n[boundary.m]\nmesh = {{ file = \"large.stl\" }}\nmaterial = \"a\"\n"
+    );
+    for (name, rest, expected) in [
+        (
+            "csv",
+            format!("{particles}file = \"many.csv\"\n"),
+            "400000 particles, which need about 0.24 GB of memory, found; what fits into",
+        ),
+        (
+            "vtu",
+            format!("{particles}file = \"packed.vtu\"\n"),
+            "data that need about 0.60 GB of memory instead of what fits into",
+        ),
+        ("stl", mesh, "large.stl: triangles that need about 0.12 GB of memory found; what fits into"),
+    ] {
+        let said = refused_within(
+            if name == "stl" { 120_000 } else { 200_000 },
+            &with_files(&place, &format!("{name}.toml"), "", &rest),
+        );
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
+fn lists_at_meshes_that_need_more_memory_than_there_is_are_refused_before_they_are_made() {
+    let place = Place::new("mesh_lists");
+    write_mesh(&place.at("mesh.stl"), 220);
+    let rest = "[particles.p]\nmaterial = \"a\"\nlattice = { kind = \"simple_cubic\", origin = [1.0, 1.0, 2.0], counts = [10, 10, 3], \
+                radius = 0.4 }\n[boundary.m]\nmesh = { file = \"mesh.stl\" }\nmaterial = \"a\"\n";
+    let said = refused_within(300_000, &with_files(&place, "scene.toml", "skin = 1e4", rest));
+    // 300 particles, 2 · 220² triangles, 12 bytes each.
+    assert!(
+        said.contains("2.90e7 parts of [boundary.m] near particles with a [run] skin of 1e4 m need about 0.3 GB"),
+        "{said}"
+    );
 }

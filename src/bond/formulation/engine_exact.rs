@@ -69,6 +69,7 @@ struct Bent<N: Number> {
 
 impl Formulation for EngineExact {
     const ROWS: usize = 3;
+    const REMEMBERED: &'static str = "shear force x y z, free length; torsion x y z; bending torque x y z";
     const FIXED_ROWS: usize = 0;
     const NEEDS_ORIENTATIONS: bool = false;
     const RELAXES: bool = true;

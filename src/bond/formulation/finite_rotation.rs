@@ -293,6 +293,7 @@ fn energy_left<N: Number>(parts: Parts<N>, left: Parts<N>) -> N {
 
 impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotation<RELAXING, WITH_RATES> {
     const ROWS: usize = 3;
+    const REMEMBERED: &'static str = "axis in the first body x y z, length at creation; second body in the first w x y z; twist, free twist, free length";
     const FIXED_ROWS: usize = if RELAXING { 0 } else { 2 };
     const NEEDS_ORIENTATIONS: bool = true;
     const RELAXES: bool = RELAXING;

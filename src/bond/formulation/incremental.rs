@@ -104,6 +104,7 @@ impl<N: Number> Loads<N> {
 
 impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
     const ROWS: usize = 2;
+    const REMEMBERED: &'static str = "shear force x y z, free length; bending torque x y z, torsion";
     const FIXED_ROWS: usize = 0;
     const NEEDS_ORIENTATIONS: bool = false;
     const RELAXES: bool = RELAXING;

@@ -78,6 +78,8 @@ pub trait TakeFormulation {
 pub trait Formulation: Send + Sync + 'static {
     /// Rows of state.
     const ROWS: usize;
+    /// What each row holds, place by place: saved states are told apart by it, so it changes with the meaning of a row.
+    const REMEMBERED: &'static str;
     /// How many of them, from the first, no evaluation changes.
     const FIXED_ROWS: usize;
     /// Whether bodies need an orientation.

@@ -1,7 +1,9 @@
 //! What must be known of a scene to understand a state that it has reached.
 
+use crate::bond::{self, formulation::FormulationChoice};
 use crate::contact::Law;
 use crate::scene::{Boundary, ContactLaw, Scene};
+use crate::state::{State, StateFault, demand};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use xxhash_rust::xxh3::Xxh3;
@@ -61,6 +63,37 @@ impl Description {
     /// Whether a scene goes on in the same way: it differs in its end and its outputs at most.
     pub fn goes_on_as(&self, scene: &Scene) -> bool {
         self.course == course(scene)
+    }
+
+    /// Whether a state can be one of this scene, as far as the description tells: what [`Simulation::taken_over`] trusts.
+    ///
+    /// [`Simulation::taken_over`]: crate::step::Simulation::taken_over
+    pub(crate) fn check(&self, state: &State) -> Result<(), StateFault> {
+        state.check_lists()?;
+        let ends = self.particles.iter().map(|&[first, count]| [u64::from(first), u64::from(first) + u64::from(count)]);
+        let ends: Vec<u64> = ends.flatten().collect();
+        let ascend = ends.windows(2).all(|pair| pair[0] <= pair[1]) && ends.last().is_none_or(|&end| end <= 1 << 32);
+        demand(ascend, "particles", 0, "ascending numbers")?;
+        let same = "as many as are described";
+        let count = self.particles.iter().map(|&[_, count]| u64::from(count)).sum::<u64>();
+        demand(count == state.particles.len() as u64, "particles", state.particles.len(), same)?;
+        demand(state.boundaries.len() == self.boundaries.len(), "boundaries", state.boundaries.len(), same)?;
+        demand(state.contacts.len() == self.contacts.len(), "contacts", state.contacts.len(), same)?;
+        demand(state.bonds.len() == self.bonds.len(), "bonds", state.bonds.len(), same)?;
+        let rows = |law: usize| self.contacts.get(law).map(|(_, rows)| rows.len());
+        for (law, list) in state.contacts.iter().enumerate() {
+            list.check_history(rows(law))?;
+        }
+        for list in &state.walls {
+            let there = (list.boundary as usize) < self.boundaries.len();
+            demand(there, "walls", list.boundary as usize, "a boundary of the scene")?;
+            list.check_history(rows(list.law as usize))?;
+        }
+        for ((_, formulation, _), list) in self.bonds.iter().zip(&state.bonds) {
+            let known = FormulationChoice::ALL.iter().copied().find(|it| format!("{it:?}") == *formulation);
+            list.check_rows(known.map(bond::rows))?;
+        }
+        Ok(())
     }
 
     /// Numbers of the particles, ascending.
