@@ -3,6 +3,7 @@
 //! Kernels trust the slots in the lists, and took them from the bytes: six of eight series of 300 such states ended in a
 //! signal. What is tried here goes through the same door as a checkpoint and a state from a host.
 
+use cograin::results::{Checkpoint, write_checkpoint};
 use cograin::scene::{Scene, Source};
 use cograin::state::State;
 use cograin::step::Simulation;
@@ -81,6 +82,11 @@ energy = true
 
 /// The scene.
 fn scene() -> Arc<Scene> {
+    scene_with(SCENE)
+}
+
+/// A scene of the same particles.
+fn scene_with(text: &str) -> Arc<Scene> {
     let block = |counts: [u32; 3], height: f64, distance: f64, first: u32| {
         let mut text = String::from("id,x,y,z,radius\n");
         let (mut id, [columns, rows, layers]) = (first, counts);
@@ -100,7 +106,7 @@ fn scene() -> Arc<Scene> {
         ("heap.csv".to_owned(), block([4, 3, 2], 0.99e-3, 1.99e-3, 0)),
         ("top.csv".to_owned(), block([4, 3, 1], 5.0e-3, 1.99e-3, 100)),
     ]);
-    let source = Source { name: "scene.toml".into(), text: SCENE.into(), files };
+    let source = Source { name: "scene.toml".into(), text: text.into(), files };
     Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
 }
 
@@ -170,6 +176,36 @@ fn ten_thousand_forged_states_are_refused_or_make_a_step() {
         *endings.entry(ending).or_insert(0) += 1;
     }
     assert!(endings[&Ending::Refused] > 1000 && endings[&Ending::Stepped] > 1000, "{endings:?}");
+}
+
+#[test]
+fn a_thousand_forged_checkpoints_are_refused_by_another_scene_or_make_a_step() {
+    let mut simulation = Simulation::new(scene()).unwrap();
+    simulation.advance(3.0e-5).unwrap();
+    let path = std::env::temp_dir().join(format!("cograin_forged_{}.cograin", std::process::id()));
+    write_checkpoint(&path, simulation.state(), simulation.scene(), "scene.toml").unwrap();
+    let whole = std::fs::read(&path).unwrap();
+    let lines = whole.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(1).unwrap().0 + 1;
+    let rougher = scene_with(&SCENE.replace("friction = 0.5", "friction = 0.6"));
+    let go_on = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        let Ok(checkpoint) = Checkpoint::read(&path) else { return Ending::Unread };
+        let Ok(mut taken) = checkpoint.taken_over(&rougher) else { return Ending::Refused };
+        assert!(!taken.goes_on);
+        let _ = taken.simulation.advance(2.0e-6);
+        Ending::Stepped
+    };
+    assert_eq!(go_on(&whole), Ending::Stepped);
+    let mut chance = ChaCha8Rng::seed_from_u64(4);
+    let mut endings = BTreeMap::new();
+    for number in 0..1000 {
+        let mut forged = whole.clone();
+        forge(&mut forged[lines..], &mut chance);
+        let ending = catch_unwind(AssertUnwindSafe(|| go_on(&forged)));
+        *endings.entry(ending.unwrap_or_else(|_| panic!("state {number} panics"))).or_insert(0) += 1;
+    }
+    std::fs::remove_file(&path).unwrap();
+    assert!(endings[&Ending::Refused] > 100 && endings[&Ending::Stepped] > 100, "{endings:?}");
 }
 
 #[test]

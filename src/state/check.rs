@@ -316,10 +316,11 @@ impl WallContacts {
 }
 
 impl BondList {
-    /// Whether it has as many rows as its formulation, if there is one.
-    pub(crate) fn check_rows(&self, rows: Option<usize>) -> Result<(), StateFault> {
+    /// Whether it has as many rows as its formulation, if there is one, and a foot or a second body of each bond.
+    pub(crate) fn check_rows(&self, rows: Option<usize>, at_plane: bool) -> Result<(), StateFault> {
         let count = self.first.len();
-        demand([0, count].contains(&self.foot.len()), "foot", self.foot.len(), "one for each bond, or none")?;
+        column(&self.foot, count, at_plane, "foot")?;
+        column(&self.second, count, !at_plane, "second")?;
         demand([0, count].contains(&self.lost.len()), "lost", self.lost.len(), "one for each bond, or none")?;
         described((&self.rows, rows), count)
     }

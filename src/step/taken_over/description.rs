@@ -89,9 +89,9 @@ impl Description {
             demand(there, "walls", list.boundary as usize, "a boundary of the scene")?;
             list.check_history(rows(list.law as usize))?;
         }
-        for ((_, formulation, _), list) in self.bonds.iter().zip(&state.bonds) {
+        for ((_, formulation, plane), list) in self.bonds.iter().zip(&state.bonds) {
             let known = FormulationChoice::ALL.iter().copied().find(|it| format!("{it:?}") == *formulation);
-            list.check_rows(known.map(bond::rows))?;
+            list.check_rows(known.map(bond::rows), plane.is_some())?;
         }
         Ok(())
     }

@@ -72,19 +72,38 @@ pub(super) fn put_contacts(scene: &Scene, state: &mut State, reached: &State, kn
             push(&mut new.history, memories.taken(law, there, a > b, |row| list.history[row][pair]));
         }
     }
+    put_wall_contacts(scene, state, reached, (from, numbers, &memories));
+}
+
+/// The same of contacts at surfaces.
+fn put_wall_contacts(
+    scene: &Scene,
+    state: &mut State,
+    reached: &State,
+    (from, numbers, memories): (&Description, &Numbers, &Memories),
+) {
+    let here = |slot: u32| numbers.at(reached.particles.id[slot as usize]);
     for list in &reached.walls {
         let Some((boundary, material)) = plane(scene, from, list.boundary) else { continue };
         let touching = list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0);
         let mut touching: Vec<(u32, usize)> =
             touching.filter_map(|(entry, _)| Some((here(list.particle[entry])?, entry))).collect();
         touching.sort_unstable();
+        let features = scene.boundaries[boundary as usize].shape.features().map(|features| features.counts()[1]);
         for (index, entry) in touching {
+            // A mesh of the same name may have fewer triangles here; a plane is touched once.
+            let feature = list.feature.get(entry).copied().filter(|_| features.is_some());
+            let fits = |count: usize| feature.is_some_and(|feature| (feature as usize) < count);
+            let once = |list: &WallContacts| features.is_some() || list.particle.last() != Some(&index);
             let Some(law) = law(scene, state.particles.material[index as usize], material) else { continue };
             let governs = |list: &&mut WallContacts| (list.boundary, list.law) == (boundary, law as u32);
             let Some(new) = state.walls.iter_mut().find(governs) else { continue };
+            if !features.is_none_or(fits) || !once(new) {
+                continue;
+            }
             new.particle.push(index);
             new.flags.push(list.flags[entry]);
-            new.feature.extend(list.feature.get(entry));
+            new.feature.extend(feature);
             let rows = memories.taken(law, list.law as usize, false, |row| list.history[row][entry]);
             push(&mut new.history, rows);
         }
