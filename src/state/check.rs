@@ -106,6 +106,7 @@ impl State {
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
         demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), same)?;
         demand(self.boundaries.len() == other.boundaries.len(), "boundaries", self.boundaries.len(), same)?;
+        demand(self.tuned.len() == other.tuned.len(), "tuned", self.tuned.len(), same)?;
         let lengths = self.coefficients.iter().map(Vec::len).eq(other.coefficients.iter().map(Vec::len));
         demand(lengths, "coefficients", 0, "a row for each two materials of each law")?;
         for (list, same) in self.walls.iter().zip(&other.walls) {
@@ -125,7 +126,7 @@ impl State {
         for rows in &self.coefficients {
             demand_all(rows.iter().map(|number| !number.is_nan()), "coefficients", "numbers")?;
         }
-        demand(self.tuned.len() == other.tuned.len(), "tuned", self.tuned.len(), same)?;
+        all_finite(&self.tuned, "tuned")?;
         for list in &self.contacts {
             list.check(&self.neighbours.slabs)?;
         }

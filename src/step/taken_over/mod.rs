@@ -42,11 +42,7 @@ impl Numbers {
 impl Simulation {
     /// The scene in a state that another scene has reached, and what of that state could not be taken along. A state from
     /// outside has been looked through by [`Description::check`].
-    pub(crate) fn taken_over(
-        scene: Arc<Scene>,
-        reached: &State,
-        from: &Description,
-    ) -> Result<(Self, Vec<String>), RunError> {
+    pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
         let numbers = Numbers::of(&scene, from);
         let mut state = assemble::state(&scene);
         state.clock.time = reached.clock.time;
