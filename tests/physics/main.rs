@@ -5,6 +5,8 @@ mod bending_frequencies;
 mod bond_energy;
 mod cantilever;
 mod chain;
+mod chung_ooi;
+mod cohesion_limits;
 mod conservative_block;
 mod contact_records;
 mod cundall_decay;

@@ -1,5 +1,6 @@
 //! The charts, a row each.
 
+mod bed;
 mod border;
 mod cantilever;
 mod cohesion;
@@ -61,6 +62,7 @@ pub const CHARTS: &[Chart] = &[
     cantilever::CHART,
     dashpots::CHART,
     cohesion::CHART,
+    bed::CHART,
     size_ratio::CHART,
     features::CHART,
 ];
