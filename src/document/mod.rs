@@ -1,13 +1,16 @@
 //! The text of a scene as tables whose lines are known, and from tables to typed values.
 
 mod error;
+mod faults;
 mod foreign;
 pub(crate) mod messages;
 mod mistake;
 mod nearest;
+mod phrases;
 mod setting;
 
 pub use error::{SceneError, SceneErrors};
+pub(crate) use faults::Faults;
 pub use mistake::Mistake;
 pub(crate) use setting::apply;
 pub use setting::{Setting, SettingError};
@@ -271,57 +274,5 @@ fn take_out(value: &mut Spanned<DeValue>, path: &[String]) -> bool {
             .and_then(|entry| list.get_mut(entry.checked_sub(1)?))
             .is_some_and(|value| take_out(value, rest)),
         _ => false,
-    }
-}
-
-/// Collects mistakes.
-pub(crate) struct Faults<'d, 'a> {
-    /// Where lines are looked up.
-    document: &'d Document<'a>,
-    /// The mistakes so far.
-    list: Vec<SceneError>,
-}
-
-impl<'d, 'a> Faults<'d, 'a> {
-    /// None yet.
-    pub(crate) fn new(document: &'d Document<'a>) -> Self {
-        Self { document, list: Vec::new() }
-    }
-
-    /// How many there are.
-    pub(crate) fn count(&self) -> usize {
-        self.list.len()
-    }
-
-    /// A mistake at a key of a table, or at the table itself.
-    pub(crate) fn add(&mut self, table: &str, key: &str, mistake: Mistake) {
-        self.at_line(self.document.line_of(table, key), table, key, mistake);
-    }
-
-    /// A mistake at a line of the scene.
-    pub(crate) fn at_line(&mut self, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
-        let file = self.document.name.to_owned();
-        self.list.push(SceneError { file, line, table: table.to_owned(), key: key.to_owned(), mistake });
-    }
-
-    /// A mistake in a file that the scene names.
-    pub(crate) fn in_file(&mut self, file: &str, line: Option<usize>, table: &str, key: &str, mistake: Mistake) {
-        let (file, table, key) = (file.to_owned(), table.to_owned(), key.to_owned());
-        self.list.push(SceneError { file, line, table, key, mistake });
-    }
-
-    /// All of them, in the order of the scene's lines and then of other files'; none is success.
-    pub(crate) fn finish(mut self) -> Result<(), SceneErrors> {
-        if self.list.is_empty() {
-            return Ok(());
-        }
-        let name = self.document.name;
-        self.list.sort_by_key(|error| (error.file != name, error.line.unwrap_or(usize::MAX)));
-        Err(SceneErrors { list: self.list })
-    }
-
-    /// Stops here if there is any.
-    pub(crate) fn so_far(&self) -> Result<(), SceneErrors> {
-        Self { document: self.document, list: self.list.clone() }.finish()
     }
 }

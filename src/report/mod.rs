@@ -5,7 +5,7 @@ mod rules;
 mod trial;
 
 use crate::interface::Interface;
-use crate::results::error::Refusal;
+use crate::results::Refusal;
 use crate::results::files::Checkpoint;
 use crate::results::schedule::Schedule;
 use crate::run::remarks::remarks;

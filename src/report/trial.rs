@@ -4,7 +4,7 @@ use crate::interface::Interface;
 use crate::results::frames;
 use crate::results::schedule::Schedule;
 use crate::results::vtk::EncodeError;
-use crate::run::{frame, row};
+use crate::run::jobs::{frame, row};
 use crate::step::{RunError, Simulation};
 use std::time::{Duration, Instant};
 

@@ -3,7 +3,8 @@
 //! The lock is an advisory one of the system on a hidden file, so it is gone when the process is, whatever ended it.
 //! The file says who holds it; it is removed in the end, and one that a killed process left behind is taken over.
 
-use super::error::{Failure, OutputError, Refusal};
+use super::error::OutputError;
+use super::failure::{Failure, Refusal};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};

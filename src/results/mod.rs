@@ -16,7 +16,8 @@
 //! session, aside). When outputs are due, and how that divides the run, is told in `schedule.rs`.
 
 mod collection;
-pub(crate) mod error;
+mod error;
+mod failure;
 pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod frames;
@@ -28,7 +29,8 @@ mod table;
 pub(crate) mod vtk;
 pub(crate) mod writer;
 
-pub use error::{Failure, InputsError, OutputError, Refusal, ResumeError, TakeOverError};
+pub use error::{InputsError, OutputError, ResumeError, TakeOverError};
+pub use failure::{Failure, Refusal};
 pub use files::{Checkpoint, TakenOver, read_checkpoint, write_checkpoint};
 pub use vtk::EncodeError;
 

@@ -7,7 +7,7 @@
 //! communication steps as the unbroken run, and gives the same bits. Times are products and no sums, so they do
 //! not drift; two of them that differ by rounding alone are one.
 
-use super::error::Refusal;
+use super::failure::Refusal;
 use crate::scene::{Scene, Step};
 use crate::step::divide;
 
@@ -222,106 +222,4 @@ impl Schedule {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Output;
-
-    /// The schedule of these outputs.
-    fn of(output: Output, end: f64) -> Result<Schedule, Refusal> {
-        Schedule::new(&Scene { output, ..Scene::default() }, "scene.toml", end)
-    }
-
-    /// A schedule with these intervals of history and frames.
-    fn schedule(history: f64, frames: Option<f64>, end: f64) -> Schedule {
-        of(Output { history_interval: Some(history), frame_interval: frames, ..Output::default() }, end).unwrap()
-    }
-
-    /// All points of a run from `time` on.
-    fn points(schedule: &Schedule, mut time: f64) -> Vec<Point> {
-        let mut all = Vec::new();
-        while let Some(point) = schedule.after(time) {
-            time = point.time;
-            all.push(point);
-        }
-        all
-    }
-
-    #[test]
-    fn times_are_the_decimal_numbers_a_reader_expects() {
-        let times: Vec<_> = points(&schedule(0.1, None, 1.0), 0.0).iter().map(|point| point.time).collect();
-        assert_eq!(times, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]);
-    }
-
-    #[test]
-    fn every_output_is_at_a_multiple_of_its_interval_and_at_the_end() {
-        let all = points(&schedule(2e-3, Some(3e-3), 7e-3), 0.0);
-        let found: Vec<_> = all.iter().map(|point| (point.time, point.due.history, point.due.frame)).collect();
-        let expected =
-            [(2e-3, true, false), (3e-3, false, true), (4e-3, true, false), (6e-3, true, true), (7e-3, true, true)];
-        assert_eq!(found, expected);
-    }
-
-    #[test]
-    fn a_run_started_anywhere_takes_the_same_steps() {
-        let schedule = schedule(3.3e-4, Some(1.0e-3), 0.05);
-        let whole = points(&schedule, 0.0);
-        for start in 0..whole.len() {
-            let saved = whole[start].time * (1.0 + 1e-12);
-            let rest = points(&schedule, schedule.point_of(saved).unwrap());
-            assert_eq!(rest, whole[start + 1..], "from point {start}");
-        }
-    }
-
-    #[test]
-    fn times_that_differ_by_rounding_are_one() {
-        let all = points(&schedule(0.1, Some(0.3), 0.9), 0.0);
-        assert_eq!(all.len(), 9);
-        assert_eq!(all.iter().filter(|point| point.due.frame).count(), 3);
-    }
-
-    #[test]
-    fn what_was_written_follows_from_the_time() {
-        let schedule = schedule(2e-3, Some(3e-3), 7e-3);
-        assert_eq!((schedule.rows_until(0.0), schedule.frames_until(0.0).len()), (1, 1));
-        assert_eq!((schedule.rows_until(6e-3), schedule.frames_until(6e-3)), (4, vec![0.0, 3e-3, 6e-3]));
-        assert_eq!((schedule.rows_until(7e-3), schedule.frames_until(7e-3)), (5, vec![0.0, 3e-3, 6e-3, 7e-3]));
-    }
-
-    #[test]
-    fn counts_that_nobody_can_mean_are_refused() {
-        let frames = |interval| of(Output { frame_interval: Some(interval), ..Output::default() }, 1e-3);
-        let told = frames(1e-300).unwrap_err().to_string();
-        let expected = "scene.toml, [output] frame_interval: 1e-300 s gives 1.000e297 frames up to t = 0.001 s; at most 1e6 are right";
-        assert_eq!(told, expected);
-        assert!(frames(1e-9).is_ok());
-        let rows = |interval| of(Output { history_interval: Some(interval), ..Output::default() }, 1.0);
-        assert!(rows(1e-12).is_err() && rows(1e-8).is_ok());
-        let run = crate::scene::Run { step: Step::Given(1e-30), ..Default::default() };
-        let told = Schedule::new(&Scene { run, ..Scene::default() }, "scene.toml", 1.0).unwrap_err().to_string();
-        assert!(told.starts_with("scene.toml, [run] step: 1e-30 s gives 1.000e30 time steps"), "{told}");
-    }
-
-    #[test]
-    fn steps_that_outputs_shorten_are_counted() {
-        let even = schedule(1e-3, None, 0.01).steps(0.0, 1e-4);
-        assert_eq!(even, Counted { all: 100, shortened: 0 });
-        // Between 3 ms and 4 ms, 6 ms and so on there is 1 ms: 2 steps of 0.5 ms instead of 0.6 ms; 2 ms has 4 of 0.5 ms.
-        let uneven = schedule(2e-3, Some(3e-3), 6e-3).steps(0.0, 6e-4);
-        assert_eq!(uneven, Counted { all: 12, shortened: 12 });
-        assert_eq!(schedule(1e-3, None, 0.01).checkpoints(0.0), None);
-    }
-
-    #[test]
-    fn a_time_between_two_points_is_told_the_nearest() {
-        assert_eq!(schedule(2e-3, None, 1e-2).point_of(5.1e-3), Err(6e-3));
-    }
-
-    #[test]
-    fn a_scene_without_intervals_has_a_hundred_points_and_two_rows() {
-        let plain = of(Output::default(), 0.5).unwrap();
-        let all = points(&plain, 0.0);
-        assert_eq!(all.len(), 100);
-        assert_eq!(all.iter().filter(|point| point.due.history).count(), 1);
-        assert_eq!((plain.rows_until(0.25), plain.rows_until(0.5)), (1, 2));
-    }
-}
+mod tests;

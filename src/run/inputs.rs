@@ -1,7 +1,7 @@
 //! Inputs of a run over time, from a table such as a master leaves.
 
 use crate::interface::{Interface, Value};
-use crate::results::error::InputsError;
+use crate::results::InputsError;
 use crate::step::Simulation;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,9 @@
 //! A scene that runs by itself, from one communication point to the next, and what it writes there.
 
+mod beginning;
 mod inputs;
+pub(crate) mod jobs;
+mod meter;
 mod momentum;
 mod order;
 pub(crate) mod remarks;
@@ -12,23 +15,23 @@ pub use remarks::remarks;
 pub use settle::{SettleOrder, SettleProgress, Settled, settle};
 pub use summary::Summary;
 
-use crate::interface::{Findings, Interface};
-use crate::results::error::{Failure, OutputError, Refusal, ResumeError};
+use crate::interface::Interface;
+use crate::results::SUMMARY;
 use crate::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
 use crate::results::folder::{Folder, Kept, Place};
 use crate::results::job::Job;
 use crate::results::lock::FolderLock;
 use crate::results::schedule::{Due, Schedule};
 use crate::results::writer::{Writer, opened};
-use crate::results::{CHECKPOINT, SUMMARY, replacement};
+use crate::results::{Failure, OutputError, Refusal, ResumeError};
 use crate::step::Simulation;
+use beginning::{First, Origin, checkpoint, claim};
 use inputs::Inputs;
-use std::fs;
-use std::path::{Path, PathBuf};
+use jobs::{frame, row};
+use meter::Meter;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use summary::Meter;
 
 /// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
 /// of what is in them.
@@ -231,107 +234,5 @@ impl<'a> Session<'a> {
         let path = self.order.folder.join(SUMMARY);
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
         result.and(written.map_err(Failure::from)).map(|()| summary)
-    }
-}
-
-/// Where a run comes from, as far as its files are concerned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
-    /// At time 0: all files are new.
-    Anew,
-    /// At a later time, in the folder of the run that is continued.
-    Here,
-    /// At a later time, from a checkpoint of another folder: what was written up to then stays there.
-    Elsewhere,
-    /// At a later time, from a checkpoint that may be another scene's: a run of its own, with a row where it begins.
-    TakenOver {
-        /// Whether it goes on bit for bit.
-        goes_on: bool,
-    },
-}
-
-/// What a run writes before its first step.
-struct First<'a> {
-    /// What was asked for.
-    order: &'a RunOrder<'a>,
-    /// The variables.
-    interface: &'a Interface,
-    /// When what is written.
-    schedule: &'a Schedule,
-    /// Columns of the history.
-    names: &'a [String],
-}
-
-impl First<'_> {
-    /// Writes the first files of a run, in place of what is in the folder: all of them or none.
-    fn write(&self, simulation: &Simulation, time: f64, origin: Origin) -> Result<(), OutputError> {
-        let path = self.order.folder;
-        let new = replacement::begin(path)?;
-        let frames = self.schedule.frames_until(time);
-        let frame_is_due = origin != Origin::Elsewhere && frames.last() == Some(&time);
-        let kept = Kept::nothing(frames.len() - usize::from(frame_is_due));
-        let named = (Arc::clone(self.order.scene), self.order.scene_name);
-        let mut folder = Folder::open(&new, named, self.names, &kept)?;
-        if matches!(origin, Origin::Anew | Origin::TakenOver { goes_on: false }) {
-            folder.write(Job::Breaks(simulation.state().breaks.clone()))?;
-        }
-        if origin != Origin::Elsewhere {
-            folder.write(row(self.interface, simulation, time))?;
-        }
-        if frame_is_due {
-            folder.write(frame(simulation, time))?;
-        }
-        folder.checkpoint(simulation.state())?;
-        drop(folder);
-        replacement::finish(path)
-    }
-}
-
-/// The row of the history at the present time.
-pub(crate) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
-    let found = Findings::default();
-    let values = interface.outputs().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
-    Job::Row { time, values }
-}
-
-/// The frame at the present time.
-pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
-    let scene = simulation.scene();
-    let particles = Box::new(simulation.state().particles.clone());
-    let contacts = scene.output.contacts.then(|| simulation.contacts());
-    let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
-    Job::Frame { time, particles, contacts, bonds }
-}
-
-/// Locks the folder of the results, ends what another run may have left half done there, and refuses to begin where
-/// an earlier run's results are to be kept.
-fn claim(order: &RunOrder<'_>) -> Result<FolderLock, Failure> {
-    let path = order.folder;
-    if path.exists() && !path.is_dir() {
-        return Err(Refusal::NotAFolder { folder: path.to_owned() }.into());
-    }
-    fs::create_dir_all(path).map_err(OutputError::at(path))?;
-    let lock = FolderLock::take(path)?;
-    replacement::take_up(path)?;
-    let own = || *order.start == Start::LastCheckpoint || matches!(checkpoint(order), Ok(Some((_, Origin::Here))));
-    if order.earlier_results == EarlierResults::Keep && !own() && !replacement::results(path)?.is_empty() {
-        return Err(Refusal::Used { folder: path.to_owned(), held: summary::told(&path.join(SUMMARY)) }.into());
-    }
-    Ok(lock)
-}
-
-/// The checkpoint that a run begins with, if any, and what that means for its files.
-fn checkpoint(order: &RunOrder<'_>) -> Result<Option<(PathBuf, Origin)>, ResumeError> {
-    let own = order.folder.join(CHECKPOINT);
-    match order.start {
-        Start::Scene => Ok(None),
-        Start::From(path) => Ok(Some((path.clone(), Origin::TakenOver { goes_on: false }))),
-        Start::LastCheckpoint if own.exists() => Ok(Some((own, Origin::Here))),
-        Start::LastCheckpoint => Err(ResumeError::None { folder: order.folder.to_owned() }),
-        Start::Checkpoint(path) => {
-            let same = |path: &Path| path.canonicalize().ok();
-            let here = same(path).is_some() && same(path) == same(&own);
-            Ok(Some((path.clone(), if here { Origin::Here } else { Origin::Elsewhere })))
-        }
     }
 }

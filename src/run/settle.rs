@@ -1,7 +1,7 @@
 //! A scene brought to rest, as a start for others.
 
-use crate::results::error::{Failure, Refusal};
 use crate::results::files::{Checkpoint, write_checkpoint};
+use crate::results::{Failure, Refusal};
 use crate::scene::{AxisMotion, Boundary, Scene};
 use crate::step::{Description, Simulation};
 use std::collections::VecDeque;

@@ -1,67 +1,16 @@
 //! `summary.json`: how a run went.
 
+use super::meter::{Meter, intact_bonds};
 use super::momentum::MomentumBalance;
 use super::order::RunOrder;
 use super::remarks::remarks;
-use crate::results::error::Failure;
+use crate::results::Failure;
 use crate::state::ledger::Source;
-use crate::step::{RunError, Simulation};
+use crate::step::Simulation;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::time::{Duration, Instant};
-
-/// Counts what a session does.
-pub(crate) struct Meter {
-    /// When the session began.
-    begun: Instant,
-    /// Time spent in time steps.
-    stepping: Duration,
-    /// Time steps of earlier sessions.
-    steps_before: u64,
-    /// Contacts summed over the time steps of the session.
-    contact_steps: f64,
-    /// Bonds summed over the time steps of the session.
-    bond_steps: f64,
-    /// Contacts at the last look.
-    contacts: usize,
-    /// Largest overlap over radius at any look.
-    largest_overlap: f64,
-}
-
-impl Meter {
-    /// Begins to count.
-    pub(crate) fn start(simulation: &Simulation) -> Self {
-        Self {
-            begun: Instant::now(),
-            stepping: Duration::ZERO,
-            steps_before: simulation.state().clock.steps,
-            contact_steps: 0.0,
-            bond_steps: 0.0,
-            contacts: simulation.contact_count(),
-            largest_overlap: simulation.largest_overlap(),
-        }
-    }
-
-    /// Makes a communication step and counts it.
-    pub(crate) fn step(&mut self, simulation: &mut Simulation, interval: f64) -> Result<(), RunError> {
-        let (begun, before) = (Instant::now(), simulation.state().clock.steps);
-        let result = simulation.advance(interval);
-        self.stepping += begun.elapsed();
-        let contacts = simulation.contact_count();
-        let steps = (simulation.state().clock.steps - before) as f64;
-        self.contact_steps += 0.5 * steps * (self.contacts + contacts) as f64;
-        self.contacts = contacts;
-        self.bond_steps += steps * intact_bonds(simulation) as f64;
-        result
-    }
-
-    /// Looks at the overlaps.
-    pub(crate) fn look(&mut self, simulation: &Simulation) {
-        self.largest_overlap = self.largest_overlap.max(simulation.largest_overlap());
-    }
-}
 
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -277,11 +226,6 @@ pub(crate) fn told(path: &Path) -> String {
         (Some(scene), Some(ended), Some(time)) => format!("{scene}, {ended} at t = {time} s"),
         _ => "its summary.json cannot be read".to_owned(),
     }
-}
-
-/// Bonds that live.
-fn intact_bonds(simulation: &Simulation) -> usize {
-    simulation.state().bonds.iter().map(|list| list.first.len()).sum()
 }
 
 /// The energy book at the present time, where the scene keeps one.

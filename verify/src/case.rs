@@ -1,7 +1,8 @@
 //! `case.json` as it is written.
 
+use super::defaults::{cundall, none, off, on, one, overlap, plane, switch};
 use super::error::VerifyError;
-use serde::{Deserialize, Deserializer, de::Error};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -273,51 +274,6 @@ impl Sensitivity {
     /// In the order of the columns.
     pub(super) fn to_array(self) -> [f64; 5] {
         [self.position, self.velocity, self.omega, self.force, self.torque]
-    }
-}
-
-/// The default of `sample_every`.
-fn one() -> u64 {
-    1
-}
-
-/// The default of sub-models.
-fn off() -> String {
-    "off".into()
-}
-
-/// The default of `mixing`.
-fn none() -> String {
-    "none".into()
-}
-
-/// The default of `arms`.
-fn overlap() -> String {
-    "overlap".into()
-}
-
-/// The default of `tangential_damping`.
-fn on() -> bool {
-    true
-}
-
-/// The default kind of wall.
-fn plane() -> String {
-    "plane".into()
-}
-
-/// The default kind of damping.
-fn cundall() -> String {
-    "cundall".into()
-}
-
-/// A flag: true or false, or `"on"`, `"off"` and `"stokes"` as input files have them.
-fn switch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
-    match serde_json::Value::deserialize(deserializer)? {
-        serde_json::Value::Bool(value) => Ok(value),
-        serde_json::Value::String(word) if word == "on" || word == "stokes" => Ok(true),
-        serde_json::Value::String(word) if word == "off" => Ok(false),
-        other => Err(D::Error::custom(format!("{other} found; true, false, \"on\" or \"off\" is right"))),
     }
 }
 

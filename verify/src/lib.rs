@@ -9,6 +9,7 @@ mod bond;
 mod build;
 mod case;
 mod compare;
+mod defaults;
 mod error;
 mod history;
 mod law;

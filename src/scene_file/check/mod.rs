@@ -10,6 +10,7 @@ mod damping;
 mod finding;
 mod motion;
 mod particles;
+mod place;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;

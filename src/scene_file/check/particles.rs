@@ -1,7 +1,8 @@
 //! From particle sets as they are written to the particles of the scene.
 
+use super::place::Place;
 use super::raw_tables::{Named, RawTables};
-use super::set_reader::{Place, SetReader, Unnumbered};
+use super::set_reader::{SetReader, Unnumbered};
 use crate::contact::Material;
 use crate::document::Faults;
 use crate::document::Mistake;

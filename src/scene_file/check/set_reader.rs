@@ -1,6 +1,7 @@
 //! The particles of one set, before they have numbers.
 
 use super::contacts::unknown_material;
+use super::place::Place;
 use crate::contact::Material;
 use crate::document::Faults;
 use crate::document::Mistake;
@@ -32,30 +33,6 @@ pub(super) struct SetReader<'a> {
     pub(super) materials: &'a [Material],
     /// The scene's seed.
     pub(super) seed: u64,
-}
-
-/// Where the rows of a set stand.
-pub(super) enum Place {
-    /// In its table's list.
-    List,
-    /// In the lines of a file.
-    File(String, Vec<u32>),
-    /// Nowhere: they are generated.
-    Nowhere,
-}
-
-impl Place {
-    /// Reports a mistake at a row, counted from 0.
-    pub(super) fn report(&self, table: &str, row: usize, key: &str, mistake: Mistake, faults: &mut Faults) {
-        match self {
-            Self::List => faults.add(table, &format!("list.{}.{key}", row + 1), mistake),
-            Self::File(file, lines) => {
-                let line = lines.get(row).map(|line| *line as usize);
-                faults.in_file(file, line, table, key, mistake);
-            }
-            Self::Nowhere => faults.add(table, key, mistake),
-        }
-    }
 }
 
 /// The particles of a set, their place, and the columns that damping asks for.

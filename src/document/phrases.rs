@@ -1,0 +1,59 @@
+//! Parts of sentences that messages are made of.
+
+use super::nearest::nearest;
+
+/// A length in at most four digits: `2.0e-3`, `1.837e-3`.
+pub(super) fn short(length: f64) -> String {
+    let text = format!("{length:.3e}");
+    match text.split_once('e') {
+        Some((digits, power)) => {
+            let digits = digits.trim_end_matches('0');
+            let zero = if digits.ends_with('.') { "0" } else { "" };
+            format!("{digits}{zero}e{power}")
+        }
+        None => text,
+    }
+}
+
+/// How near the centres are that could be bonded.
+pub(super) fn nearest_centres(closest: Option<f64>) -> String {
+    match closest {
+        Some(distance) => format!("the closest centres are {} apart", short(distance)),
+        None => "no two centres are near".to_owned(),
+    }
+}
+
+/// ", and 3 more pairs", or nothing.
+pub(super) fn and_more(more: usize, what: &str) -> String {
+    match more {
+        0 => String::new(),
+        1 => format!(", and 1 more {what}"),
+        more => format!(", and {more} more {what}s"),
+    }
+}
+
+/// Names the nearest known word, or all of them.
+pub(super) fn proposal(found: &str, known: &[String], all: &str) -> String {
+    match nearest(found, known.iter().map(String::as_str)) {
+        Some(near) => format!("the nearest is {near}"),
+        None if known.is_empty() => "none is known here".to_owned(),
+        None => format!("{all} {}", listed(known)),
+    }
+}
+
+/// `a, b, c`
+pub(super) fn listed(words: &[String]) -> String {
+    words.join(", ")
+}
+
+/// `"a", "b" or "c"`
+pub(super) fn alternatives(words: &[String]) -> String {
+    match words {
+        [] => "nothing".to_owned(),
+        [one] => format!("{one:?}"),
+        [first @ .., last] => {
+            let first: Vec<String> = first.iter().map(|word| format!("{word:?}")).collect();
+            format!("{} or {last:?}", first.join(", "))
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Why a command did not do its work: the input was refused, or the work failed.
+
+use super::error::{InputsError, OutputError, ResumeError, TakeOverError};
+use super::vtk::EncodeError;
+use crate::step::RunError;
+use std::path::PathBuf;
+
+/// Why the input was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// The scene does not say when a run ends.
+    #[error("{scene}, [run] end: not given; the time at which the run ends [s] is needed")]
+    NoEnd {
+        /// File name of the scene.
+        scene: String,
+    },
+    /// The scene cannot take its first step.
+    #[error("{scene}: {source}")]
+    Start {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: RunError,
+    },
+    /// A frame cannot be made.
+    #[error("{scene}: {source}")]
+    Frame {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: EncodeError,
+    },
+    /// The results have no place there.
+    #[error("{}: is a file; a folder, or a name that is not there yet, is right", folder.display())]
+    NotAFolder {
+        /// Where they were to be.
+        folder: PathBuf,
+    },
+    /// Another process writes into the folder.
+    #[error("{}: in use by {holder}; another folder with -o is right, or the same one when that run has ended", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+        /// The process and when it began.
+        holder: String,
+    },
+    /// The folder holds results that were not asked to be replaced.
+    #[error(
+        "{}: holds results of an earlier run ({held}); --resume goes on with it, --overwrite puts this run in its place, \
+         another folder with -o keeps both", folder.display()
+    )]
+    Used {
+        /// The folder.
+        folder: PathBuf,
+        /// What is known of that run.
+        held: String,
+    },
+    /// More outputs than anybody can mean.
+    #[error(
+        "{scene}, [output] {key}: {interval:e} s gives {count:.3e} {what} up to t = {end} s; at most {most:e} are right"
+    )]
+    Counts {
+        /// File name of the scene.
+        scene: String,
+        /// The interval's key.
+        key: &'static str,
+        /// The interval \[s\].
+        interval: f64,
+        /// How many outputs.
+        count: f64,
+        /// Of what.
+        what: &'static str,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// More time steps than a clock can count.
+    #[error(
+        "{scene}, [run] step: {step:e} s gives {count:.3e} time steps up to t = {end} s; at most {most:e} are right"
+    )]
+    Steps {
+        /// File name of the scene.
+        scene: String,
+        /// The step \[s\].
+        step: f64,
+        /// How many.
+        count: f64,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// The checkpoint does not fit.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+    /// The run ends before it begins.
+    #[error(
+        "{scene}, [run] end: {end} s is not behind t = {time} s, where the checkpoint stands; a later end is right"
+    )]
+    Ended {
+        /// File name of the scene.
+        scene: String,
+        /// End of the run \[s\].
+        end: f64,
+        /// Time of the checkpoint \[s\].
+        time: f64,
+    },
+    /// The table of inputs does not fit.
+    #[error(transparent)]
+    Inputs(#[from] InputsError),
+}
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The input was refused; nothing was written.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The simulation stopped.
+    #[error("the run stopped: {0}")]
+    Run(#[from] RunError),
+    /// A result could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Someone asked to stop.
+    #[error("interrupted at t = {time} s; run again with -o {} --resume to go on from there", folder.display())]
+    Interrupted {
+        /// How far it came \[s\].
+        time: f64,
+        /// The folder of the results, with the checkpoint.
+        folder: PathBuf,
+    },
+    /// Someone asked to stop before the packing had come to rest.
+    #[error("interrupted after {steps} steps {}; nothing was written", reached(*ratio))]
+    SettlingInterrupted {
+        /// Steps made.
+        steps: u64,
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
+        ratio: f64,
+    },
+    /// The packing will not come to rest.
+    #[error(
+        "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
+         the mean force, above settle_tolerance, {tolerance:e}: {why}"
+    )]
+    Restless {
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// The smallest unbalanced force over the mean force of the contacts or bonds.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+        /// Why.
+        why: String,
+    },
+    /// The packing did not come to rest.
+    #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
+    Unsettled {
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+}
+
+impl Refusal {
+    /// Why a scene with this file name cannot begin with a checkpoint.
+    pub(crate) fn not_taken_over(scene: &str, error: TakeOverError) -> Self {
+        match error {
+            TakeOverError::Checkpoint(error) => Self::Resume(error),
+            TakeOverError::Start(source) => Self::Start { scene: scene.to_owned(), source },
+        }
+    }
+}
+
+impl From<ResumeError> for Failure {
+    fn from(error: ResumeError) -> Self {
+        Self::Refused(error.into())
+    }
+}
+
+/// How far settling had come.
+fn reached(ratio: f64) -> String {
+    if ratio.is_finite() {
+        format!("at an unbalanced force of {ratio:.3e}")
+    } else {
+        "before anything touched or a bond was loaded".to_owned()
+    }
+}
+
+/// What was missing to be settled.
+fn unsettled(ratio: f64, tolerance: f64) -> String {
+    if ratio.is_finite() {
+        format!(
+            "the unbalanced force is {ratio:.3e} of the mean force of the contacts or bonds, {tolerance:.3e} is asked for; \
+             a looser tolerance, more damping or more --steps may do"
+        )
+    } else {
+        "nothing touches and no bond is loaded, so there is no force that could come into balance; more --steps, if bodies \
+         are still to meet, or something that holds them may do"
+            .to_owned()
+    }
+}

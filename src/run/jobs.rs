@@ -1,0 +1,21 @@
+//! What is written at a communication point.
+
+use crate::interface::{Findings, Interface};
+use crate::results::job::Job;
+use crate::step::Simulation;
+
+/// The row of the history at the present time.
+pub(crate) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
+    let found = Findings::default();
+    let values = interface.outputs().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
+    Job::Row { time, values }
+}
+
+/// The frame at the present time.
+pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
+    let scene = simulation.scene();
+    let particles = Box::new(simulation.state().particles.clone());
+    let contacts = scene.output.contacts.then(|| simulation.contacts());
+    let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
+    Job::Frame { time, particles, contacts, bonds }
+}
