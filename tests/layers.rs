@@ -5,8 +5,8 @@ use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
 const ROWS: [&[&str]; 16] = [
-    &["choices", "memory", "quantity", "number", "run_error", "vtk_reader"],
-    &["geometry", "lanes", "document"],
+    &["choices", "memory", "quantity", "number", "run_error"],
+    &["geometry", "lanes", "document", "vtk_reader"],
     &["threads", "import", "packing"],
     &["contact", "bond", "motion", "surface"],
     &["scene"],
