@@ -109,7 +109,7 @@ fn a_free_top_keeps_momentum_and_energy_and_its_course_is_of_second_order() {
         let now = angular_momentum(simulation.state(), moved.pivot);
         let scale = apart(momentum, [0.0; 3]);
         assert!(apart(now, momentum) < 1e-12 * scale, "{now:?}, not {momentum:?}");
-        moved.attitude.0
+        moved.orientation.0
     };
     let [coarse, middle, fine] = [0.05, 0.025, 0.0125].map(run);
     let away = |a: [f64; 4], b: [f64; 4]| (0..4).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
@@ -538,10 +538,10 @@ fn a_free_group_among_bonds_keeps_momentum_angular_momentum_and_the_book() {
         [0, 1, 2].map(|axis| rows.iter().map(|row| row[3] * row[axis]).sum())
     };
     let before = (momentum(&simulation), angular_momentum(simulation.state(), [0.0; 3]));
-    let attitude = group_attitude(&simulation);
+    let orientation = group_orientation(&simulation);
     simulation.advance(4e-3).expect("it runs");
     let after = (momentum(&simulation), angular_momentum(simulation.state(), [0.0; 3]));
-    assert!(group_attitude(&simulation)[0] < attitude[0] - 0.1, "the group turned");
+    assert!(group_orientation(&simulation)[0] < orientation[0] - 0.1, "the group turned");
     // 20,000 steps of rounding.
     assert!(apart(before.0, after.0) < 1e-12 * apart(before.0, [0.0; 3]), "{before:?} {after:?}");
     assert!(apart(before.1, after.1) < 1e-11 * apart(before.1, [0.0; 3]), "{before:?} {after:?}");
@@ -550,12 +550,12 @@ fn a_free_group_among_bonds_keeps_momentum_angular_momentum_and_the_book() {
     assert!(residual.abs() < 1e-12 * ledger.turnover, "{residual:e} J of {:e} J", ledger.turnover);
 }
 
-/// Attitude of the first boundary, which its spheres share.
-fn group_attitude(simulation: &Simulation) -> [f64; 4] {
-    let attitude = group(simulation).attitude.0;
+/// Orientation of the first boundary, which its spheres share.
+fn group_orientation(simulation: &Simulation) -> [f64; 4] {
+    let orientation = group(simulation).orientation.0;
     let particles = &simulation.state().particles;
-    assert_eq!(particles.attitude[particles.slot[5] as usize], attitude);
-    attitude
+    assert_eq!(particles.orientation[particles.slot[5] as usize], orientation);
+    orientation
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::number::Vector;
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::boundaries::Inertial;
-use crate::state::{Attitude, BoundaryState, State};
+use crate::state::{BoundaryState, Orientation, State};
 
 /// Half a turn, less what rounding may hide \[rad\].
 const HALF_A_TURN: f64 = std::f64::consts::PI - 1e-9;
@@ -30,7 +30,7 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
             moved.target[axis] += moved.target_rate[axis] * interval;
         }
         moved.target_rate = [0.0; 6];
-        moved.start_attitude = moved.attitude;
+        moved.start_orientation = moved.orientation;
         moved.turn = turn;
         moved.fastest = fastest(boundary, moved, interval);
         moved.impulse = [0.0; 3];
@@ -83,7 +83,7 @@ fn turn_ahead(boundary: &Boundary, moved: &BoundaryState, interval: f64, time: f
         for axis in driven() {
             rotation[axis] = target(axis);
         }
-        let way = rotation::between(Quaternion::from(moved.attitude), rotation::attitude(rotation.into()));
+        let way = rotation::between(Quaternion::from(moved.orientation), rotation::orientation(rotation.into()));
         let angle = way.length();
         if angle > HALF_A_TURN {
             return Err(RunError::Turn { boundary: boundary.name.clone(), angle, time });
@@ -203,7 +203,7 @@ fn turn(boundary: &Boundary, body: &RigidBody, moved: &mut BoundaryState, progre
                 let before = Vector::from(moved.rotation);
                 moved.angular_velocity = spin.to_array();
                 moved.rotation = rotation.to_array();
-                moved.attitude = Attitude::from(rotation::attitude(rotation));
+                moved.orientation = Orientation::from(rotation::orientation(rotation));
                 let steady = boundary.axes[3..].iter().all(AxisMotion::is_steady);
                 if steady { spin * progress.step } else { rotation - before }
             }
@@ -228,11 +228,11 @@ fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress
     if progress.is_last() {
         let [.., a, b, c] = moved.target;
         moved.rotation = [a, b, c];
-        moved.attitude = Attitude::from(rotation::attitude(moved.rotation.into()));
+        moved.orientation = Orientation::from(rotation::orientation(moved.rotation.into()));
     } else {
-        let on_the_way = rotation::attitude(whole * share) * Quaternion::from(moved.start_attitude);
+        let on_the_way = rotation::orientation(whole * share) * Quaternion::from(moved.start_orientation);
         moved.rotation = rotation::vector_near(on_the_way, moved.rotation.into()).to_array();
-        moved.attitude = Attitude::from(on_the_way);
+        moved.orientation = Orientation::from(on_the_way);
     }
     let turned = whole * (share - before);
     moved.angular_velocity = match course {
@@ -251,7 +251,7 @@ pub(crate) fn put(moved: &mut BoundaryState, axis: usize, value: f64) {
         0..3 => moved.displacement[axis] = value,
         _ => {
             moved.rotation[axis - 3] = value;
-            moved.attitude = Attitude::from(rotation::attitude(moved.rotation.into()));
+            moved.orientation = Orientation::from(rotation::orientation(moved.rotation.into()));
         }
     }
 }

@@ -45,11 +45,11 @@ impl Matrix {
         Vector::from(self.0.map(|row| Vector::from(row).dot(vector)))
     }
 
-    /// What it is to a body of this attitude, in global axes.
-    pub(super) fn turned(&self, attitude: Quaternion) -> Self {
+    /// What it is to a body of this orientation, in global axes.
+    pub(super) fn turned(&self, orientation: Quaternion) -> Self {
         let column = |axis: usize| {
             let unit = Vector::from([0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 }));
-            attitude.turn(self.times(attitude.conjugate().turn(unit))).to_array()
+            orientation.turn(self.times(orientation.conjugate().turn(unit))).to_array()
         };
         // Symmetric: its columns are its rows.
         Self([0, 1, 2].map(column))

@@ -6,7 +6,7 @@ use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
-use crate::state::{Attitude, BoundaryState, Particles, State};
+use crate::state::{BoundaryState, Orientation, Particles, State};
 
 /// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
 const ITERATIONS: usize = 40;
@@ -36,7 +36,7 @@ pub(crate) struct RigidBody {
     pub mass: f64,
     /// Mass centre at time 0, from the reference point \[m\].
     pub offset: Vector,
-    /// Inertia about the reference point in the attitude of time 0 \[kg m²\].
+    /// Inertia about the reference point in the orientation of time 0 \[kg m²\].
     inertia: Matrix,
     /// Its inverse.
     inverse: Matrix,
@@ -154,15 +154,15 @@ impl RigidBody {
         })
     }
 
-    /// The angular velocity that an angular momentum gives it in an attitude \[rad/s\].
-    pub(crate) fn spin(&self, attitude: Quaternion, momentum: Vector) -> Vector {
+    /// The angular velocity that an angular momentum gives it in an orientation \[rad/s\].
+    pub(crate) fn spin(&self, orientation: Quaternion, momentum: Vector) -> Vector {
         match self.turning {
             Turning::Still | Turning::Led => Vector::zero(),
             Turning::About(axis) => {
                 let share = momentum.to_array()[axis] / self.inertia.0[axis][axis];
                 Vector::from([0, 1, 2].map(|k| if k == axis { share } else { 0.0 }))
             }
-            Turning::Freely => attitude.turn(self.inverse.times(attitude.conjugate().turn(momentum))),
+            Turning::Freely => orientation.turn(self.inverse.times(orientation.conjugate().turn(momentum))),
         }
     }
 
@@ -218,28 +218,28 @@ impl RigidBody {
 
     /// Half a kick with the present load.
     fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
-        let (attitude, inertial) = (Quaternion::from(moved.attitude), &moved.inertial);
+        let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
         let before = Vector::from(inertial.angular_momentum);
         let added = implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step);
         if added == [0.0; 21] {
             let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
             let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
             let momentum = before + self.twist(moved, step);
-            return Kick { motion: [velocity, self.spin(attitude, momentum)], momentum, added: [0.0; 6] };
+            return Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [0.0; 6] };
         }
         let [shift, turn, impulse] = self.kicked_implicitly(moved, &added, step);
         let velocity = self.along_free(moved.velocity) + shift;
-        let momentum = before + self.about_free(self.inertia.turned(attitude).times(turn).to_array());
+        let momentum = before + self.about_free(self.inertia.turned(orientation).times(turn).to_array());
         let [x, y, z] = impulse.to_array();
         let [a, b, c] = (momentum - before - self.twist(moved, step)).to_array();
-        Kick { motion: [velocity, self.spin(attitude, momentum)], momentum, added: [x, y, z, a, b, c] }
+        Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [x, y, z, a, b, c] }
     }
 
     /// The change of velocity and of angular velocity by half a kick, and the impulse of what is added to the mass.
     fn kicked_implicitly(&self, moved: &BoundaryState, added: &Triangle, step: f64) -> [Vector; 3] {
         let free = self.freedoms();
         let mut matrix = *added;
-        let inertia = self.inertia.turned(Quaternion::from(moved.attitude));
+        let inertia = self.inertia.turned(Quaternion::from(moved.orientation));
         for row in 0..6 {
             let held = if free[row] { 0.0 } else { 1.0 };
             for column in 0..=row {
@@ -311,17 +311,17 @@ impl RigidBody {
 
     /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].
     pub(crate) fn drift(&self, moved: &mut BoundaryState, step: f64) -> Vector {
-        let attitude = Quaternion::from(moved.attitude);
+        let orientation = Quaternion::from(moved.orientation);
         let momentum = Vector::from(moved.inertial.angular_momentum);
-        let spin = self.drift_spin(attitude, momentum, step);
-        let attitude = attitude.turned(spin, step);
-        moved.attitude = Attitude::from(attitude);
+        let spin = self.drift_spin(orientation, momentum, step);
+        let orientation = orientation.turned(spin, step);
+        moved.orientation = Orientation::from(orientation);
         moved.rotation = match self.turning {
-            Turning::Freely => vector_near(attitude, moved.rotation.into()).to_array(),
+            Turning::Freely => vector_near(orientation, moved.rotation.into()).to_array(),
             Turning::About(_) => (Vector::from(moved.rotation) + spin * step).to_array(),
             Turning::Still | Turning::Led => moved.rotation,
         };
-        moved.angular_velocity = self.spin(attitude, momentum).to_array();
+        moved.angular_velocity = self.spin(orientation, momentum).to_array();
         spin * step
     }
 
@@ -334,17 +334,17 @@ impl RigidBody {
     /// A turn about the mean of the angular velocities before and after leaves the component of J w along it as it
     /// is, hence the kinetic energy w · J w/2, too; the angular momentum in space does not change (Simo and Wong
     /// 1991). The map is of second order and its own inverse in reversed time. For a sphere it is exact.
-    fn drift_spin(&self, attitude: Quaternion, momentum: Vector, step: f64) -> Vector {
-        let before = self.spin(attitude, momentum);
+    fn drift_spin(&self, orientation: Quaternion, momentum: Vector, step: f64) -> Vector {
+        let before = self.spin(orientation, momentum);
         if self.turning != Turning::Freely {
             return before;
         }
         let mut mean = before;
         for _ in 0..ITERATIONS {
-            let turned = attitude.turned(mean, step);
+            let turned = orientation.turned(mean, step);
             // The angular velocity afterwards, carried back by the turn: what the body itself sees.
             let seen = self.inverse.times(turned.conjugate().turn(momentum));
-            let next = (before + attitude.turn(seen)) * 0.5;
+            let next = (before + orientation.turn(seen)) * 0.5;
             let change = (next - mean).length();
             mean = next;
             if change <= STANDS * next.length() {
@@ -358,11 +358,11 @@ impl RigidBody {
     /// inertia in global axes \[1/(kg m²)\].
     pub(crate) fn mobility(&self, moved: &BoundaryState) -> [[f64; 6]; 6] {
         let mut mobility = [[0.0; 6]; 6];
-        let attitude = Quaternion::from(moved.attitude);
+        let orientation = Quaternion::from(moved.orientation);
         for axis in 0..3 {
             mobility[axis][axis] = if self.moves[axis] { 1.0 / self.mass } else { 0.0 };
             let unit = Vector::from([0, 1, 2].map(|k| f64::from(u8::from(k == axis))));
-            let spin = self.spin(attitude, self.about_free(unit.to_array())).to_array();
+            let spin = self.spin(orientation, self.about_free(unit.to_array())).to_array();
             for (k, part) in spin.into_iter().enumerate() {
                 mobility[3 + k][3 + axis] = part;
             }
@@ -391,7 +391,7 @@ impl RigidBody {
         if self.spins() {
             let angular = self.about_free(angular.to_array());
             moved.inertial.angular_momentum = angular.to_array();
-            moved.angular_velocity = self.spin(Quaternion::from(moved.attitude), angular).to_array();
+            moved.angular_velocity = self.spin(Quaternion::from(moved.orientation), angular).to_array();
         }
     }
 }
@@ -431,14 +431,14 @@ pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &
 
 /// Puts the particles of a group that turns where it stands.
 fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
-    let attitude = Quaternion::from(moved.attitude);
+    let orientation = Quaternion::from(moved.orientation);
     for &member in members {
         let slot = particles.slot[member as usize] as usize;
         let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
-        let place = Vector::from(moved.pivot) + attitude.turn(home);
+        let place = Vector::from(moved.pivot) + orientation.turn(home);
         particles.position[slot][..3].copy_from_slice(&place.to_array());
-        if let Some(row) = particles.attitude.get_mut(slot) {
-            *row = moved.attitude.0;
+        if let Some(row) = particles.orientation.get_mut(slot) {
+            *row = moved.orientation.0;
         }
     }
     give_motion(moved, members, particles);

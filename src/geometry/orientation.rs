@@ -1,4 +1,4 @@
-//! Attitudes: unit quaternions, and how the time step turns them.
+//! Orientations: unit quaternions, and how the time step turns them.
 
 use crate::number::{Number, Vector};
 use std::ops::Mul;
@@ -54,7 +54,7 @@ impl<N: Number> Quaternion<N> {
         vector + twice * self.scalar + self.vector.cross(twice)
     }
 
-    /// The attitude after `step` \[s\] of rotation at this angular velocity in global axes \[rad/s\].
+    /// The orientation after `step` \[s\] of rotation at this angular velocity in global axes \[rad/s\].
     ///
     /// ```text
     /// q ← (1, h tan|h|/|h|)/norm · q        h = w Δt/2
@@ -96,29 +96,29 @@ mod tests {
         let spin = Vector::new(0.6, -0.48, 0.64);
         let (steps, turns) = (100, 1000);
         let step = std::f64::consts::TAU / f64::from(steps);
-        let mut attitude = Quaternion::identity();
+        let mut orientation = Quaternion::identity();
         for _ in 0..steps * turns {
-            attitude = attitude.turned(spin, step);
+            orientation = orientation.turned(spin, step);
         }
-        let away = attitude.vector.length();
+        let away = orientation.vector.length();
         // A thousand turns are 6283 rad: the rounding of 1e5 products.
         assert!(away < 1e-11, "{away:e}");
-        assert!(attitude.scalar > 0.0);
+        assert!(orientation.scalar > 0.0);
     }
 
     #[test]
     fn one_turn_changes_the_sign() {
-        let mut attitude = Quaternion::identity();
+        let mut orientation = Quaternion::identity();
         for _ in 0..50 {
-            attitude = attitude.turned(Vector::new(0.0, 0.0, 1.0), std::f64::consts::TAU / 50.0);
+            orientation = orientation.turned(Vector::new(0.0, 0.0, 1.0), std::f64::consts::TAU / 50.0);
         }
-        assert!((attitude.scalar + 1.0).abs() < 1e-14, "{attitude:?}");
+        assert!((orientation.scalar + 1.0).abs() < 1e-14, "{orientation:?}");
     }
 
     #[test]
     fn turns_as_the_right_hand_does() {
-        let quarter = (0..20).fold(Quaternion::identity(), |attitude: Quaternion, _| {
-            attitude.turned(Vector::new(0.0, 0.0, 1.0), std::f64::consts::FRAC_PI_2 / 20.0)
+        let quarter = (0..20).fold(Quaternion::identity(), |orientation: Quaternion, _| {
+            orientation.turned(Vector::new(0.0, 0.0, 1.0), std::f64::consts::FRAC_PI_2 / 20.0)
         });
         let turned = quarter.turn(Vector::new(1.0, 0.0, 0.0));
         assert!((turned - Vector::new(0.0, 1.0, 0.0)).length() < 1e-15, "{turned:?}");

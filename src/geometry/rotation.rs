@@ -1,4 +1,4 @@
-//! Rotation vectors and the attitudes they stand for.
+//! Rotation vectors and the orientations they stand for.
 
 use super::Quaternion;
 use crate::number::Vector;
@@ -6,8 +6,8 @@ use crate::number::Vector;
 /// Below this length a vector part has no direction worth following.
 const NOTHING: f64 = 1e-150;
 
-/// The attitude that a rotation vector \[rad\] turns to. It changes continuously over any number of turns.
-pub(crate) fn attitude(rotation: Vector) -> Quaternion {
+/// The orientation that a rotation vector \[rad\] turns to. It changes continuously over any number of turns.
+pub(crate) fn orientation(rotation: Vector) -> Quaternion {
     let angle = rotation.length();
     if angle < NOTHING {
         return Quaternion { scalar: 1.0, vector: rotation * 0.5 };
@@ -16,21 +16,21 @@ pub(crate) fn attitude(rotation: Vector) -> Quaternion {
     Quaternion { scalar: cosine, vector: rotation * (sine / angle) }
 }
 
-/// The rotation vector of an attitude that is nearest to `before`: full turns are counted on \[rad\].
-pub(crate) fn vector_near(attitude: Quaternion, before: Vector) -> Vector {
+/// The rotation vector of an orientation that is nearest to `before`: full turns are counted on \[rad\].
+pub(crate) fn vector_near(orientation: Quaternion, before: Vector) -> Vector {
     use std::f64::consts::TAU;
-    let sine = attitude.vector.length();
+    let sine = orientation.vector.length();
     if sine < NOTHING {
         let length = before.length();
         return if length < NOTHING { before } else { before * (TAU * (length / TAU).round() / length) };
     }
-    let direction = attitude.vector * (1.0 / sine);
-    let angle = 2.0 * libm::atan2(sine, attitude.scalar);
+    let direction = orientation.vector * (1.0 / sine);
+    let angle = 2.0 * libm::atan2(sine, orientation.scalar);
     let turns = ((before.dot(direction) - angle) / TAU).round();
     direction * (angle + TAU * turns)
 }
 
-/// The rotation vector from one attitude to another, in global axes, up to a full turn: which way round it goes, the
+/// The rotation vector from one orientation to another, in global axes, up to a full turn: which way round it goes, the
 /// signs of the quaternions say \[rad\].
 pub(crate) fn between(from: Quaternion, to: Quaternion) -> Vector {
     let turn = to * from.conjugate();
@@ -43,10 +43,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_vector_comes_back_from_its_attitude_after_any_number_of_turns() {
+    fn a_vector_comes_back_from_its_orientation_after_any_number_of_turns() {
         for (length, before) in [(0.3, 0.0), (3.5, 3.4), (7.0, 6.9), (-20.0, -19.5)] {
             let axis = Vector::new(0.6, -0.48, 0.64);
-            let found = vector_near(attitude(axis * length), axis * before);
+            let found = vector_near(orientation(axis * length), axis * before);
             assert!((found - axis * length).length() < 1e-13, "{found:?} for a length of {length}");
         }
     }
@@ -60,10 +60,10 @@ mod tests {
     }
 
     #[test]
-    fn between_two_attitudes_it_goes_the_way_of_their_vectors() {
+    fn between_two_orientations_it_goes_the_way_of_their_vectors() {
         let z = Vector::new(0.0, 0.0, 1.0);
         for (from, to) in [(-1.5, 2.0), (7.0, 7.5), (0.4, 0.1)] {
-            let found = between(attitude(z * from), attitude(z * to)).z;
+            let found = between(orientation(z * from), orientation(z * to)).z;
             let expected: f64 = to - from;
             assert!((found - expected).abs() < 1e-14, "{found}, not {expected}");
         }

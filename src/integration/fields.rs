@@ -204,7 +204,7 @@ impl Fields {
     /// Weight of a body, and the forces applied to it and to its spheres.
     pub(crate) fn on_body(&self, body: &RigidBody, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
         let weight = Vector::from(self.weight(body.mass));
-        let weight = [weight, Quaternion::from(moved.attitude).turn(body.offset).cross(weight)];
+        let weight = [weight, Quaternion::from(moved.orientation).turn(body.offset).cross(weight)];
         let mut applied = halves(moved.inertial.applied);
         for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
             let row = particles.position[particles.slot[member as usize] as usize];

@@ -65,14 +65,14 @@ impl Kernel for First<'_, '_> {
     }
 }
 
-/// Turns the attitudes by a drift of `step` \[s\], where particles have one.
+/// Turns the orientations by a drift of `step` \[s\], where particles have one.
 pub(crate) fn turn(particles: &mut Particles, step: f64, context: &Context) {
-    let attitude = Shared::new(&mut particles.attitude);
-    let (count, spin) = (attitude.length(), &particles.angular_velocity);
+    let orientation = Shared::new(&mut particles.orientation);
+    let (count, spin) = (orientation.length(), &particles.angular_velocity);
     context.each(count.div_ceil(CHUNK), |piece| {
         for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
             // SAFETY: pieces do not overlap.
-            let row = unsafe { attitude.at(slot) };
+            let row = unsafe { orientation.at(slot) };
             *row = Quaternion::from_row(*row).turned(spin[slot].into(), step).to_row();
         }
     });

@@ -28,8 +28,8 @@ pub(crate) trait Pass: Send + Sync {
         false
     }
 
-    /// Whether particles need an attitude for it.
-    fn needs_attitudes(&self) -> bool {
+    /// Whether particles need an orientation for it.
+    fn needs_orientations(&self) -> bool {
         false
     }
 

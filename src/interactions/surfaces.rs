@@ -192,7 +192,7 @@ impl SurfacePass {
 
     /// The surface where it stands.
     fn standing(&self, boundary: &BoundaryState) -> Option<Standing<'_>> {
-        let frame = Frame::of(self.reference, boundary.displacement.into(), boundary.attitude.0);
+        let frame = Frame::of(self.reference, boundary.displacement.into(), boundary.orientation.0);
         Some(Standing {
             features: self.shape.features()?,
             frame,

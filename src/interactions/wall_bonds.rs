@@ -282,7 +282,7 @@ impl Pass for WallBondPass {
         true
     }
 
-    fn needs_attitudes(&self) -> bool {
+    fn needs_orientations(&self) -> bool {
         self.one_bond.needs_orientations
     }
 

@@ -192,7 +192,7 @@ impl Search {
         state.neighbours.boundary_reference.clear();
         state.neighbours.boundary_reference.extend(state.boundaries.iter().map(|boundary| boundary.displacement));
         state.neighbours.boundary_orientation.clear();
-        state.neighbours.boundary_orientation.extend(state.boundaries.iter().map(|boundary| boundary.attitude.0));
+        state.neighbours.boundary_orientation.extend(state.boundaries.iter().map(|boundary| boundary.orientation.0));
         let extents = (0..self.boundaries.len()).map(|boundary| self.extent(state, boundary)).collect();
         state.neighbours.boundary_extent = extents;
         state.neighbours.travel = 0.0;
@@ -228,7 +228,7 @@ impl Search {
         if !turns {
             return shift;
         }
-        let [from, to] = [then.boundary_orientation[boundary], moved.attitude.0].map(Quaternion::from_row);
+        let [from, to] = [then.boundary_orientation[boundary], moved.orientation.0].map(Quaternion::from_row);
         shift + rotation::between(from, to).length() * then.boundary_extent[boundary]
     }
 
@@ -249,7 +249,7 @@ impl Search {
         if let (None, Some(features), Some(material)) = (plane, shape.features(), shape.material()) {
             let (boundary, skin) = (list.boundary, state.neighbours.skin);
             let moved = &state.boundaries[boundary as usize];
-            let frame = Frame::of(*reference, moved.displacement.into(), moved.attitude.0);
+            let frame = Frame::of(*reference, moved.displacement.into(), moved.orientation.0);
             let near = surfaces::Near { boundary, material: material.0, features, frame, skin };
             return surfaces::replace(list, &near, (&state.particles, &self.laws), (&self.order, context));
         }
@@ -312,7 +312,7 @@ pub(crate) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut
     if particles.is_empty() || reach <= 0.0 {
         return;
     }
-    let context = Context { step: 0.0, width: super::lanes::Width::Least, team: None };
+    let context = Context { step: 0.0, width: super::lanes::Width::Least, threads: None };
     let sizes = Sizes::single(0.5 * reach, particles.len());
     let grid = Grid::around(particles, &sizes, 0.0, 0.0, &context);
     let mut order = Order::default();

@@ -133,7 +133,7 @@ impl Order {
             &mut particles.angular_velocity,
             &mut particles.force,
             &mut particles.torque,
-            &mut particles.attitude,
+            &mut particles.orientation,
         ] {
             permute(rows, &mut self.rows, slots, context);
         }

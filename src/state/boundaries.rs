@@ -15,8 +15,8 @@ pub struct BoundaryState {
     pub rotation: [f64; 3],
     /// Angular velocity in the present time step, of free axes at the present time \[rad/s\].
     pub angular_velocity: [f64; 3],
-    /// Attitude that the rotation vector stands for.
-    pub attitude: Attitude,
+    /// Orientation that the rotation vector stands for.
+    pub orientation: Orientation,
     /// The reference point where it stands now \[m\].
     pub pivot: [f64; 3],
     /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\].
@@ -25,8 +25,8 @@ pub struct BoundaryState {
     pub target: [f64; 6],
     /// Rates of the inputs at the start of the communication step; 0 where none was given.
     pub target_rate: [f64; 6],
-    /// Attitude when the present communication step began.
-    pub start_attitude: Attitude,
+    /// Orientation when the present communication step began.
+    pub start_orientation: Orientation,
     /// Rotation vector from there to its end \[rad\].
     pub turn: [f64; 3],
     /// Largest speed of each driven axis on the way to it, signed \[m/s, rad/s\].
@@ -98,21 +98,21 @@ pub struct Inertial {
 
 /// A unit quaternion: scalar, x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Attitude(pub Row);
+pub struct Orientation(pub Row);
 
-impl From<Quaternion> for Attitude {
+impl From<Quaternion> for Orientation {
     fn from(orientation: Quaternion) -> Self {
         Self(orientation.to_row())
     }
 }
 
-impl From<Attitude> for Quaternion {
-    fn from(attitude: Attitude) -> Self {
-        Self::from_row(attitude.0)
+impl From<Orientation> for Quaternion {
+    fn from(orientation: Orientation) -> Self {
+        Self::from_row(orientation.0)
     }
 }
 
-impl Default for Attitude {
+impl Default for Orientation {
     /// As at time 0.
     fn default() -> Self {
         Self([1.0, 0.0, 0.0, 0.0])

@@ -179,7 +179,12 @@ impl Particles {
         let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len(), self.slot.len()];
         let right = "one for each particle";
         demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", right)?;
-        demand(self.attitude.is_empty() || self.attitude.len() == count, "attitude", self.attitude.len(), right)?;
+        demand(
+            self.orientation.is_empty() || self.orientation.len() == count,
+            "orientation",
+            self.orientation.len(),
+            right,
+        )?;
         demand(self.bonds.is_empty() || self.bonds.len() == count, "bonds", self.bonds.len(), right)?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
         demand_all(numbers, "id", "each particle in one slot")?;
@@ -191,7 +196,7 @@ impl Particles {
             (&self.angular_velocity, "angular_velocity"),
             (&self.force, "force"),
             (&self.torque, "torque"),
-            (&self.attitude, "attitude"),
+            (&self.orientation, "orientation"),
         ];
         rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
     }
@@ -448,9 +453,9 @@ impl BoundaryState {
     /// Whether every number is finite.
     fn is_finite(&self) -> bool {
         let Self {
-            displacement, velocity, rotation, angular_velocity, attitude, pivot, start, target, fastest, ..
+            displacement, velocity, rotation, angular_velocity, orientation, pivot, start, target, fastest, ..
         } = self;
-        let Self { target_rate, start_attitude, turn, inertial, force, moment, impulse, .. } = self;
+        let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
         let triples = [
             displacement,
@@ -486,7 +491,7 @@ impl BoundaryState {
             &inertial.added_impulse,
         ];
         let blocks = inertial.stiffness.iter().chain(&inertial.damping);
-        let rows = [attitude.0, start_attitude.0];
+        let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
             && blocks.clone().all(|number| number.is_finite())

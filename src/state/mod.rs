@@ -18,7 +18,7 @@ mod plain;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};
-pub use boundaries::{Attitude, BoundaryState};
+pub use boundaries::{BoundaryState, Orientation};
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::Clock;

@@ -22,9 +22,9 @@ pub struct Particles {
     /// Torque \[N m\]; the fourth number is 0.
     #[serde(with = "plain")]
     pub torque: Vec<Row>,
-    /// Attitude since time 0 as a unit quaternion: scalar, x, y, z. Empty where no bond needs it.
+    /// Orientation since time 0 as a unit quaternion: scalar, x, y, z. Empty where no bond needs it.
     #[serde(with = "plain")]
-    pub attitude: Vec<Row>,
+    pub orientation: Vec<Row>,
     /// Index of the material.
     #[serde(with = "plain")]
     pub material: Vec<u32>,
@@ -48,7 +48,7 @@ clone_in_place!(Particles {
     angular_velocity,
     force,
     torque,
-    attitude,
+    orientation,
     material,
     owner,
     id,

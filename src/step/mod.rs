@@ -33,7 +33,7 @@ use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::ledger::{Loads, Source};
 use crate::state::{Foresight, State, StateFault};
-use crate::threads::{Context, Team, Workers};
+use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -140,7 +140,7 @@ impl Simulation {
 
     /// Makes the lists and the first bonds.
     fn build(&mut self) -> Result<(), RunError> {
-        self.give_attitudes();
+        self.give_orientations();
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         self.check_room()?;
         let context = self.standing();
@@ -150,10 +150,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Gives the particles the attitude of time 0, where a bond needs one and they have none.
-    fn give_attitudes(&mut self) {
-        if self.passes.iter().any(|pass| pass.needs_attitudes()) {
-            self.state.particles.attitude.resize(self.scene.particles.len(), Quaternion::identity().to_row());
+    /// Gives the particles the orientation of time 0, where a bond needs one and they have none.
+    fn give_orientations(&mut self) {
+        if self.passes.iter().any(|pass| pass.needs_orientations()) {
+            self.state.particles.orientation.resize(self.scene.particles.len(), Quaternion::identity().to_row());
         }
     }
 
@@ -174,13 +174,13 @@ impl Simulation {
     pub fn renew_lists(&mut self) {
         self.way_back.forget();
         let mut workers = std::mem::take(&mut self.workers);
-        workers.run(|team| self.rebuild(&Context { step: 0.0, width: self.width, team }));
+        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, threads }));
         self.workers = workers;
     }
 
     /// What passes know where time stands still.
     fn standing(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, team: None }
+        Context { step: 0.0, width: self.width, threads: None }
     }
 
     /// Makes the lists anew.
@@ -278,7 +278,7 @@ impl Simulation {
         course::begin(&self.scene, &mut self.state, interval)?;
         self.state.breaks.clear();
         let mut workers = std::mem::take(&mut self.workers);
-        let (elapsed, result) = workers.run(|team| self.run(interval, team));
+        let (elapsed, result) = workers.run(|threads| self.run(interval, threads));
         self.workers = workers;
         course::end(&mut self.state, elapsed);
         result.map_err(|error| self.named(error))
@@ -286,12 +286,12 @@ impl Simulation {
 
     /// Makes the time steps of a communication step: as many as fit when it begins; where the stable one becomes shorter on
     /// the way, the rest is divided again. Returns how long they took \[s\], and why they ended early.
-    fn run(&mut self, interval: f64, team: Option<&Team>) -> (f64, Result<(), RunError>) {
+    fn run(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
         let width = self.width;
         let boundaries = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
         if self.is_due(boundaries, step) {
-            if let Err(error) = self.look(step, &Context { step, width, team }) {
+            if let Err(error) = self.look(step, &Context { step, width, threads }) {
                 return (0.0, Err(error));
             }
             self.shorten_step();
@@ -309,7 +309,7 @@ impl Simulation {
                 return (elapsed(progress.done), Err(RunError::Stopped { time: self.time() }));
             }
             progress.done += 1;
-            let (context, elapsed) = (Context { step, width, team }, elapsed(progress.done));
+            let (context, elapsed) = (Context { step, width, threads }, elapsed(progress.done));
             if let Err(error) = self.step(progress, &context) {
                 return (elapsed, Err(error));
             }

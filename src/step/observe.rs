@@ -183,7 +183,7 @@ impl Simulation {
 
     /// A context for reading.
     fn quiet(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, team: None }
+        Context { step: 0.0, width: self.width, threads: None }
     }
 }
 

@@ -52,7 +52,7 @@ pub struct Placement {
 }
 
 impl Simulation {
-    /// The scene as it stands after some of its time steps, which have a given length. Attitudes are those of time 0.
+    /// The scene as it stands after some of its time steps, which have a given length. Orientations are those of time 0.
     ///
     /// What the placement does not name stays as at time 0; what is not in the scene is passed over. A scene with planes
     /// is refused: their springs and bonds would be lost.
@@ -74,7 +74,7 @@ impl Simulation {
             put_bond(&scene, &mut state, bond);
         }
         let mut simulation = Self::with(scene, state);
-        simulation.give_attitudes();
+        simulation.give_orientations();
         let Self { scene, hiding, state, .. } = &mut simulation;
         hiding.placed(scene, state, &placement.springs);
         simulation.rebuild(&simulation.standing());

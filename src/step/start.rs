@@ -105,8 +105,8 @@ fn stay(axes: &[AxisMotion; 6], begun: &mut BoundaryState, ended: &BoundaryState
     if (3..6).any(is_free) {
         begun.rotation = ended.rotation;
         begun.angular_velocity = ended.angular_velocity;
-        begun.attitude = ended.attitude;
-        begun.start_attitude = ended.attitude;
+        begun.orientation = ended.orientation;
+        begun.start_orientation = ended.orientation;
         begun.inertial.angular_momentum = ended.inertial.angular_momentum;
     }
 }

@@ -12,8 +12,9 @@ impl Simulation {
         state.check(&self.state)?;
         self.search.check(state)?;
         let count = state.particles.len();
-        let attitudes = state.particles.attitude.len() == count || !self.passes.iter().any(|it| it.needs_attitudes());
-        demand(attitudes, "attitude", state.particles.attitude.len(), "one for each particle")?;
+        let orientations =
+            state.particles.orientation.len() == count || !self.passes.iter().any(|it| it.needs_orientations());
+        demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;
         let hidden = self.hiding.any() || state.hidden.all().next().is_none();
         demand(hidden, "hidden", 0, "no contact where no bond suppresses any")?;
         let step = match self.scene.run.step {

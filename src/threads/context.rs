@@ -1,6 +1,6 @@
 //! Who works on the loops of a time step, in which lane width.
 
-use super::helpers::Team;
+use super::helpers::Threads;
 use crate::lanes::{Shared, Width};
 
 /// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
@@ -15,14 +15,14 @@ pub(crate) struct Context<'a> {
     /// Lane width.
     pub width: Width,
     /// Who works, if several threads do.
-    pub team: Option<&'a Team>,
+    pub threads: Option<&'a Threads>,
 }
 
 impl Context<'_> {
     /// Does pieces 0 to `count` − 1 of the work, in any order.
     pub(crate) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {
-        match self.team {
-            Some(team) if count > 1 => team.each(count, &piece),
+        match self.threads {
+            Some(threads) if count > 1 => threads.each(count, &piece),
             _ => (0..count).for_each(piece),
         }
     }
@@ -31,8 +31,8 @@ impl Context<'_> {
     /// neighbours are done. What two neighbours add to one place thus always comes in the same order, and what is
     /// near in space is near in time.
     pub(crate) fn slabs(&self, count: usize, work: impl Fn(usize) + Sync + Send) {
-        match self.team {
-            Some(team) if count > 2 => team.slabs(count, &work),
+        match self.threads {
+            Some(threads) if count > 2 => threads.slabs(count, &work),
             _ => (0..count).for_each(|turn| work(in_turn(turn, count))),
         }
     }
@@ -47,13 +47,13 @@ impl Context<'_> {
     ) -> A {
         /// Pieces that are done before their results are joined.
         const ROUND: usize = 128;
-        let Some(team) = self.team.filter(|_| count > 1) else { return (0..count).map(piece).fold(start, join) };
+        let Some(threads) = self.threads.filter(|_| count > 1) else { return (0..count).map(piece).fold(start, join) };
         let mut sum = start;
         for from in (0..count).step_by(ROUND) {
             let mut results = [const { None }; ROUND];
             let places = Shared::new(&mut results);
             // SAFETY: each piece has a place of its own.
-            team.each(ROUND.min(count - from), &|number| unsafe { *places.at(number) = Some(piece(from + number)) });
+            threads.each(ROUND.min(count - from), &|number| unsafe { *places.at(number) = Some(piece(from + number)) });
             sum = results.into_iter().flatten().fold(sum, &mut join);
         }
         sum
@@ -61,11 +61,11 @@ impl Context<'_> {
 
     /// What the pieces 0 to `count` − 1 give, in order.
     pub(crate) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-        let Some(team) = self.team.filter(|_| count > 1) else { return (0..count).map(piece).collect() };
+        let Some(threads) = self.threads.filter(|_| count > 1) else { return (0..count).map(piece).collect() };
         let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
         let places = Shared::new(&mut results);
         // SAFETY: each piece has a place of its own.
-        team.each(count, &|number| unsafe { *places.at(number) = Some(piece(number)) });
+        threads.each(count, &|number| unsafe { *places.at(number) = Some(piece(number)) });
         results.into_iter().flatten().collect()
     }
 }

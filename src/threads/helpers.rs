@@ -32,7 +32,7 @@ const LOOP: u32 = 32;
 type Work<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// The first thread of a simulation and its helpers. Between communication steps the helpers sleep.
-pub(crate) struct Team {
+pub(crate) struct Threads {
     /// Number of the loop, helpers at work, and whether pieces may be taken.
     gate: AtomicU64,
     /// What is to be done; looked at by helpers inside the gate alone.
@@ -55,7 +55,7 @@ pub(crate) struct Team {
 }
 
 // SAFETY: `work` is written by the first thread while nobody is inside the gate, and read inside the gate.
-unsafe impl Sync for Team {}
+unsafe impl Sync for Threads {}
 
 /// Pieces that are still to be done: the first one in the upper half, the one behind the last in the lower. Each share
 /// has a line of the cache of its own.
@@ -87,7 +87,7 @@ impl Share {
 }
 
 /// A helper inside the gate; it is out when this is dropped, however that comes about.
-struct Inside<'a>(&'a Team);
+struct Inside<'a>(&'a Threads);
 
 impl Drop for Inside<'_> {
     fn drop(&mut self) {
@@ -99,7 +99,7 @@ impl Drop for Inside<'_> {
 }
 
 /// The open gate; it is shut and everybody is out when this is dropped.
-struct Open<'a>(&'a Team);
+struct Open<'a>(&'a Threads);
 
 impl Drop for Open<'_> {
     fn drop(&mut self) {
@@ -114,8 +114,8 @@ impl Drop for Open<'_> {
     }
 }
 
-impl Team {
-    /// A team of so many threads.
+impl Threads {
+    /// So many threads.
     pub(crate) fn of(threads: usize) -> Self {
         let shares = || (0..threads).map(|_| Share(AtomicU64::new(0))).collect();
         Self {
@@ -132,7 +132,7 @@ impl Team {
     }
 
     /// How many threads work.
-    pub(crate) fn threads(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.shares.len()
     }
 
@@ -206,7 +206,7 @@ impl Team {
         }
     }
 
-    /// Helps with every loop until the team is dismissed.
+    /// Helps with every loop until the threads are dismissed.
     pub(crate) fn help(&self, place: usize) {
         let (mut done, mut looks) = (0, 0);
         while !self.dismissed.load(SeqCst) {
@@ -265,25 +265,25 @@ fn take_all(shares: &[Share], place: usize, work: &Work) {
 mod tests {
     use super::*;
 
-    /// Does something with a team of so many threads.
-    fn with_team(threads: usize, act: impl FnOnce(&Team)) {
-        let team = &Team::of(threads);
+    /// Does something with so many threads.
+    fn with_threads(count: usize, act: impl FnOnce(&Threads)) {
+        let threads = &Threads::of(count);
         std::thread::scope(|scope| {
-            for place in 1..threads {
-                scope.spawn(move || team.help(place));
+            for place in 1..count {
+                scope.spawn(move || threads.help(place));
             }
-            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| act(team)));
-            team.dismiss();
+            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| act(threads)));
+            threads.dismiss();
             result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         });
     }
 
     #[test]
     fn every_piece_of_every_loop_is_done_once() {
-        with_team(3, |team| {
+        with_threads(3, |threads| {
             for count in (0..200).chain([5000]) {
                 let done: Vec<AtomicUsize> = (0..count).map(|_| AtomicUsize::new(0)).collect();
-                team.each(count, &|piece| {
+                threads.each(count, &|piece| {
                     done[piece].fetch_add(1, Relaxed);
                 });
                 assert!(done.iter().all(|done| done.load(Relaxed) == 1), "{count} pieces");
@@ -298,18 +298,18 @@ mod tests {
     /// It looked for the next loop for ever: the number of the last loop was not that of the last one that it had done.
     #[test]
     fn a_helper_that_came_too_late_for_the_last_loop_sleeps() {
-        let team = &Team::of(2);
+        let threads = &Threads::of(2);
         for _ in 0..3 {
-            team.each(5, &|_| ());
+            threads.each(5, &|_| ());
         }
         std::thread::scope(|scope| {
-            scope.spawn(|| team.help(1));
+            scope.spawn(|| threads.help(1));
             let begun = std::time::Instant::now();
-            while team.asleep.load(SeqCst) == 0 && begun.elapsed().as_secs() < 20 {
+            while threads.asleep.load(SeqCst) == 0 && begun.elapsed().as_secs() < 20 {
                 std::thread::yield_now();
             }
-            let asleep = team.asleep.load(SeqCst);
-            team.dismiss();
+            let asleep = threads.asleep.load(SeqCst);
+            threads.dismiss();
             assert_eq!(asleep, 1);
         });
     }
@@ -317,11 +317,11 @@ mod tests {
     #[test]
     fn an_odd_slab_is_done_after_both_its_neighbours() {
         for threads in [1, 2, 4] {
-            with_team(threads, |team| {
+            with_threads(threads, |threads| {
                 for count in 1..60 {
                     let turn = AtomicUsize::new(1);
                     let turns: Vec<AtomicUsize> = (0..count).map(|_| AtomicUsize::new(0)).collect();
-                    team.slabs(count, &|slab| turns[slab].store(turn.fetch_add(1, SeqCst), SeqCst));
+                    threads.slabs(count, &|slab| turns[slab].store(turn.fetch_add(1, SeqCst), SeqCst));
                     let turns: Vec<usize> = turns.into_iter().map(AtomicUsize::into_inner).collect();
                     assert_eq!(turn.into_inner(), count + 1, "each once");
                     for odd in (1..count).step_by(2) {
@@ -337,7 +337,7 @@ mod tests {
     fn a_piece_that_panics_is_told_and_nobody_waits_for_ever() {
         for threads in [1, 3] {
             let result = std::panic::catch_unwind(|| {
-                with_team(threads, |team| team.slabs(40, &|slab| assert!(slab != 22, "a slab panics")));
+                with_threads(threads, |threads| threads.slabs(40, &|slab| assert!(slab != 22, "a slab panics")));
             });
             assert!(result.is_err(), "{threads} threads");
         }

@@ -5,5 +5,5 @@ mod helpers;
 mod workers;
 
 pub(crate) use context::{CHUNK, Context};
-pub(crate) use helpers::Team;
+pub(crate) use helpers::Threads;
 pub(crate) use workers::Workers;

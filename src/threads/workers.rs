@@ -1,6 +1,6 @@
 //! The threads of one simulation.
 
-use super::helpers::Team;
+use super::helpers::Threads;
 use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 
@@ -17,8 +17,8 @@ pub(crate) struct Workers {
 /// The first thread's helpers.
 struct Helpers {
     /// What they are called to work by.
-    team: Arc<Team>,
-    /// The threads.
+    threads: Arc<Threads>,
+    /// Their handles.
     handles: Vec<JoinHandle<()>>,
     /// The process that they run in. A child made by `fork` has a copy of everything but them.
     process: u32,
@@ -26,12 +26,12 @@ struct Helpers {
 
 impl Helpers {
     /// Starts the helpers of so many threads; none where the system refuses one of them.
-    fn start(threads: usize) -> Option<Self> {
-        let team = Arc::new(Team::of(threads));
-        let mut helpers = Self { team, handles: Vec::new(), process: std::process::id() };
-        for place in 1..threads {
-            let team = Arc::clone(&helpers.team);
-            helpers.handles.push(Builder::new().name("cograin".into()).spawn(move || team.help(place)).ok()?);
+    fn start(count: usize) -> Option<Self> {
+        let threads = Arc::new(Threads::of(count));
+        let mut helpers = Self { threads, handles: Vec::new(), process: std::process::id() };
+        for place in 1..count {
+            let threads = Arc::clone(&helpers.threads);
+            helpers.handles.push(Builder::new().name("cograin".into()).spawn(move || threads.help(place)).ok()?);
         }
         Some(helpers)
     }
@@ -46,7 +46,7 @@ impl Drop for Helpers {
     fn drop(&mut self) {
         let here = self.are_here();
         if here {
-            self.team.dismiss();
+            self.threads.dismiss();
         }
         for handle in self.handles.drain(..) {
             if here {
@@ -73,15 +73,15 @@ impl Workers {
 
     /// How many threads work.
     pub(crate) fn count(&self) -> usize {
-        self.helpers.as_ref().map_or(1, |helpers| helpers.team.threads())
+        self.helpers.as_ref().map_or(1, |helpers| helpers.threads.count())
     }
 
     /// Does work to which helpers come, if there are any. In a child made by `fork` they are started anew, or, where
     /// that is refused, one thread does all: the same bits.
-    pub(crate) fn run<T>(&mut self, work: impl FnOnce(Option<&Team>) -> T) -> T {
+    pub(crate) fn run<T>(&mut self, work: impl FnOnce(Option<&Threads>) -> T) -> T {
         if self.helpers.as_ref().is_some_and(|helpers| !helpers.are_here()) {
             self.helpers = Helpers::start(self.count());
         }
-        work(self.helpers.as_ref().map(|helpers| &*helpers.team))
+        work(self.helpers.as_ref().map(|helpers| &*helpers.threads))
     }
 }

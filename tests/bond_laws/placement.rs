@@ -40,7 +40,7 @@ pub(crate) fn turn(rotation: Vector) -> Quaternion {
 pub(crate) struct Placement {
     /// Positions \[m\].
     pub(crate) position: [Vector; 2],
-    /// Attitudes.
+    /// Orientations.
     pub(crate) orientation: [Quaternion; 2],
 }
 

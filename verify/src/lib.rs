@@ -39,7 +39,7 @@ pub struct Options {
     pub write: Option<PathBuf>,
     /// Whether cases of bonds run from their start alone, not from each sample to the next.
     pub free: bool,
-    /// The formulation of bonds; every other than `engine_exact` runs from the start, as samples hold no attitudes.
+    /// The formulation of bonds; every other than `engine_exact` runs from the start, as samples hold no orientations.
     pub formulation: FormulationChoice,
 }
 

@@ -169,7 +169,7 @@ impl Pass for BondPass {
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
-            orientation: &particles.attitude,
+            orientation: &particles.orientation,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
             step: context.step,
@@ -220,7 +220,7 @@ impl Pass for BondPass {
         true
     }
 
-    fn needs_attitudes(&self) -> bool {
+    fn needs_orientations(&self) -> bool {
         self.one_bond.needs_orientations
     }
 
@@ -323,7 +323,7 @@ pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 
 /// A particle as a body of a bond.
 pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
-    let orientation = particles.attitude.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let orientation = particles.orientation.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
     Body {
         position: particles.position[slot].into(),
         velocity: particles.velocity[slot].into(),

@@ -54,7 +54,7 @@ impl Simulation {
         put_boundaries(&scene, &mut state, reached, from);
         history::put_contacts(&scene, &mut state, reached, (from, &numbers));
         let mut simulation = Self::with(scene, state);
-        simulation.give_attitudes();
+        simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
         let Self { scene, bodies, state, .. } = &mut simulation;
         rigid_body::place_groups(scene, bodies, state);
@@ -73,8 +73,8 @@ impl Simulation {
 /// Puts the particles where they are, as they move.
 fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
     let (particles, other) = (&mut state.particles, &reached.particles);
-    if !other.attitude.is_empty() {
-        particles.attitude.resize(particles.len(), Quaternion::identity().to_row());
+    if !other.orientation.is_empty() {
+        particles.orientation.resize(particles.len(), Quaternion::identity().to_row());
     }
     for (there, here) in numbers.here.iter().enumerate() {
         let Some(slot) = here.map(|here| here as usize) else { continue };
@@ -84,8 +84,8 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
             particles.velocity[slot][axis] = other.velocity[from][axis];
             particles.angular_velocity[slot][axis] = other.angular_velocity[from][axis];
         }
-        if let (Some(attitude), Some(other)) = (particles.attitude.get_mut(slot), other.attitude.get(from)) {
-            *attitude = *other;
+        if let (Some(orientation), Some(other)) = (particles.orientation.get_mut(slot), other.orientation.get(from)) {
+            *orientation = *other;
         }
     }
 }
@@ -100,8 +100,8 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
         };
         moved.displacement = other.displacement;
         moved.rotation = other.rotation;
-        moved.attitude = other.attitude;
-        moved.start_attitude = other.attitude;
+        moved.orientation = other.orientation;
+        moved.start_orientation = other.orientation;
         let [x, y, z] = other.displacement;
         let [a, b, c] = other.rotation;
         for (axis, place) in [x, y, z, a, b, c].into_iter().enumerate() {

@@ -353,7 +353,7 @@ impl Keys {
             }
         };
         let (scale, offset) = (self.scale.map_or(1.0, Positive::get), self.offset.unwrap_or_default().0);
-        let turn = self.rotation.map(|rotation| rotation::attitude(rotation.0.into()));
+        let turn = self.rotation.map(|rotation| rotation::orientation(rotation.0.into()));
         for corner in triangles.iter_mut().flatten() {
             let place = corner.map(|part| part * scale);
             let place = turn.map_or(place, |turn| turn.turn(place.into()).to_array());
