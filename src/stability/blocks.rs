@@ -56,12 +56,12 @@ pub(super) fn largest_root(network: &Network, guess: f64) -> (f64, Option<usize>
     let mut blocks = Blocks {
         network,
         stiffness: vec![[0.0; 21]; movers],
-        damping: vec![[0.0; 21]; if network.damped { movers } else { 0 }],
+        damping: vec![[0.0; 21]; if network.is_damped() { movers } else { 0 }],
         weights: vec![1.0; movers],
         shared_at: guess,
     };
     let all = 0..network.elements.len();
-    if network.damped && guess <= 0.0 {
+    if network.is_damped() && guess <= 0.0 {
         blocks.add(all.clone(), |_| true);
         blocks.shared_at = blocks.largest(0..movers, 0.0).0;
         blocks.clear(0..movers);
@@ -91,13 +91,11 @@ impl Blocks<'_> {
 
     /// Adds these elements to the blocks of the bodies that are chosen.
     fn add(&mut self, elements: impl Iterator<Item = usize>, chosen: impl Fn(usize) -> bool) {
-        let network = self.network;
         for place in elements {
-            let element = &network.elements[place];
-            let [Some((first, a)), second] = [0, 1].map(|end| self.end(element, end)) else { continue };
+            let [Some((first, a)), second] = [0, 1].map(|end| self.end(place, end)) else { continue };
             let Some((second, b)) = second else {
                 if chosen(first) {
-                    self.add_end(first, element, 0, 1.0);
+                    self.add_end(first, place, 0, 1.0);
                 }
                 continue;
             };
@@ -106,23 +104,23 @@ impl Blocks<'_> {
             // It is not a number where neither end can move.
             let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
             if chosen(first) {
-                self.add_end(first, element, 0, 1.0 + share);
+                self.add_end(first, place, 0, 1.0 + share);
             }
             if chosen(second) {
-                self.add_end(second, element, 1, 1.0 + 1.0 / share);
+                self.add_end(second, place, 1, 1.0 + 1.0 / share);
             }
         }
     }
 
     /// The body at one end of an element and the trace of what it would feel alone.
-    fn end(&self, element: &Element, end: usize) -> Option<(usize, f64)> {
+    fn end(&self, place: usize, end: usize) -> Option<(usize, f64)> {
+        let element = &self.network.elements[place];
         let slot = element.slots[end];
         if slot == UNMOVED {
             return None;
         }
         let mover = self.network.mover(slot)?;
-        let part = |k: usize| f64::from(element.stiffness[k]) + self.shared_at * f64::from(element.damping[k]);
-        let [along, across, twisting, bending] = [part(0), part(1), part(2), part(3)];
+        let [along, across, twisting, bending] = self.network.parts(place, self.shared_at);
         let arm = f64::from(element.arms[end]);
         let trace = match self.group(mover) {
             None => {
@@ -146,23 +144,25 @@ impl Blocks<'_> {
     }
 
     /// Adds one end of an element to the block of its body.
-    fn add_end(&mut self, mover: usize, element: &Element, end: usize, share: f64) {
+    fn add_end(&mut self, mover: usize, place: usize, end: usize, share: f64) {
         let network = self.network;
-        let damped = element.damping != [0.0; 4];
+        let element = &network.elements[place];
+        let (stiffness, damping) = (network.stiffness.of(place), network.damping.of(place));
+        let damped = damping != [0.0; 4];
         match mover.checked_sub(network.roots.len()) {
             None => {
                 let roots = network.roots[mover];
-                add_particle(&mut self.stiffness[mover], element, end, element.stiffness, roots, share);
+                add_particle(&mut self.stiffness[mover], element, end, stiffness, roots, share);
                 if damped {
-                    add_particle(&mut self.damping[mover], element, end, element.damping, roots, share);
+                    add_particle(&mut self.damping[mover], element, end, damping, roots, share);
                 }
             }
             Some(group) => {
                 let Some(group) = &network.groups[group] else { return };
                 let arm = network.arm(element, end, group).to_array();
-                add_group(&mut self.stiffness[mover], element.normal, arm, element.stiffness, group, share);
+                add_group(&mut self.stiffness[mover], element.normal, arm, stiffness, group, share);
                 if damped {
-                    add_group(&mut self.damping[mover], element.normal, arm, element.damping, group, share);
+                    add_group(&mut self.damping[mover], element.normal, arm, damping, group, share);
                 }
             }
         }

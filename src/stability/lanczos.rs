@@ -44,7 +44,7 @@ type Motions = Vec<[f64; 6]>;
 /// is moved on.
 pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, context: &Context) -> f64 {
     let mut method = Method::of(network, context);
-    let share = SHARES[usize::from(network.damped)];
+    let share = SHARES[usize::from(network.is_damped())];
     let products = products(6 * method.bodies, share);
     let certify = |method: &mut Method, root: f64, counter: &mut u64| {
         *counter += 1;
@@ -52,7 +52,7 @@ pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, con
         let certain = if exact { value * (1.0 + ROUNDING) } else { value / (1.0 - share) };
         (value, certain.sqrt())
     };
-    if !network.damped {
+    if !network.is_damped() {
         return certify(&mut method, 0.0, counter).1;
     }
     if guess > 0.0 {
@@ -231,8 +231,8 @@ impl<'a> Method<'a> {
             let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(network.elements.len()));
             // SAFETY: pieces do not overlap.
             let loads = unsafe { loads.part(from, to) };
-            for (load, element) in loads.iter_mut().zip(&network.elements[from..to]) {
-                *load = load_of(network, element, root, motion);
+            for (load, place) in loads.iter_mut().zip(from..to) {
+                *load = load_of(network, place, root, motion);
             }
         });
         let (starts, ends, loads) = (&self.starts, &self.ends, &self.loads);
@@ -313,15 +313,15 @@ fn moved(network: &Network, element: &Element, end: usize, motion: &Motions) -> 
 
 /// Force and couple on the first end of an element that moves like this.
 #[inline(always)]
-fn load_of(network: &Network, element: &Element, root: f64, motion: &Motions) -> [f64; 6] {
+fn load_of(network: &Network, place: usize, root: f64, motion: &Motions) -> [f64; 6] {
+    let element = &network.elements[place];
     let [[u, w], [v, z]] = [moved(network, element, 0, motion), moved(network, element, 1, motion)];
-    let part = |k: usize| f64::from(element.stiffness[k]) + root * f64::from(element.damping[k]);
+    let [along, across, twisting, bending] = network.parts(place, root);
     let n = element.normal.map(f64::from);
     let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
     let turn = [w[0] - z[0], w[1] - z[1], w[2] - z[2]];
-    let (across, bending) = (part(1), part(3));
-    let along = (part(0) - across) * dot(slip, n);
-    let twist = (part(2) - bending) * dot(turn, n);
+    let along = (along - across) * dot(slip, n);
+    let twist = (twisting - bending) * dot(turn, n);
     [
         across * slip[0] + along * n[0],
         across * slip[1] + along * n[1],
@@ -463,7 +463,7 @@ fn eigenvector(diagonal: &[f64], beside: &[f64], value: f64) -> Vec<f64> {
 pub(super) fn critical_motion(network: &Network, root: f64, counter: u64, context: &Context) -> Motions {
     /// Products after which it stands out.
     const PRODUCTS: usize = 60;
-    let at = if network.damped { root } else { 0.0 };
+    let at = if network.is_damped() { root } else { 0.0 };
     Method::of(network, context).motion(at, PRODUCTS, counter)
 }
 
@@ -474,12 +474,12 @@ pub(super) fn shares(network: &Network, place: usize, root: f64, motion: &Motion
     let n = element.normal.map(f64::from);
     let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
     let turn = [w[0] - z[0], w[1] - z[1], w[2] - z[2]];
-    let part = |k: usize| f64::from(element.stiffness[k]) + root * f64::from(element.damping[k]);
+    let parts = network.parts(place, root);
     let (along, twist) = (dot(slip, n), dot(turn, n));
     [
-        part(0) * along * along,
-        part(1) * (dot(slip, slip) - along * along),
-        part(2) * twist * twist,
-        part(3) * (dot(turn, turn) - twist * twist),
+        parts[0] * along * along,
+        parts[1] * (dot(slip, slip) - along * along),
+        parts[2] * twist * twist,
+        parts[3] * (dot(turn, turn) - twist * twist),
     ]
 }

@@ -12,8 +12,8 @@ pub(super) const UNMOVED: u32 = u32::MAX;
 /// A matrix over six freedoms: three translations, three rotations.
 pub(super) type Matrix = [[f64; 6]; 6];
 
-/// A contact or bond between two bodies that forces move, or of one with something else. Single precision: the network of a
-/// million particles is to fit beside them; the bound allows for the rounding.
+/// A contact or bond between two bodies that forces move, or of one with something else; its springs and dashpots stand in
+/// [`Parts`]. Single precision: the network of a million particles is to fit beside them; the bound allows for the rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     /// Particles (slots) at which it acts; the second may be [`UNMOVED`].
@@ -22,10 +22,44 @@ pub(super) struct Element {
     pub normal: [f32; 3],
     /// From each centre to where the forces act, along the normal \[m\].
     pub arms: [f32; 2],
-    /// Along the normal, across it, against twisting, against bending \[N/m, N m\].
-    pub stiffness: [f32; 4],
-    /// The same of the dashpots \[kg/s, N m s\].
-    pub damping: [f32; 4],
+}
+
+/// Springs, or dashpots, of all elements: two columns, of which each is empty while no element has anything of it.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    /// Along the normal and across it \[N/m or kg/s\].
+    shifting: Vec<[f32; 2]>,
+    /// Against twisting and against bending \[N m or N m s\].
+    turning: Vec<[f32; 2]>,
+}
+
+impl Parts {
+    /// Adds those of the next element: there are `before` others, and in all at most `most`.
+    fn push(&mut self, [along, across, twisting, bending]: [f64; 4], before: usize, most: usize) {
+        for (column, part) in [(&mut self.shifting, [along, across]), (&mut self.turning, [twisting, bending])] {
+            if column.is_empty() && part == [0.0; 2] {
+                continue;
+            }
+            if column.is_empty() {
+                column.reserve(most);
+                column.resize(before, [0.0; 2]);
+            }
+            column.push(part.map(|part| part as f32));
+        }
+    }
+
+    /// Whether there are any.
+    pub(super) fn any(&self) -> bool {
+        !self.shifting.is_empty() || !self.turning.is_empty()
+    }
+
+    /// Those of an element: along the normal, across it, against twisting, against bending.
+    #[inline(always)]
+    pub(super) fn of(&self, place: usize) -> [f32; 4] {
+        let [along, across] = self.shifting.get(place).copied().unwrap_or_default();
+        let [twisting, bending] = self.turning.get(place).copied().unwrap_or_default();
+        [along, across, twisting, bending]
+    }
 }
 
 /// A group that forces move.
@@ -49,8 +83,10 @@ pub(crate) struct Network<'a> {
     light: Vec<bool>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
-    /// Whether any of them has a dashpot.
-    pub(super) damped: bool,
+    /// Their springs.
+    pub(super) stiffness: Parts,
+    /// Their dashpots.
+    pub(super) damping: Parts,
 }
 
 impl<'a> Network<'a> {
@@ -85,20 +121,39 @@ impl<'a> Network<'a> {
             groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
             light: bodies.iter().map(|body| body.as_ref().is_some_and(RigidBody::is_implicit)).collect(),
             elements: Vec::new(),
-            damped: false,
+            stiffness: Parts::default(),
+            damping: Parts::default(),
         };
+        // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
+        let most = most_links(state);
+        network.elements.reserve(most);
         for pass in passes {
-            pass.stiffness(state, ahead, &mut |link| network.add(&link));
+            pass.stiffness(state, ahead, &mut |link| network.add(&link, most));
         }
         network
     }
 
     /// Adds an interaction, unless nothing moves by it.
-    fn add(&mut self, link: &Link) {
+    fn add(&mut self, link: &Link, most: usize) {
         if let Some(element) = self.element(link) {
-            self.damped |= element.damping != [0.0; 4];
+            let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
+            let share = |part: f64| if twice { 2.0 * part } else { part };
+            self.stiffness.push(link.stiffness.map(share), self.elements.len(), most);
+            self.damping.push(link.damping.map(share), self.elements.len(), most);
             self.elements.push(element);
         }
+    }
+
+    /// Whether any interaction has a dashpot.
+    pub(super) fn is_damped(&self) -> bool {
+        self.damping.any()
+    }
+
+    /// Spring and dashpot of an element at this root \[1/s\], part by part.
+    #[inline(always)]
+    pub(super) fn parts(&self, place: usize, root: f64) -> [f64; 4] {
+        let (stiffness, damping) = (self.stiffness.of(place), self.damping.of(place));
+        std::array::from_fn(|k| f64::from(stiffness[k]) + root * f64::from(damping[k]))
     }
 
     /// An interaction between what moves, if it moves anything.
@@ -113,14 +168,10 @@ impl<'a> Network<'a> {
             (None, Some(second)) => ([second, UNMOVED], [link.arms[1], 0.0]),
             (None, None) => return None,
         };
-        let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
-        let share = |part: f64| if twice { 2.0 * part } else { part };
         Some(Element {
             slots,
             normal: [x as f32, y as f32, z as f32],
             arms: [a as f32, b as f32],
-            stiffness: link.stiffness.map(|part| share(part) as f32),
-            damping: link.damping.map(|part| share(part) as f32),
         })
     }
 
@@ -143,6 +194,14 @@ impl<'a> Network<'a> {
         let center = Vector::from(self.state.particles.position[element.slots[end] as usize]);
         center - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
     }
+}
+
+/// How many interactions there are at most, unless bonds are still to be made: near pairs, and two parts of each bond.
+fn most_links(state: &State) -> usize {
+    let pairs = state.contacts.iter().map(|list| list.first.len());
+    let walls = state.walls.iter().map(|list| list.particle.len());
+    let bonds = state.bonds.iter().map(|list| 2 * list.first.len());
+    pairs.chain(walls).chain(bonds).sum::<usize>() + state.hidden.all().count()
 }
 
 /// L of a positive semidefinite matrix L Lᵀ (Cholesky); directions that do not move have zeros.
