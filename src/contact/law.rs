@@ -1,13 +1,20 @@
 //! Four sub-models as one law: the functions of each, called one after another on one contact.
 
 use super::functions::{CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
+#[cfg(test)]
+use super::sub_model::pressing_force;
 use super::{
     Adhesion, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Reaction, Response, RollingStiffness,
     Switches,
 };
 use crate::number::{Row, Vector};
 
-/// How much of a contact is left where a bond hides it, or has hidden it.
+/// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
+/// the last evaluation, if the contact was then suppressed \[N\], and the overlap from which its normal force is taken \[m\].
+pub const OFFSET: HistoryRow = HistoryRow { name: "offset", odd: [true, true, true, false] };
+
+/// How much of a contact is left where a bond suppresses it, or has suppressed it.
+#[cfg(test)]
 #[derive(Clone, Copy, Debug)]
 pub struct Offset {
     /// Overlap beyond the offset: what the elastic force is taken from \[m\].
@@ -147,7 +154,7 @@ impl Law {
         self.normal.adhesion == Adhesion::BeyondTouch
     }
 
-    /// Whether its force can be taken from the overlap beyond an offset, as contacts need that a bond hides: where it is a
+    /// Whether its force can be taken from the overlap beyond an offset, as contacts need that a bond suppresses: where it is a
     /// spring's that does not remember.
     pub fn takes_offset(&self) -> bool {
         self.normal.adhesion == Adhesion::None && self.normal.history.is_none()
@@ -187,10 +194,11 @@ impl Law {
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// The same of a contact that a bond hides, or has hidden. The elastic force is taken from the overlap beyond the
+    /// The same of a contact that a bond suppresses, or has suppressed. The elastic force is taken from the overlap beyond the
     /// offset, and attraction is what the offset's does not hold already, so that neither jumps when the bond is
     /// gone; stiffness and damping are those of the whole overlap. Where the normal force does not act, friction
     /// alone does.
+    #[cfg(test)]
     pub fn react_beyond(
         &self,
         row: &[f64],
@@ -199,11 +207,8 @@ impl Law {
         history: &mut [Row],
         step: f64,
     ) -> Reaction {
-        let (mut response, switches) = ((self.normal.response)(row, contact), self.switches(row));
-        response.tangential_damping *= switches.tangential_damping_factor;
-        let elastic = response.normal_stiffness * offset.pressing;
-        let force = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);
-        let mut normal = NormalForce { response, force, seen: force };
+        let (response, switches) = ((self.normal.response)(row, contact), self.switches(row));
+        let mut normal = pressing_force(response, switches, offset.pressing, contact.normal_velocity);
         if self.cohesion.active {
             let row = &row[self.places.cohesion..];
             let pull = (self.cohesion.force)(row, contact) - (self.cohesion.force)(row, &offset.contact);

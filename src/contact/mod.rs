@@ -24,7 +24,9 @@ pub mod tangential;
 pub use choice::{LawChoice, remembered};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
-pub use law::{CoefficientPlaces, HistoryPlaces, Law, Offset};
+#[cfg(test)]
+pub use law::Offset;
+pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
 
@@ -155,6 +157,9 @@ pub struct Friction<N: Number = f64> {
 
 /// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model.
 pub const MOST_HISTORY: usize = 3;
+
+/// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
+pub const MOST_KEPT: usize = MOST_HISTORY + 1;
 
 /// What a sub-model remembers of a contact from one evaluation to the next: a row of four numbers, zero at first touch
 /// and gone with the contact.

@@ -85,17 +85,28 @@ pub trait NormalForm: Coefficients {
         history: [N; 4],
         _step: N,
     ) -> (NormalForce<N>, [N; 4]) {
-        let mut response = Self::response_at(law, contact, roots);
-        response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
-        let elastic = response.normal_stiffness * contact.overlap;
-        let force = (elastic - response.normal_damping * contact.normal_velocity).max(switches.least_force);
-        (NormalForce { response, force, seen: force }, history)
+        let response = Self::response_at(law, contact, roots);
+        (pressing_force(response, switches, contact.overlap, contact.normal_velocity), history)
     }
     /// Work of the elastic force k_n(δ) (δ − δ₀) from an offset δ₀ to the overlap of the contact, by what is remembered
     /// \[J\].
     fn elastic_energy(&self, contact: &Contact, offset: f64, history: Row) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].
     fn tangent_stiffness(&self, contact: &Contact) -> f64;
+}
+
+/// Force of spring and dashpot, of so much overlap \[m\] and this velocity along the normal \[m/s\].
+#[inline(always)]
+pub(super) fn pressing_force<N: Number>(
+    mut response: Response<N>,
+    switches: Switches<N>,
+    overlap: N,
+    normal_velocity: N,
+) -> NormalForce<N> {
+    response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
+    let elastic = response.normal_stiffness * overlap;
+    let force = (elastic - response.normal_damping * normal_velocity).max(switches.least_force);
+    NormalForce { response, force, seen: force }
 }
 
 /// Friction: force in the tangent plane.

@@ -2,7 +2,7 @@
 //! from.
 
 use crate::bond::creation::Window;
-use crate::contact::{Contact, Law, MOST_HISTORY, Response};
+use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::number::{Row, Vector};
 use crate::state::Particles;
 
@@ -80,10 +80,9 @@ impl Link {
 }
 
 impl Link {
-    /// The same with this normal stiffness and damping: a bond may hide them.
-    pub(crate) fn with_normal(mut self, response: &Response) -> Self {
-        self.stiffness[0] = response.normal_stiffness;
-        self.damping[0] = response.normal_damping;
+    /// The same without stiffness and damping along the normal: a bond suppresses them.
+    pub(crate) fn without_normal(mut self) -> Self {
+        (self.stiffness[0], self.damping[0]) = (0.0, 0.0);
         self
     }
 }

@@ -3,17 +3,16 @@
 //! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
-use super::ahead::{Ahead, Kind, Link};
+use super::ahead::{Ahead, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::{CoefficientTable, Partners};
+use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
-use super::records::{self, ContactRecord};
+use super::records::{ContactRecord, Motion};
 use super::sphere_geometry::SpherePair;
-use crate::contact::{Contact, Needs, Response};
+use crate::contact::{Contact, Law, Needs, Response};
 use crate::lanes::{self, Lane, Shared};
-use crate::number::Vector;
 use crate::run_error::RunError;
-use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
 use crate::threads::Context;
@@ -23,6 +22,8 @@ use std::ops::Range;
 pub(crate) struct ContactPass {
     /// Which list of the state is its own.
     pub index: usize,
+    /// Rows that are kept of each contact.
+    pub kept_rows: usize,
     /// Its coefficients.
     pub table: CoefficientTable,
     /// The law.
@@ -58,12 +59,11 @@ impl Pass for ContactPass {
             let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
             batches.run(ends[slab] as usize, ends[slab + 1] as usize, ahead);
         });
-        self.apply_hidden(state, context.step);
         Ok(())
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {
-        state.contacts[self.index].check_columns(self.law.law.history().len(), self.law.law.has_pair_constant())
+        state.contacts[self.index].check_columns(self.kept_rows, self.law.law.has_pair_constant())
     }
 
     fn has_torque(&self) -> bool {
@@ -79,7 +79,6 @@ impl Pass for ContactPass {
     }
 
     fn prepare(&self, state: &mut State) {
-        self.prepare_hidden(state);
         let list = &mut state.contacts[self.index];
         let law = &self.law.law;
         list.pair_constant.clear();
@@ -94,20 +93,7 @@ impl Pass for ContactPass {
     }
 
     fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
-        self.hidden_stiffness(state, ahead, tell);
-        let (list, particles) = (&state.contacts[self.index], &state.particles);
-        for pair in 0..list.first.len() {
-            let (i, j) = (list.first[pair], list.second[pair]);
-            let reach = ahead.margin.max(ahead.way);
-            let Some((contact, arms)) = self.near_contact(particles, list, pair, reach) else { continue };
-            let law = &self.law.law;
-            let row = self.table.row(particles.material[i as usize], particles.material[j as usize]);
-            let touches = contact.overlap > 0.0 || (law.holds_beyond_touch() && list.flags[pair] & TOUCHING != 0);
-            let deep = ahead.between(law, row, &contact, particles, [i, j]);
-            let Some(deep) = deep.or(touches.then_some(contact)) else { continue };
-            let kind = if touches { Kind::Contact } else { Kind::ComingContact };
-            tell(Link { kind, ..Link::of_contact((i, Some(j), None), (law, row), &deep, arms) });
-        }
+        listed::stiffness(self, state, ahead, tell);
     }
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
@@ -115,36 +101,11 @@ impl Pass for ContactPass {
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
-        let list = &state.contacts[self.index];
-        let before = |slot: u32| records::half_step_back(state, slot as usize, step);
-        for pair in (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0) {
-            let (i, j) = (list.first[pair], list.second[pair]);
-            let ((v, w), (u, z)) = (before(i), before(j));
-            let positions = &state.particles.position;
-            let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
-            let positions = [positions[i as usize], positions[j as usize]];
-            let geometry = SpherePair::of(positions).meet([v, u], [w, z], constant);
-            let ContactGeometry { contact, first_arm, .. } = geometry;
-            let row = self.table.row(state.particles.material[i as usize], state.particles.material[j as usize]);
-            let (reaction, sliding) =
-                records::react(&self.law.law, row, &contact, &list.history, pair, list.flags[pair]);
-            let point = Vector::from(positions[0]) - contact.normal * first_arm;
-            let ids = (state.particles.id[i as usize], Some(state.particles.id[j as usize]));
-            tell(ContactRecord::new(ids, None, point, &contact, &reaction, sliding));
-        }
-        self.hidden_records(state, tell);
+        listed::records(self, state, step, tell);
     }
 
     fn elastic_energy(&self, state: &State) -> f64 {
-        let list = &state.contacts[self.index];
-        let material = |slot: u32| state.particles.material[slot as usize];
-        let energy = |pair: usize| {
-            let (contact, _) = self.pair_contact(&state.particles, list, pair)?;
-            let row = self.table.row(material(list.first[pair]), material(list.second[pair]));
-            Some(self.law.law.elastic_energy(row, &contact, 0.0, &records::history(&list.history, pair)))
-        };
-        let touching = (0..list.first.len()).filter(|&pair| list.flags[pair] & TOUCHING != 0);
-        touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
+        listed::elastic_energy(self, state)
     }
 }
 
@@ -156,34 +117,41 @@ pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
     (r * s / (r + s), m * n / (m + n))
 }
 
-impl ContactPass {
-    /// The contact of a listed pair and its arms, if the two touch, or still hold together.
-    fn pair_contact(&self, particles: &Particles, list: &ContactList, pair: usize) -> Option<(Contact, [f64; 2])> {
-        self.near_contact(particles, list, pair, 0.0)
+impl Listed for ContactPass {
+    fn law(&self) -> &Law {
+        &self.law.law
     }
 
-    /// The contact of a listed pair and its arms, if the two touch, still hold together or are less than `gap` \[m\] apart:
-    /// the overlap is then below 0.
-    fn near_contact(
-        &self,
-        particles: &Particles,
-        list: &ContactList,
-        pair: usize,
-        gap: f64,
-    ) -> Option<(Contact, [f64; 2])> {
-        let (i, j) = (list.first[pair] as usize, list.second[pair] as usize);
-        let constant = list.pair_constant.get(pair).copied().unwrap_or(0.0);
-        let holds = self.law.law.holds_beyond_touch() && list.flags[pair] & TOUCHING != 0;
-        let rows = |rows: &[Row]| [rows[i], rows[j]];
-        let Particles { position, velocity, angular_velocity, .. } = particles;
-        let spheres = SpherePair::of(rows(position));
-        let beyond = if holds { gap.max(constant) } else { gap };
+    fn kept<'a>(&self, state: &'a State) -> Kept<'a> {
+        let ContactList { flags, history, pair_constant, .. } = &state.contacts[self.index];
+        Kept { flags, history, pair_constant }
+    }
+
+    fn bodies(&self, state: &State, entry: usize) -> listed::Bodies {
+        let list = &state.contacts[self.index];
+        (list.first[entry], Some(list.second[entry]), None)
+    }
+
+    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<Met<'_>> {
+        let (list, kept) = (&state.contacts[self.index], self.kept(state));
+        let Particles { position, material, .. } = &state.particles;
+        let (i, j) = (list.first[entry], list.second[entry]);
+        let spheres = SpherePair::of([position[i as usize], position[j as usize]]);
+        let beyond = kept.reach(self.law(), entry, gap);
         if !spheres.overlap((beyond > 0.0).then_some(beyond)) {
             return None;
         }
-        let ContactGeometry { contact, first_arm, second_arm } =
-            spheres.meet(rows(velocity), rows(angular_velocity), constant);
-        Some((contact, [first_arm, second_arm]))
+        let ((v, w), (u, z)) = (motion.of(state, i), motion.of(state, j));
+        let geometry = spheres.meet([v, u], [w, z], kept.constant(entry));
+        let ContactGeometry { contact, first_arm, second_arm } = geometry;
+        let row = self.table.row(material[i as usize], material[j as usize]);
+        Some(Met { contact, arms: [first_arm, second_arm], row })
+    }
+
+    fn deepest(&self, state: &State, ahead: &Ahead, entry: usize, met: &Met) -> Option<Contact> {
+        let list = &state.contacts[self.index];
+        let slots = [list.first[entry], list.second[entry]];
+        ahead.between(self.law(), met.row, &met.contact, &state.particles, slots)
     }
 }
 

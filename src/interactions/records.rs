@@ -78,26 +78,37 @@ impl ContactRecord {
     }
 }
 
-/// Velocity with mass and angular velocity with moment of inertia of a particle at the middle of the last time step,
-/// when its forces were evaluated.
-pub(crate) fn half_step_back(state: &State, slot: usize, step: f64) -> (Row, Row) {
-    let particles = &state.particles;
-    let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
-    if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
-        let moved = &state.boundaries[group];
-        let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
-        let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
-        for axis in 0..3 {
-            velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
-            spin[axis] -= moved.inertial.spin_kick[axis];
+/// When the motion of bodies is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Motion {
+    /// Now.
+    Present,
+    /// At the middle of the last time step, of this length \[s\], when forces were evaluated.
+    HalfStepBack(f64),
+}
+
+impl Motion {
+    /// Velocity with mass and angular velocity with moment of inertia of a particle then.
+    pub(crate) fn of(self, state: &State, slot: u32) -> (Row, Row) {
+        let (particles, slot) = (&state.particles, slot as usize);
+        let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+        let Self::HalfStepBack(step) = self else { return (velocity, spin) };
+        if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+            let moved = &state.boundaries[group];
+            let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+            let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
+            for axis in 0..3 {
+                velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
+                spin[axis] -= moved.inertial.spin_kick[axis];
+            }
+        } else {
+            for axis in 0..3 {
+                velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
+                spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
+            }
         }
-    } else {
-        for axis in 0..3 {
-            velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
-            spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
-        }
+        (velocity, spin)
     }
-    (velocity, spin)
 }
 
 /// What a law remembers of an entry of a list; rows that it does not have are zero.
@@ -134,6 +145,6 @@ pub struct PlacedSpring {
     pub bodies: [u32; 2],
     /// Tangential spring, as the first sees the second \[m\].
     pub spring: [f64; 3],
-    /// Overlap from which the normal force is taken, of a contact that a bond hides or has hidden \[m\].
+    /// Overlap from which the normal force is taken, of a contact that a bond suppresses or has suppressed \[m\].
     pub offset: f64,
 }

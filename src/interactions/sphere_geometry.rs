@@ -33,6 +33,15 @@ impl<N: Number> SpherePair<N> {
         (reach * reach).greater(self.apart.dot(self.apart))
     }
 
+    /// Area of the circle in which two spheres of these radii \[m\] intersect at this overlap \[m\], in m².
+    #[inline(always)]
+    pub(crate) fn section_area([radius_i, radius_j]: [N; 2], overlap: N) -> N {
+        let (reach, difference) = (radius_i + radius_j, radius_i - radius_j);
+        let distance = reach - overlap;
+        let product = (distance + difference) * (distance - difference) * (distance + reach);
+        N::splat(std::f64::consts::FRAC_PI_4) * overlap * product / (distance * distance)
+    }
+
     /// The distance of the centres \[m\] and its inverse \[1/m\].
     #[inline(always)]
     pub(crate) fn roots(&self) -> [N; 2] {

@@ -8,7 +8,7 @@
 use super::ahead::{Ahead, Link};
 use super::coefficients::{CoefficientTable, Partners};
 use super::pass::Pass;
-use super::records::{self, ContactRecord};
+use super::records::{self, ContactRecord, Motion};
 use super::surface_history::{Past, carry};
 use crate::contact::{Contact, Law, MOST_HISTORY, Reaction, Response};
 use crate::geometry::Frame;
@@ -405,7 +405,7 @@ impl Pass for SurfacePass {
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         let (list, particles) = (&state.walls[self.index], &state.particles);
         let before = |slot: usize| {
-            let (velocity, spin) = records::half_step_back(state, slot, step);
+            let (velocity, spin) = Motion::HalfStepBack(step).of(state, slot as u32);
             [particles.position[slot], velocity, spin]
         };
         self.each(state, before, |entry, foot, share, Meeting { contact, point, .. }| {

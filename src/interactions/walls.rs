@@ -3,18 +3,18 @@
 //! Planes are worked on together, pieces of the particles side by side: a particle gets the loads of all planes from one
 //! thread, in the order of the planes. Loads on a plane are summed piece by piece, in order.
 
-use super::ahead::{Ahead, Kind, Link};
+use super::ahead::{Ahead, Link};
 use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
 use super::coefficients::{CoefficientTable, Partners};
+use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
-use super::records::{self, ContactRecord};
-use crate::contact::{Contact, Needs, Response};
+use super::records::{ContactRecord, Motion};
+use crate::contact::{Contact, Law, Needs, Response};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector};
 use crate::run_error::{Cause, RunError};
-use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, StateFault, WallContacts};
+use crate::state::{BoundaryState, Row, State, StateFault, WallContacts};
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -23,6 +23,8 @@ use std::ops::Range;
 pub(crate) struct WallPass {
     /// Which list of the state is its own.
     pub index: usize,
+    /// Rows that are kept of each contact.
+    pub kept_rows: usize,
     /// Name of the plane.
     pub name: String,
     /// The plane at time 0.
@@ -123,27 +125,38 @@ impl WallPass {
             velocity: boundary.velocity.into(),
         }
     }
+}
 
-    /// The contact of a listed particle and its arm, if it touches.
-    pub(crate) fn contact(&self, state: &State, entry: usize) -> Option<(Contact, f64)> {
-        self.near(state, &self.plane(state), entry, 0.0)
+impl Listed for WallPass {
+    fn law(&self) -> &Law {
+        &self.law.law
     }
 
-    /// The contact of a listed particle and its arm, if it touches or is no more than `gap` \[m\] away: the overlap is then
-    /// below 0.
-    fn near(&self, state: &State, plane: &Plane, entry: usize, gap: f64) -> Option<(Contact, f64)> {
+    fn kept<'a>(&self, state: &'a State) -> Kept<'a> {
+        let WallContacts { flags, history, pair_constant, .. } = &state.walls[self.index];
+        Kept { flags, history, pair_constant }
+    }
+
+    fn bodies(&self, state: &State, entry: usize) -> listed::Bodies {
         let list = &state.walls[self.index];
-        let slot = list.particle[entry] as usize;
-        let particles = &state.particles;
-        let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-        let holds = self.law.law.holds_beyond_touch() && list.flags[entry] & TOUCHING != 0;
-        let reach = particles.position[slot][3] + if holds { gap.max(constant) } else { gap };
-        if plane.distance(particles.position[slot]) > reach {
+        (list.particle[entry], None, Some(list.boundary))
+    }
+
+    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<Met<'_>> {
+        let (plane, kept, slot) = (self.plane(state), self.kept(state), state.walls[self.index].particle[entry]);
+        let position = state.particles.position[slot as usize];
+        if plane.distance(position) > position[3] + kept.reach(self.law(), entry, gap) {
             return None;
         }
-        let Particles { position, velocity, angular_velocity, .. } = particles;
-        let geometry = plane.meet(position[slot], velocity[slot], angular_velocity[slot], constant);
-        Some((geometry.contact, geometry.first_arm))
+        let (velocity, spin) = motion.of(state, slot);
+        let geometry = plane.meet(position, velocity, spin, kept.constant(entry));
+        let row = self.table.row(state.particles.material[slot as usize], self.material);
+        Some(Met { contact: geometry.contact, arms: [geometry.first_arm, 0.0], row })
+    }
+
+    fn deepest(&self, state: &State, ahead: &Ahead, _entry: usize, met: &Met) -> Option<Contact> {
+        let speed = self.plane(state).velocity.length();
+        ahead.at_boundary(self.law(), met.row, &met.contact, speed, state.walls[self.index].boundary)
     }
 }
 
@@ -165,8 +178,8 @@ pub(crate) trait PlanePass {
         context: &Context,
     ) -> Box<dyn Fn(Range<usize>) -> Load + Sync + 'a>;
 
-    /// Adds to the plane what the pieces do to it, in order, and does the hidden contacts.
-    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>, step: f64) -> Result<(), RunError>;
+    /// Adds to the plane what the pieces do to it, in order.
+    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>) -> Result<(), RunError>;
 }
 
 /// The particles, while loads are added to them from several sides.
@@ -215,7 +228,7 @@ pub(crate) fn apply(passes: &[Box<dyn Pass>], state: &mut State, context: &Conte
     let mut result = Ok(());
     for (place, plane) in planes.iter().enumerate() {
         let mut loads = pieces.iter().map(|loads| loads[place]);
-        result = result.and(plane.finish(state, &mut loads, context.step));
+        result = result.and(plane.finish(state, &mut loads));
     }
     result
 }
@@ -261,7 +274,7 @@ impl PlanePass for WallPass {
         })
     }
 
-    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>, step: f64) -> Result<(), RunError> {
+    fn finish(&self, state: &mut State, loads: &mut dyn Iterator<Item = Load>) -> Result<(), RunError> {
         let boundary = &mut state.boundaries[state.walls[self.index].boundary as usize];
         let mut behind = None;
         for load in loads {
@@ -271,7 +284,6 @@ impl PlanePass for WallPass {
             }
             behind = behind.or(load.behind);
         }
-        let behind = behind.or(self.apply_hidden(state, step));
         match behind {
             None => Ok(()),
             Some(slot) => Err(RunError::Behind {
@@ -295,7 +307,7 @@ impl Pass for WallPass {
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {
-        state.walls[self.index].check_columns(self.law.law.history().len(), self.law.law.has_pair_constant())
+        state.walls[self.index].check_columns(self.kept_rows, self.law.law.has_pair_constant())
     }
 
     fn has_torque(&self) -> bool {
@@ -311,7 +323,6 @@ impl Pass for WallPass {
     }
 
     fn prepare(&self, state: &mut State) {
-        self.prepare_hidden(state);
         let list = &mut state.walls[self.index];
         let law = &self.law.law;
         list.pair_constant.clear();
@@ -326,21 +337,7 @@ impl Pass for WallPass {
     }
 
     fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
-        self.hidden_stiffness(state, ahead, tell);
-        let (list, particles) = (&state.walls[self.index], &state.particles);
-        let (plane, reach) = (self.plane(state), ahead.margin.max(ahead.way));
-        let speed = plane.velocity.length();
-        for entry in 0..list.particle.len() {
-            let Some((contact, arm)) = self.near(state, &plane, entry, reach) else { continue };
-            let (slot, law) = (list.particle[entry], &self.law.law);
-            let row = self.table.row(particles.material[slot as usize], self.material);
-            let touches = contact.overlap >= 0.0 || (law.holds_beyond_touch() && list.flags[entry] & TOUCHING != 0);
-            let deep = ahead.at_boundary(law, row, &contact, speed, list.boundary);
-            let Some(deep) = deep.or(touches.then_some(contact)) else { continue };
-            let kind = if touches { Kind::Contact } else { Kind::ComingContact };
-            let bodies = (slot, None, Some(list.boundary));
-            tell(Link { kind, ..Link::of_contact(bodies, (law, row), &deep, [arm, 0.0]) });
-        }
+        listed::stiffness(self, state, ahead, tell);
     }
 
     fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
@@ -349,34 +346,11 @@ impl Pass for WallPass {
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
-        let list = &state.walls[self.index];
-        let plane = self.plane(state);
-        for entry in (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0) {
-            let slot = list.particle[entry] as usize;
-            let (velocity, spin) = records::half_step_back(state, slot, step);
-            let position = state.particles.position[slot];
-            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-            let geometry = plane.meet(position, velocity, spin, constant);
-            let ContactGeometry { contact, first_arm: arm, .. } = geometry;
-            let row = self.table.row(state.particles.material[slot], self.material);
-            let (reaction, sliding) =
-                records::react(&self.law.law, row, &contact, &list.history, entry, list.flags[entry]);
-            let point = Vector::from(position) - contact.normal * arm;
-            let ids = (state.particles.id[slot], None);
-            tell(ContactRecord::new(ids, Some(list.boundary), point, &contact, &reaction, sliding));
-        }
-        self.hidden_records(state, tell);
+        listed::records(self, state, step, tell);
     }
 
     fn elastic_energy(&self, state: &State) -> f64 {
-        let list = &state.walls[self.index];
-        let energy = |entry: usize| {
-            let (contact, _) = self.contact(state, entry)?;
-            let row = self.table.row(state.particles.material[list.particle[entry] as usize], self.material);
-            Some(self.law.law.elastic_energy(row, &contact, 0.0, &records::history(&list.history, entry)))
-        };
-        let touching = (0..list.particle.len()).filter(|&entry| list.flags[entry] & TOUCHING != 0);
-        touching.filter_map(energy).sum::<f64>() + self.hidden_energy(state)
+        listed::elastic_energy(self, state)
     }
 }
 

@@ -4,7 +4,6 @@ use super::order::Order;
 use super::pairs::{Found, Laws};
 use crate::contact::HistoryRow;
 use crate::lanes::{self, Shared};
-use crate::state::contacts::TOUCHING;
 use crate::state::{ContactList, Row};
 use crate::threads::Context;
 
@@ -95,14 +94,14 @@ impl Making {
         }
     }
 
-    /// Brings flags and history of touching pairs from the old list, pieces side by side.
+    /// Brings flags and history of pairs that have any from the old list, pieces side by side.
     fn carry(&mut self, old: &ContactList, kept: &[HistoryRow], order: &Order, context: &Context) {
         let (flags, history) = (Shared::new(&mut self.spare.flags), shared(&mut self.spare.history));
         let (second, starts, new_slot) = (&self.spare.second[..], &self.starts[..], &order.new_slot[..]);
         context.each(old.first.len().div_ceil(PIECE), |piece| {
-            let mut touching = [0_u32; PIECE];
-            let count = find_touching(&old.flags, piece, &mut touching);
-            for &pair in &touching[..count] {
+            let mut flagged = [0_u32; PIECE];
+            let count = find_flagged(&old.flags, piece, &mut flagged);
+            for &pair in &flagged[..count] {
                 let pair = pair as usize;
                 let (a, b) = (new_slot[old.first[pair] as usize], new_slot[old.second[pair] as usize]);
                 let (i, j) = if a < b { (a, b) } else { (b, a) };
@@ -126,12 +125,12 @@ fn shared(history: &mut [Vec<Row>]) -> Vec<Shared<Row>> {
     history.iter_mut().map(|rows| Shared::new(rows)).collect()
 }
 
-/// Writes the touching pairs of a piece, without a branch that cannot be foreseen. Returns how many.
-fn find_touching(flags: &[u8], piece: usize, touching: &mut [u32; PIECE]) -> usize {
+/// Writes the pairs of a piece that have a flag, without a branch that cannot be foreseen. Returns how many.
+fn find_flagged(flags: &[u8], piece: usize, flagged: &mut [u32; PIECE]) -> usize {
     let mut count = 0;
     for pair in piece * PIECE..((piece + 1) * PIECE).min(flags.len()) {
-        touching[count] = pair as u32;
-        count += usize::from(flags[pair] & TOUCHING);
+        flagged[count] = pair as u32;
+        count += usize::from(flags[pair] != 0);
     }
     count
 }

@@ -37,7 +37,7 @@ pub(crate) use skin::FIRST as FIRST_SKIN;
 pub(crate) struct Search {
     /// Which pairs have a law.
     laws: Laws,
-    /// What each law remembers of a contact.
+    /// Rows that are kept of each contact of a law.
     histories: Vec<Vec<HistoryRow>>,
     /// Planes of the scene.
     planes: Vec<Plane>,
@@ -84,7 +84,7 @@ impl Search {
             Some(Plane { boundary: index as u32, material: material.0, point, normal })
         });
         Self {
-            histories: scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect(),
+            histories: (0..scene.contacts.len()).map(|law| scene.kept_rows(law)).collect(),
             planes: planes.collect(),
             boundaries: scene.boundaries.iter().map(boundary).collect(),
             sizes: Sizes::of(radii()),
@@ -271,17 +271,15 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 
 /// Which pairs of the scene have a law.
 fn laws(scene: &Scene) -> Laws {
-    let materials = scene.materials.len();
-    let of: Vec<Option<u32>> = (0..materials * materials)
-        .map(|entry| scene.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32))
-        .collect();
+    let (materials, governing) = (scene.materials.len(), scene.governing_laws());
     let groups = scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = present(scene);
-    let mut met =
-        (0..of.len()).filter(|entry| here[entry / materials] && here[entry % materials]).map(|entry| of[entry]);
+    let mut met = (0..here.len().pow(2))
+        .filter(|entry| here[entry / materials] && here[entry % materials])
+        .map(|entry| governing.rows()[entry]);
     let first = met.next().flatten();
     let only = first.filter(|_| !groups && met.all(|law| law == first));
-    Laws { of, materials, only, count: scene.contacts.len() }
+    Laws { governing, only, count: scene.contacts.len() }
 }
 
 /// Whether each material is that of a particle.

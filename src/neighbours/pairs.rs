@@ -3,6 +3,7 @@
 use super::grid::{Grid, Level};
 use super::order::Order;
 use crate::lanes::{self, Kernel, Lane, Shared};
+use crate::scene::GoverningLaws;
 use crate::state::{Columns, Particles};
 use crate::threads::Context;
 
@@ -12,10 +13,8 @@ const BEYOND: usize = 8;
 /// Which pairs have a law.
 #[derive(Clone, Debug)]
 pub(crate) struct Laws {
-    /// The contact law of each two materials, row by row.
-    pub of: Vec<Option<u32>>,
-    /// Number of materials.
-    pub materials: usize,
+    /// The contact law of each two materials.
+    pub governing: GoverningLaws,
     /// The law of every pair of particles, where there is only one and no group of particles that move as one.
     pub only: Option<u32>,
     /// Number of laws.
@@ -25,7 +24,7 @@ pub(crate) struct Laws {
 impl Laws {
     /// The contact law of two materials.
     pub(crate) fn between(&self, a: u32, b: u32) -> Option<u32> {
-        self.of[a as usize * self.materials + b as usize]
+        self.governing.between(a, b)
     }
 }
 

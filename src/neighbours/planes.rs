@@ -4,7 +4,6 @@ use super::order::{BEYOND, Order};
 use super::pairs::Laws;
 use crate::lanes::{self, Kernel, Lane};
 use crate::number::Vector;
-use crate::state::contacts::TOUCHING;
 use crate::state::{Columns, Particles, WallContacts};
 use crate::threads::{CHUNK, Context};
 
@@ -70,7 +69,7 @@ fn carry(old: &WallContacts, new: &mut WallContacts, mark: &mut Vec<u32>, order:
     for (place, &slot) in new.particle.iter().enumerate() {
         mark[slot as usize] = place as u32;
     }
-    for (entry, &slot) in old.particle.iter().enumerate().filter(|&(entry, _)| old.flags[entry] & TOUCHING != 0) {
+    for (entry, &slot) in old.particle.iter().enumerate().filter(|&(entry, _)| old.flags[entry] != 0) {
         let slot = order.new_slot[slot as usize];
         // A mark may be another list's: it holds only if the list agrees.
         let place = mark[slot as usize] as usize;

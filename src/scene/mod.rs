@@ -4,6 +4,7 @@
 //! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
 
 mod body;
+mod governing;
 mod parameters;
 mod source;
 
@@ -12,6 +13,7 @@ pub use crate::motion::{AxisMotion, InputCourse};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
 pub use body::Body;
+pub use governing::GoverningLaws;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
 pub use source::Source;

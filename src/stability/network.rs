@@ -168,11 +168,7 @@ impl<'a> Network<'a> {
             (None, Some(second)) => ([second, UNMOVED], [link.arms[1], 0.0]),
             (None, None) => return None,
         };
-        Some(Element {
-            slots,
-            normal: [x as f32, y as f32, z as f32],
-            arms: [a as f32, b as f32],
-        })
+        Some(Element { slots, normal: [x as f32, y as f32, z as f32], arms: [a as f32, b as f32] })
     }
 
     /// How many bodies there may be: particles, then boundaries.
@@ -201,7 +197,7 @@ fn most_links(state: &State) -> usize {
     let pairs = state.contacts.iter().map(|list| list.first.len());
     let walls = state.walls.iter().map(|list| list.particle.len());
     let bonds = state.bonds.iter().map(|list| 2 * list.first.len());
-    pairs.chain(walls).chain(bonds).sum::<usize>() + state.hidden.all().count()
+    pairs.chain(walls).chain(bonds).sum()
 }
 
 /// L of a positive semidefinite matrix L Lᵀ (Cholesky); directions that do not move have zeros.

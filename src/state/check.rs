@@ -5,8 +5,8 @@
 //! anything is done with it. Each part looks through itself; the passes add what their laws demand of their lists
 //! ([`Pass::check`](crate::interactions::Pass::check)).
 
-use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Hidden, Ledger, Neighbours, Particles};
-use super::{HiddenContact, NearParts, Row, State, WallContacts};
+use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Neighbours, Particles};
+use super::{NearParts, Row, State, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -136,7 +136,6 @@ impl State {
         for list in &self.bonds {
             list.check(count, &self.neighbours.slabs)?;
         }
-        self.hidden.check(count, [self.contacts.len(), self.walls.len()])?;
         let broken = |it: &super::Break| {
             let bodies = [it.first].into_iter().chain(it.second);
             (it.law as usize) < self.bonds.len() && bodies.into_iter().all(|body| (body as usize) < count)
@@ -411,41 +410,6 @@ impl BondList {
         let fits = self.damping.len() == 3 || self.damping.is_empty() && (!damped || self.first.is_empty());
         demand(fits, "damping", self.damping.len(), "three columns where the law has damping")?;
         self.damping.iter().try_for_each(|row| column(row, self.first.len(), damped, "damping"))
-    }
-}
-
-impl Hidden {
-    /// Whether the lists can be of so many particles, and pairs and planes with a law.
-    fn check(&self, particles: usize, [laws, planes]: [usize; 2]) -> Result<(), StateFault> {
-        let lengths = [(self.pairs.len(), laws), (self.planes.len(), planes), (self.active.len(), self.pairs.len())];
-        let right = "a list for each of the state's, or none";
-        demand_all(lengths.iter().map(|(found, all)| *found == 0 || found == all), "hidden", right)?;
-        demand(self.planes.is_empty() || !self.pairs.is_empty() || laws == 0, "hidden", 0, right)?;
-        for (active, list) in self.active.iter().zip(&self.pairs) {
-            ascending(active, list.len(), "active")?;
-        }
-        for (lists, at_plane) in [(&self.pairs, false), (&self.planes, true)] {
-            for list in lists {
-                let bodies = |entry: &HiddenContact| (entry.first, entry.second);
-                demand_all(
-                    list.windows(2).map(|pair| bodies(&pair[0]) < bodies(&pair[1])),
-                    "hidden",
-                    "ascending order",
-                )?;
-                let fits = |entry: &HiddenContact| {
-                    let last = entry.second.unwrap_or(entry.first);
-                    let bodies = if at_plane { entry.second.is_none() } else { entry.first < last };
-                    bodies && (last as usize) < particles && u64::from(entry.bonds) < MOST >> 20
-                };
-                demand_all(list.iter().map(fits), "hidden", "particles of the scene")?;
-                let numbers = |it: &HiddenContact| {
-                    let rows = [it.force, [it.offset, it.pair_constant, 0.0, 0.0]];
-                    it.history.iter().chain(&rows).flatten().all(|number| number.is_finite())
-                };
-                demand_all(list.iter().map(numbers), "hidden", FINITE)?;
-            }
-        }
-        Ok(())
     }
 }
 

@@ -72,10 +72,11 @@ pub struct ContactList {
     /// Second particle of each pair (slot).
     #[serde(with = "plain")]
     pub second: Vec<u32>,
-    /// Bits of each pair: [`TOUCHING`] and [`SLIDING`].
+    /// Bits of each pair: [`TOUCHING`], [`SLIDING`] and what bonds leave of it.
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// What the law remembers of each pair, as `first` sees `second`: a list for each of its rows, in their order.
+    /// What is kept of each pair, as `first` sees `second`: a list for each row of its law, in their order, and behind
+    /// them one for [`OFFSET`](crate::contact::OFFSET) where bonds suppress contacts.
     #[serde(with = "plain::lists")]
     pub history: Vec<Vec<Row>>,
     /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
@@ -91,8 +92,34 @@ pub const TOUCHING: u8 = 1;
 /// The tangential spring was at its limit in the last evaluation.
 pub const SLIDING: u8 = 2;
 
+/// A bond that suppresses the contact was made in the present time step: it still acts as it did before.
+pub const FRESH: u8 = 4;
+
+/// While a bond suppresses it nothing of the contact acts, not even friction.
+pub const SILENT: u8 = 8;
+
+/// The offset outlives the parting of the bodies, as in the engine.
+pub const LASTING: u8 = 16;
+
 /// The centre was behind the face in the last evaluation.
 pub const REVERSE: u8 = 32;
+
+/// A living bond suppresses the normal force of the contact.
+pub const BONDED: u8 = 64;
+
+/// No bond suppresses it any more; its normal force is taken from an offset.
+pub const RELEASED: u8 = 128;
+
+/// Whether a contact is one of those that are counted and told.
+pub fn is_told(flags: u8) -> bool {
+    flags & TOUCHING != 0 && flags & (BONDED | SILENT) != BONDED | SILENT
+}
+
+/// Whether there is nothing to do for a contact until its bond breaks: what it remembers follows from where the bodies are
+/// then. A lasting offset is that of the last touch, which has to be followed.
+pub fn is_resting(flags: u8) -> bool {
+    flags & (BONDED | SILENT | LASTING) == BONDED | SILENT
+}
 
 /// Particles near one plane, for one contact law.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -104,10 +131,10 @@ pub struct WallContacts {
     /// The particles (slots), ascending.
     #[serde(with = "plain")]
     pub particle: Vec<u32>,
-    /// Bits of each: [`TOUCHING`] and [`SLIDING`].
+    /// Bits of each: [`TOUCHING`], [`SLIDING`] and what bonds leave of it.
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// What the law remembers of each: a list for each of its rows, in their order.
+    /// What is kept of each: a list for each row, as for pairs.
     #[serde(with = "plain::lists")]
     pub history: Vec<Vec<Row>>,
     /// What the normal model keeps of each; empty where it keeps nothing.
@@ -137,40 +164,3 @@ pub struct NearParts {
 clone_in_place!(WallContacts { boundary, law, particle, flags, history, pair_constant, feature, near });
 
 clone_in_place!(NearParts { particle, starts, parts });
-
-impl ContactList {
-    /// Takes pairs out, keeping the order of the others.
-    pub fn remove(&mut self, dead: &[bool]) {
-        let mut slabs = vec![0; self.slabs.len()];
-        for slab in 1..self.slabs.len() {
-            let (from, to) = (self.slabs[slab - 1] as usize, self.slabs[slab] as usize);
-            slabs[slab] = slabs[slab - 1] + dead[from..to].iter().filter(|dead| !**dead).count() as u32;
-        }
-        self.slabs = slabs;
-        keep(&mut self.first, dead);
-        keep(&mut self.second, dead);
-        keep(&mut self.flags, dead);
-        for rows in &mut self.history {
-            keep(rows, dead);
-        }
-        keep(&mut self.pair_constant, dead);
-    }
-}
-
-impl WallContacts {
-    /// Takes particles out, keeping the order of the others.
-    pub fn remove(&mut self, dead: &[bool]) {
-        keep(&mut self.particle, dead);
-        keep(&mut self.flags, dead);
-        for rows in &mut self.history {
-            keep(rows, dead);
-        }
-        keep(&mut self.pair_constant, dead);
-    }
-}
-
-/// Keeps the entries that are not dead, in their order.
-fn keep<T>(entries: &mut Vec<T>, dead: &[bool]) {
-    let mut dead = dead.iter();
-    entries.retain(|_| !dead.next().copied().unwrap_or(false));
-}

@@ -232,7 +232,7 @@ mod tests {
     fn the_whole_state_is_described_to_its_last_field() {
         let text = of::<State>();
         for part in
-            ["clock: Clock { time: visit_f64", "position: (bytes, 32 for each item: [f64; 4])", "hidden: Hidden {"]
+            ["clock: Clock { time: visit_f64", "position: (bytes, 32 for each item: [f64; 4])", "near: NearParts {"]
         {
             assert!(text.contains(part), "{part} is missing in {text}");
         }

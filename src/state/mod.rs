@@ -9,7 +9,6 @@ mod check;
 pub mod clock;
 pub mod contacts;
 pub mod foresight;
-pub mod hidden;
 mod in_place;
 mod layout;
 pub mod ledger;
@@ -24,7 +23,6 @@ pub(crate) use check::demand;
 pub use clock::Clock;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use foresight::Foresight;
-pub use hidden::{Hidden, HiddenContact};
 pub use ledger::Ledger;
 pub use particles::Particles;
 
@@ -54,8 +52,6 @@ pub struct State {
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
     pub walls: Vec<WallContacts>,
-    /// Contacts that bonds hide or have hidden, which stand in none of these lists.
-    pub hidden: Hidden,
     /// Living bonds, a list for each bond law.
     pub bonds: Vec<BondList>,
     /// Bonds that broke since the present communication step began.
@@ -79,7 +75,6 @@ clone_in_place!(State {
     tuned,
     contacts,
     walls,
-    hidden,
     bonds,
     breaks,
     boundaries,

@@ -14,7 +14,7 @@ use crate::neighbours;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
 use crate::state::{
-    BondList, BoundaryState, Clock, ContactList, Foresight, Hidden, Ledger, Neighbours, Particles, State, WallContacts,
+    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Neighbours, Particles, State, WallContacts,
 };
 use crate::surface;
 
@@ -31,7 +31,6 @@ pub(super) fn state(scene: &Scene) -> State {
         tuned: scene.tunables().map(|parameter| parameter.value).collect(),
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
-        hidden: Hidden::default(),
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),
@@ -137,11 +136,17 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
 /// The pass of a law between particles.
 fn between_particles(scene: &Scene, index: usize) -> ContactPass {
     let law = &scene.contacts[index];
-    ContactPass { index, table: CoefficientTable::of(law, scene), law: BatchLaw::of(&law.choice()) }
+    ContactPass {
+        index,
+        kept_rows: scene.kept_rows(index).len(),
+        table: CoefficientTable::of(law, scene),
+        law: BatchLaw::of(&law.choice()),
+    }
 }
 
 /// The pass of a law at a surface; `list` is its place among those of the state.
 fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dyn Pass> {
+    let kept_rows = scene.kept_rows(law as usize).len();
     let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
     let table = CoefficientTable::of(law, scene);
     let Some(surface::Plane { material, point, normal }) = boundary.shifting_plane() else {
@@ -149,6 +154,7 @@ fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dy
     };
     Box::new(WallPass {
         index: list,
+        kept_rows,
         name: boundary.name.clone(),
         plane: Plane { point: point.into(), normal: normal.into(), velocity: Vector::zero() },
         material: material.0,

@@ -153,7 +153,7 @@ impl Simulation {
             Due::AtStart | Due::Always => false,
         };
         let coming = self.scene.bonds.iter().any(|bond| bond.create.comes_within(&next) && unforeseen(&bond.create));
-        let uncovered = broken > foresight.bonds[1] && self.state.hidden.all().next().is_some();
+        let uncovered = broken > foresight.bonds[1] && self.suppression.any();
         let unexpected = made > foresight.bonds[0] && clock.steps > foresight.until;
         coming || uncovered || unexpected
     }

@@ -26,7 +26,8 @@ use crate::bond::creation::Moment;
 use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
-use crate::interactions::{Pass, suppression, walls};
+use crate::interactions::suppression::Suppression;
+use crate::interactions::{Pass, walls};
 use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
@@ -56,8 +57,8 @@ pub struct Simulation {
     bodies: Vec<Option<RigidBody>>,
     /// The neighbour search.
     search: neighbours::Search,
-    /// Which contacts bonds hide.
-    hiding: suppression::Hiding,
+    /// Which contacts bonds suppress.
+    suppression: Suppression,
     /// Whether anything turns the particles.
     turning: bool,
     /// Lane width.
@@ -118,7 +119,7 @@ impl Simulation {
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             search: neighbours::Search::of(&scene),
-            hiding: suppression::Hiding::of(&scene),
+            suppression: Suppression::of(&scene),
             width: Width::widest(),
             workers: Workers::new(scene.run.threads, scene.particles.len()),
             scene,
@@ -160,13 +161,18 @@ impl Simulation {
     /// Makes the bonds that are to be made at this moment.
     fn bond(&mut self, moment: &Moment, context: &Context) {
         let mut made = false;
-        self.hiding.count_bonds(&self.state, &mut self.room.bonds);
+        self.suppression.count_bonds(&self.state, &mut self.room.bonds);
         for pass in &self.passes {
             made |= pass.create(&mut self.state, moment, context.step);
         }
         if made {
-            self.hiding.made(&mut self.state, &self.room.bonds, moment);
+            if moment.number > 0 && self.suppression.any() {
+                self.suppression.made(&mut self.state, &self.room.bonds);
+            }
             self.rebuild(context);
+            if moment.number == 0 {
+                self.suppression.begin_offsets(&mut self.state);
+            }
         }
     }
 
@@ -186,7 +192,7 @@ impl Simulation {
     /// Makes the lists anew.
     fn rebuild(&mut self, context: &Context) {
         self.search.rebuild(&mut self.state, context);
-        self.hiding.sort_out(&mut self.state);
+        self.suppression.flag(&mut self.state);
         for pass in &self.passes {
             pass.prepare(&mut self.state);
         }
@@ -399,7 +405,8 @@ impl Simulation {
             }
         }
         let state = &mut self.state;
-        self.hiding.broken(state, told);
+        self.suppression.broken(state, told);
+        self.suppression.settle(state);
         course::sum_groups(&self.scene, state);
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         if self.fields.damps() {

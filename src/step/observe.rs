@@ -8,9 +8,9 @@ use crate::integration;
 use crate::interactions::{BondRecord, ContactRecord};
 use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::contacts::TOUCHING;
+use crate::state::State;
+use crate::state::contacts::{TOUCHING, is_resting, is_told};
 use crate::state::ledger::Source;
-use crate::state::{Row, State};
 use crate::surface;
 use crate::threads::Context;
 
@@ -31,10 +31,9 @@ impl Simulation {
 
     /// Contacts between particles and of particles with planes.
     pub fn contact_count(&self) -> usize {
-        let touching = |flags: &Vec<u8>| flags.iter().filter(|flags| **flags & TOUCHING != 0).count();
+        let touching = |flags: &Vec<u8>| flags.iter().filter(|flags| is_told(**flags)).count();
         let pairs = self.state.contacts.iter().map(|list| touching(&list.flags)).sum::<usize>();
-        let hidden = self.state.hidden.all().filter(|entry| entry.is_told()).count();
-        hidden + pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
+        pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
     }
 
     /// Every contact at work, between particles first, then at planes.
@@ -190,32 +189,29 @@ impl Simulation {
 /// Hands out the overlap of each contact between particles and at planes and the smaller radius of the two bodies (the
 /// particle's, at a plane) \[m\]. From positions alone.
 pub(super) fn each_overlap(state: &State, scene: &Scene, hand: &mut dyn FnMut(f64, f64)) {
-    let State { particles, contacts, walls, hidden, boundaries, .. } = state;
-    let slot = |index: u32| particles.slot[index as usize];
+    let State { particles, contacts, walls, boundaries, .. } = state;
     let position = |slot: u32| particles.position[slot as usize];
-    let mut pair = |a: Row, b: Row| {
-        let distance = (Vector::from(a) - Vector::from(b)).length();
-        hand(a[3] + b[3] - distance, a[3].min(b[3]));
+    let touches = |flags: &[u8], place: usize| flags[place] & TOUCHING != 0 || is_resting(flags[place]);
+    let mut hand = |resting: bool, overlap: f64, radius: f64| {
+        if !resting || overlap > 0.0 {
+            hand(overlap, radius);
+        }
     };
     for list in contacts {
-        for place in (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0) {
-            pair(position(list.first[place]), position(list.second[place]));
+        for place in (0..list.flags.len()).filter(|&place| touches(&list.flags, place)) {
+            let (a, b) = (position(list.first[place]), position(list.second[place]));
+            let distance = (Vector::from(a) - Vector::from(b)).length();
+            hand(is_resting(list.flags[place]), a[3] + b[3] - distance, a[3].min(b[3]));
         }
     }
-    for entry in hidden.pairs.iter().flatten().filter(|entry| entry.flags & TOUCHING != 0 || entry.is_resting()) {
-        pair(position(slot(entry.first)), position(slot(entry.second.unwrap_or(entry.first))));
-    }
-    for (place, list) in walls.iter().enumerate() {
+    for list in walls {
         let boundary = list.boundary as usize;
         let Some(surface::Plane { point, normal, .. }) = scene.boundaries[boundary].shifting_plane() else { continue };
         let point = Vector::from(point) + Vector::from(boundaries[boundary].displacement);
-        let touching = (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0);
-        let apart = hidden.planes.get(place).into_iter().flatten();
-        let apart = apart.filter(|entry| entry.flags & TOUCHING != 0).map(|entry| slot(entry.first));
-        for slot in touching.map(|place| list.particle[place]).chain(apart) {
-            let particle = position(slot);
+        for place in (0..list.flags.len()).filter(|&place| touches(&list.flags, place)) {
+            let particle = position(list.particle[place]);
             let distance = (Vector::from(particle) - point).dot(normal.into());
-            hand(particle[3] - distance, particle[3]);
+            hand(is_resting(list.flags[place]), particle[3] - distance, particle[3]);
         }
     }
 }

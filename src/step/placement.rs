@@ -4,8 +4,8 @@ use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
 use crate::boundaries::course;
 use crate::contact::Law;
+use crate::interactions::PlacedSpring;
 use crate::interactions::bonds::begin_losses;
-use crate::interactions::{PlacedSpring, suppression};
 use crate::number::Vector;
 use crate::scene::{Scene, Step};
 use crate::state::contacts::TOUCHING;
@@ -75,11 +75,12 @@ impl Simulation {
         }
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
-        let Self { scene, hiding, state, .. } = &mut simulation;
-        hiding.placed(scene, state, &placement.springs);
         simulation.rebuild(&simulation.standing());
+        let Self { scene, suppression, state, .. } = &mut simulation;
+        suppression.begin_offsets(state);
         for spring in &placement.springs {
-            put_spring(&simulation.scene, &mut simulation.state, spring);
+            suppression.put_offset(scene, state, spring);
+            put_spring(scene, state, spring);
         }
         let context = simulation.standing();
         simulation.look(simulation.state.clock.step, &context)?;
@@ -125,9 +126,6 @@ fn put_spring(scene: &Scene, state: &mut State, placed: &PlacedSpring) {
     let [one, other] = [a, b].map(|slot| particles.position[slot as usize]);
     let distance = (Vector::from(one) - Vector::from(other)).length();
     if distance >= one[3] + other[3] {
-        return;
-    }
-    if suppression::put_spring(scene, state, placed) {
         return;
     }
     for (law, list) in state.contacts.iter_mut().enumerate() {

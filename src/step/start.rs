@@ -11,9 +11,9 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, mut neighbours, contacts, hidden, walls, bonds, .. } = reached;
+        let State { particles, mut neighbours, contacts, walls, bonds, .. } = reached;
         neighbours.made_at = 0;
-        let mut state = State { particles, neighbours, contacts, hidden, walls, bonds, ..assemble::state(&scene) };
+        let mut state = State { particles, neighbours, contacts, walls, bonds, ..assemble::state(&scene) };
         for ((boundary, begun), ended) in scene.boundaries.iter().zip(&mut state.boundaries).zip(&reached.boundaries) {
             stay(&boundary.axes, begun, ended);
         }

@@ -15,8 +15,6 @@ impl Simulation {
         let orientations =
             state.particles.orientation.len() == count || !self.passes.iter().any(|it| it.needs_orientations());
         demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;
-        let hidden = self.hiding.any() || state.hidden.all().next().is_none();
-        demand(hidden, "hidden", 0, "no contact where no bond suppresses any")?;
         let step = match self.scene.run.step {
             Step::Given(step) => state.clock.step == step,
             Step::Automatic { .. } => state.clock.step <= LONGEST_AUTOMATIC_STEP,

@@ -15,8 +15,8 @@ const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/bond
 /// Where the cases of rolling springs, sticky and dented spheres lie.
 const MORE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/more");
 
-/// Where the cases of hidden contacts lie.
-const HIDDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/hidden");
+/// Where the cases of suppressed contacts lie.
+const SUPPRESSED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/suppressed");
 
 /// Where the cases of meshes and cylinders lie.
 const MESH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/mesh");
@@ -174,8 +174,8 @@ fn bending_that_is_round_off_is_measured_against_force_times_radius() {
 }
 
 #[test]
-fn contacts_that_bonds_hide_are_replayed_and_without_the_flag_are_not() {
-    let cases = find(&[HIDDEN.into()]).unwrap();
+fn contacts_that_bonds_suppress_are_replayed_and_without_the_flag_are_not() {
+    let cases = find(&[SUPPRESSED.into()]).unwrap();
     assert_eq!(cases.len(), 3);
     for case in cases {
         for free in [false, true] {

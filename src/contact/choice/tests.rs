@@ -48,7 +48,7 @@ fn every_law_is_finite_at_the_corners() {
 }
 
 #[test]
-fn what_a_bond_hides_comes_back_without_a_jump_in_every_law() {
+fn what_a_bond_suppresses_comes_back_without_a_jump_in_every_law() {
     for choice in every_law().into_iter().filter(|choice| Law::of(choice).takes_offset()) {
         let (law, row) = law_of(&choice, 0.5);
         for contact in corners() {
@@ -61,7 +61,8 @@ fn what_a_bond_hides_comes_back_without_a_jump_in_every_law() {
             let mut remembered = history(&law, SPRING);
             let open = law.react(&row, &contact, &mut remembered, 0.5);
             let (found, after) = beyond(&contact, whole);
-            assert_eq!(numbers(&found, &after), numbers(&open, &remembered), "without an offset nothing is hidden");
+            let claim = "without an offset nothing is suppressed";
+            assert_eq!(numbers(&found, &after), numbers(&open, &remembered), "{claim}");
             let (found, _) = beyond(&contact, Offset { pressing: 0.0, acts: false, contact });
             assert_eq!((found.force.dot(contact.normal), found.rolling), (0.0, Vector::zero()));
             let still = Contact { normal_velocity: 0.0, ..contact };

@@ -2,10 +2,12 @@
 
 use super::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::contact::{Contact, Needs, NormalForce, NormalForm, Response, Roots};
+use crate::interactions::sphere_geometry::SpherePair;
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;
 use std::cell::RefCell;
+use std::f64::consts::PI;
 
 /// Touching entries of one batch.
 pub(crate) const BATCH: usize = 64;
@@ -55,8 +57,12 @@ mod column {
     pub(super) const ROLLING_INERTIA: usize = 24;
     /// Sum of the spins.
     pub(super) const SPIN_SUM: [usize; 3] = [25, 26, 27];
+    /// Overlap beyond the offset, of a contact that a bond suppresses or has suppressed.
+    pub(super) const PRESSING: usize = 28;
+    /// The offset.
+    pub(super) const OFFSET: usize = 29;
     /// How many there are.
-    pub(super) const COUNT: usize = 28;
+    pub(super) const COUNT: usize = 30;
 }
 use column as at;
 
@@ -238,9 +244,11 @@ impl Buffer {
             self.store_vector(at::NORMAL, place, contact.normal);
             self.store(at::NORMAL_VELOCITY, place, contact.normal_velocity);
             self.store(at::FIRST_ARM, place, *first_arm);
+            if TORQUE || needs.section {
+                self.store(at::SECOND_ARM, place, *second_arm);
+            }
             if TORQUE {
                 self.store_vector(at::SLIP, place, contact.slip);
-                self.store(at::SECOND_ARM, place, *second_arm);
                 if needs.spin {
                     self.store_vector(at::SPIN, place, contact.relative_spin);
                 }
@@ -350,6 +358,54 @@ impl Buffer {
                 seen: self.load(at::SEEN, place),
             }
         }
+    }
+
+    /// Writes offsets of a register's worth of contacts, and how much of the overlap is beyond them.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn put_offset<N: Lane>(&mut self, place: usize, [offset, pressing]: [N; 2]) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::OFFSET, place, offset);
+            self.store(at::PRESSING, place, pressing);
+        }
+    }
+
+    /// A register's worth of contacts at an overlap of the offset alone.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn contact_at_offset<N: Lane>(&self, place: usize) -> Contact<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let (contact, offset): (Contact<N>, N) = (self.contact(place, N::zero()), self.load(at::OFFSET, place));
+            let half = N::splat(0.5) * contact.overlap;
+            let arms: [N; 2] = [self.load(at::FIRST_ARM, place), self.load(at::SECOND_ARM, place)];
+            let spheres = SpherePair::<N>::section_area([arms[0] + half, arms[1] + half], offset);
+            let wall = N::splat(PI) * offset * (contact.radius + contact.radius - offset);
+            // The section of a sphere at a wall has the radius of the sphere, that of two spheres twice the effective one.
+            let at_wall = contact.radius.greater(N::splat(0.75) * contact.section_radius);
+            Contact { overlap: offset, section_area: N::select(at_wall, wall, spheres), ..contact }
+        }
+    }
+
+    /// Takes the overlap beyond the offset for the whole.
+    pub(super) fn press(&mut self) {
+        let (from, to) = self.columns.split_at_mut(at::PRESSING);
+        from[at::OVERLAP].copy_from_slice(&to[0]);
+    }
+
+    /// Leaves no normal force of what friction has seen.
+    pub(super) fn mute(&mut self) {
+        self.columns[at::FORCE] = [0.0; ROOM];
+    }
+
+    /// Overlap and offset of an entry of the batch \[m\].
+    pub(super) fn overlap_and_offset(&self, place: usize) -> [f64; 2] {
+        [self.columns[at::OVERLAP][place], self.columns[at::OFFSET][place]]
     }
 
     /// Finds the roots that a normal model wants of a register's worth of contacts.

@@ -5,8 +5,9 @@
 //! that are met most are compiled whole beside that ([`FUSED`]), from the same functions in the same order: they keep in
 //! registers what the others write and read, and their bits are the same.
 
-use super::Entries;
 use super::buffer::Buffer;
+use super::suppressed::Suppressed;
+use super::{Entries, Manner};
 use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
 use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::HookeStiffness};
 use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
@@ -17,7 +18,7 @@ use crate::contact::{
 };
 use crate::interactions::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
 use crate::lanes::{self, Kernel, Lane, Width, columns};
-use crate::state::contacts::{SLIDING, TOUCHING};
+use crate::state::contacts::SLIDING;
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -29,10 +30,12 @@ pub(crate) struct BatchLaw {
     pub needs: Needs,
     /// Its sub-models over a batch, in the order in which they work.
     runs: Vec<Run>,
+    /// The same where bonds suppress contacts.
+    suppressed: Suppressed,
 }
 
 /// A sub-model, or several as one, over a batch.
-type Run = fn(Width, &mut Stage);
+pub(super) type Run = fn(Width, &mut Stage);
 
 impl BatchLaw {
     /// The law that a scene composed.
@@ -67,7 +70,7 @@ impl BatchLaw {
         if law.has_rolling() {
             runs.push(choice.rolling.visit(RunOf));
         }
-        Self { law, needs, runs }
+        Self { suppressed: Suppressed::of(choice, &law), law, needs, runs }
     }
 
     /// Whether it is compiled whole.
@@ -76,16 +79,19 @@ impl BatchLaw {
         self.runs.len() == 1
     }
 
-    /// Does the law on a batch.
-    pub(super) fn react(&self, width: Width, stage: &mut Stage) {
-        for run in &self.runs {
-            run(width, stage);
+    /// What is done with a batch of contacts in this manner, one after another, and what of the contacts that looks at.
+    pub(super) fn runs(&self, manner: Option<Manner>) -> (Needs, &[Run]) {
+        match manner {
+            None | Some(Manner::Open) => (self.needs, &self.runs),
+            Some(Manner::Bonded) => (Needs { spin: false, ..self.needs }, &self.suppressed.bonded),
+            Some(Manner::Released) => (self.needs, &self.suppressed.released),
+            Some(Manner::Followed) => (Needs::NONE, &self.suppressed.followed),
         }
     }
 }
 
 /// Goes from the name of a sub-model to what it does to a batch.
-struct RunOf;
+pub(super) struct RunOf;
 
 impl TakeNormal for RunOf {
     type Output = Run;
@@ -186,6 +192,8 @@ pub(super) struct Stage<'a> {
     pub(super) places: CoefficientPlaces,
     /// Whose each row of the history is.
     pub(super) history: HistoryPlaces,
+    /// Which row behind them is the offset, where bonds suppress contacts.
+    pub(super) offset: usize,
     /// Time since the history was last advanced \[s\].
     pub(super) step: f64,
     /// The batch.
@@ -193,7 +201,7 @@ pub(super) struct Stage<'a> {
 }
 
 /// Coefficients in lanes: some that stand side by side in the rows of the law.
-struct Gathered<N> {
+pub(super) struct Gathered<N> {
     /// The numbers.
     numbers: [N; MOST_COEFFICIENTS],
     /// Where the first of them stands in a row.
@@ -205,7 +213,7 @@ struct Gathered<N> {
 impl<N: Lane> Gathered<N> {
     /// Those of a stage, if they are the same for all entries; otherwise room for them.
     #[inline(always)]
-    fn of(stage: &Stage, from: usize, count: usize) -> Self {
+    pub(super) fn of(stage: &Stage, from: usize, count: usize) -> Self {
         let mut numbers = [N::zero(); MOST_COEFFICIENTS];
         if let Some(row) = stage.uniform {
             let mut k = 0;
@@ -222,7 +230,7 @@ impl<N: Lane> Gathered<N> {
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most the room of the buffer, and the rows there are of the table.
     #[inline(always)]
-    unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N] {
+    pub(super) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N] {
         if stage.uniform.is_none() {
             let mut k = 0;
             while k < self.count {
@@ -249,6 +257,16 @@ impl Stage<'_> {
         }
     }
 
+    /// What is kept of a register's worth of suppressed contacts.
+    ///
+    /// # Safety
+    /// As for [`Stage::contact`]; the list keeps offsets.
+    #[inline(always)]
+    pub(super) unsafe fn kept_offset<N: Lane>(&self, place: usize) -> [N; 4] {
+        // SAFETY: the caller's promise; there is a row for each entry.
+        unsafe { N::load_rows(self.entries.history[self.offset].pointer(), self.buffer.entry.as_ptr().add(place)) }
+    }
+
     /// Remembers it.
     ///
     /// # Safety
@@ -267,7 +285,7 @@ impl Stage<'_> {
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most the room of the buffer.
     #[inline(always)]
-    unsafe fn contact<N: Lane>(&self, place: usize, has_pair_constant: bool) -> Contact<N> {
+    pub(super) unsafe fn contact<N: Lane>(&self, place: usize, has_pair_constant: bool) -> Contact<N> {
         // SAFETY: the caller's promise; each entry has a pair constant where the law has one.
         unsafe {
             let entries = self.buffer.entry.as_ptr().add(place);
@@ -329,7 +347,7 @@ impl Stage<'_> {
                 let mut sliding = N::bits(friction.sliding);
                 while sliding != 0 {
                     let lane = sliding.trailing_zeros() as usize;
-                    *self.entries.flags.pointer().add(*entries.add(lane) as usize) = TOUCHING | SLIDING;
+                    *self.entries.flags.pointer().add(*entries.add(lane) as usize) |= SLIDING;
                     sliding &= sliding - 1;
                 }
                 self.remember(remembers, own, friction.history, entries);

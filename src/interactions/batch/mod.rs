@@ -18,13 +18,15 @@
 mod buffer;
 mod law;
 mod phases;
+mod suppressed;
 #[cfg(test)]
 mod tests;
 
 use super::coefficients::CoefficientTable;
-use crate::contact::{Contact, MOST_HISTORY, Needs};
+use crate::contact::{Contact, MOST_KEPT, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
+use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 use law::Stage;
@@ -131,10 +133,10 @@ impl Touching<'_> {
 pub(crate) struct Entries<'a> {
     /// Its bits.
     pub flags: Shared<u8>,
-    /// What the law remembers of it: a row of each entry in each of the first lists.
-    history: [Shared<Row>; MOST_HISTORY],
-    /// How many rows the law remembers.
-    remembered: usize,
+    /// What is kept of it: a row of each entry in each of the first lists.
+    history: [Shared<Row>; MOST_KEPT],
+    /// How many rows are kept.
+    kept: usize,
     /// Its pair constant; empty where the law has none.
     pub pair_constant: &'a [f64],
 }
@@ -142,18 +144,62 @@ pub(crate) struct Entries<'a> {
 impl<'a> Entries<'a> {
     /// What a list keeps.
     pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &'a [f64]) -> Self {
-        let mut rows = [Shared::new(&mut []); MOST_HISTORY];
-        let remembered = history.len();
+        let mut rows = [Shared::new(&mut []); MOST_KEPT];
+        let kept = history.len();
         for (rows, list) in rows.iter_mut().zip(history) {
             *rows = Shared::new(list);
         }
-        Self { flags: Shared::new(flags), history: rows, remembered, pair_constant }
+        Self { flags: Shared::new(flags), history: rows, kept, pair_constant }
     }
 
-    /// What the law remembers: lists with a row of each entry.
+    /// What is kept: lists with a row of each entry.
     #[inline(always)]
     fn history(&self) -> &[Shared<Row>] {
-        &self.history[..self.remembered]
+        &self.history[..self.kept]
+    }
+
+    /// The bits that any of these entries has.
+    fn present(&self, entries: Range<usize>) -> u8 {
+        // SAFETY: the entries belong to the piece that asks.
+        unsafe { self.flags.part(entries.start, entries.end) }.iter().fold(0, |all, flags| all | flags)
+    }
+}
+
+/// Which entries of a list are worked on: those whose flags have exactly these of some bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen {
+    /// The bits that are looked at.
+    pub mask: u8,
+    /// What they are to be.
+    pub value: u8,
+}
+
+/// What is done with entries whose contacts bonds suppress, or do not.
+#[derive(Clone, Copy, Debug)]
+enum Manner {
+    /// The whole law acts.
+    Open,
+    /// A bond suppresses the normal force.
+    Bonded,
+    /// The normal force is taken from an offset.
+    Released,
+    /// Nothing acts, but the offset is followed.
+    Followed,
+}
+
+impl Manner {
+    /// All, in the order in which they are done.
+    const ALL: [Self; 4] = [Self::Open, Self::Bonded, Self::Released, Self::Followed];
+
+    /// The entries that are done so.
+    fn chosen(self) -> Chosen {
+        let silent = BONDED | SILENT | LASTING;
+        match self {
+            Self::Open => Chosen { mask: BONDED | RELEASED, value: 0 },
+            Self::Bonded => Chosen { mask: BONDED | SILENT, value: BONDED },
+            Self::Released => Chosen { mask: RELEASED, value: RELEASED },
+            Self::Followed => Chosen { mask: silent, value: silent },
+        }
     }
 }
 
@@ -183,36 +229,68 @@ impl<B: Bodies> Batches<'_, B> {
         Buffer::with(|buffer| self.run_in(buffer, from..to, ahead))
     }
 
-    /// The same, in this room.
+    /// The same, in this room. Where bonds suppress contacts, those of each manner are done one after the other.
     fn run_in(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
-        let Self { width, law, .. } = *self;
-        let needs = law.needs;
-        let Range { start: from, end: to } = entries;
         let mut sum = B::Sum::default();
+        let offset = self.law.law.history().len();
+        if self.entries.kept <= offset {
+            self.run_chosen(buffer, entries, ahead, None, &mut sum);
+            return sum;
+        }
+        let present = self.entries.present(entries.clone());
+        for manner in Manner::ALL {
+            let ahead = if matches!(manner, Manner::Open) { ahead.clone() } else { 0..0 };
+            if present & manner.chosen().value == manner.chosen().value {
+                self.run_chosen(buffer, entries.clone(), ahead, Some(manner), &mut sum);
+            }
+        }
+        sum
+    }
+
+    /// The same for the entries that are done in one manner, or for all.
+    fn run_chosen(
+        &self,
+        buffer: &mut Buffer,
+        entries: Range<usize>,
+        ahead: Range<usize>,
+        manner: Option<Manner>,
+        sum: &mut B::Sum,
+    ) {
+        let Self { width, law, bodies, .. } = *self;
+        let (needs, runs) = law.runs(manner);
+        let Range { start: from, end: to } = entries;
         let (mut next, mut fetched) = (from, ahead.start);
         while next < to {
             let share = ahead.start + ahead.len() * (next - from) / (to - from);
-            self.bodies.prefetch(fetched..share, needs);
+            bodies.prefetch(fetched..share, needs);
             fetched = share;
-            if law.law.holds_beyond_touch() {
-                lanes::run(width, Touch::<B, true> { work: self, to, next: &mut next, buffer, sum: &mut sum });
+            let chosen = manner.map_or(Chosen { mask: 0, value: 0 }, Manner::chosen);
+            let work = self;
+            if manner.is_some() {
+                lanes::run(width, Touch::<B, false, true> { work, chosen, to, next: &mut next, buffer, sum });
+            } else if law.law.holds_beyond_touch() {
+                lanes::run(width, Touch::<B, true, false> { work, chosen, to, next: &mut next, buffer, sum });
             } else {
-                lanes::run(width, Touch::<B, false> { work: self, to, next: &mut next, buffer, sum: &mut sum });
+                lanes::run(width, Touch::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
             buffer.complete::<B>(next == to);
             self.meet(needs, buffer);
-            law.react(width, &mut self.stage(buffer));
-            lanes::run(width, Spread { bodies: self.bodies, needs, buffer, sum: &mut sum });
+            let stage = &mut self.stage(buffer);
+            for run in runs {
+                run(width, stage);
+            }
+            if !matches!(manner, Some(Manner::Followed)) {
+                lanes::run(width, Spread { bodies, needs, buffer, sum });
+            }
             buffer.proceed::<B>();
         }
-        sum
     }
 
     /// What the sub-models work on.
     fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
         let Self { entries, table, uniform, step, law: BatchLaw { law, .. }, .. } = self;
-        let (places, history) = (law.places(), law.history_places());
-        Stage { entries, table, uniform: *uniform, places, history, step: *step, buffer }
+        let (places, history, offset) = (law.places(), law.history_places(), law.history().len());
+        Stage { entries, table, uniform: *uniform, places, history, offset, step: *step, buffer }
     }
 
     /// Phase 2, and the rows of the table where they differ.

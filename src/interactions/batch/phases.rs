@@ -1,16 +1,18 @@
 //! The phases of a batch.
 
 use super::buffer::{BATCH, Buffer};
-use super::{Batches, Bodies, Entries};
+use super::{Batches, Bodies, Chosen, Entries};
 use crate::contact::Needs;
 use crate::lanes::{Kernel, Lane, prefetch};
-use crate::state::contacts::TOUCHING;
+use crate::state::contacts::{LASTING, RELEASED, SLIDING, TOUCHING};
 
 /// Phase 1: fills the batch with touching entries and ends the contacts that came apart. BEYOND: for laws that hold
-/// bodies together beyond touch, as far as their pair constant says.
-pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool> {
+/// bodies together beyond touch, as far as their pair constant says. CHOSEN: some of the entries alone.
+pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool, const CHOSEN: bool> {
     /// The list.
     pub(crate) work: &'a Batches<'a, B>,
+    /// Which entries.
+    pub(crate) chosen: Chosen,
     /// Behind the last entry.
     pub(crate) to: usize,
     /// The first entry not yet looked at.
@@ -21,10 +23,10 @@ pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool> {
     pub(crate) sum: &'b mut B::Sum,
 }
 
-impl<B: Bodies, const BEYOND: bool> Kernel for Touch<'_, '_, B, BEYOND> {
+impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_, B, BEYOND, CHOSEN> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { work, to, next, buffer, sum } = self;
+        let Self { work, chosen, to, next, buffer, sum } = self;
         let Batches { bodies, entries, .. } = work;
         let (firsts, seconds) = (bodies.first().as_ptr(), bodies.second().as_ptr());
         let (mut entry, mut count) = (*next, buffer.count);
@@ -35,6 +37,14 @@ impl<B: Bodies, const BEYOND: bool> Kernel for Touch<'_, '_, B, BEYOND> {
                 let (mut first, mut second) = (firsts.add(entry), seconds.add(entry));
                 let (mut some_first, mut some_second) = ([*first; 8], [*second; 8]);
                 let here = if to - entry < N::WIDTH { to - entry } else { N::WIDTH };
+                let mut wanted = u32::MAX;
+                if CHOSEN {
+                    wanted = find_chosen(entries, entry, here, chosen);
+                    if wanted == 0 {
+                        entry += here;
+                        continue;
+                    }
+                }
                 if here < N::WIDTH {
                     let mut lane = 0;
                     while lane < here {
@@ -56,8 +66,10 @@ impl<B: Bodies, const BEYOND: bool> Kernel for Touch<'_, '_, B, BEYOND> {
                 }
                 let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
                 let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
-                let bits = touching & ((1 << here) - 1);
-                if here == N::WIDTH {
+                let bits = touching & wanted & ((1 << here) - 1);
+                if CHOSEN {
+                    end_chosen(entries, entry, here, [wanted, bits]);
+                } else if here == N::WIDTH {
                     end(entries, entry, N::WIDTH, bits);
                 } else {
                     end(entries, entry, here, bits);
@@ -88,17 +100,94 @@ impl<B: Bodies, const BEYOND: bool> Kernel for Touch<'_, '_, B, BEYOND> {
     }
 }
 
+/// A bit in each byte.
+const ONES: u64 = 0x0101_0101_0101_0101;
+
+/// Brings bit k into byte k: each byte gets all bits, keeps its own, and is 1 where that is set.
+#[inline(always)]
+fn bytes(bits: u32) -> u64 {
+    let kept = u64::from(bits & 0xff).wrapping_mul(ONES) & 0x8040_2010_0804_0201;
+    (kept + 0x7f * ONES) >> 7 & ONES
+}
+
+/// The flags of some entries, a byte each.
+///
+/// # Safety
+/// The entries, at most 8, belong to this piece of the list.
+#[inline(always)]
+unsafe fn flags_of(entries: &Entries, entry: usize, count: usize) -> u64 {
+    let mut flags = [0; 8];
+    // SAFETY: the caller's promise.
+    unsafe { std::ptr::copy_nonoverlapping(entries.flags.pointer().add(entry), flags.as_mut_ptr(), count) };
+    u64::from_le_bytes(flags)
+}
+
+/// Which of some entries are chosen, a bit for each.
+///
+/// # Safety
+/// As for [`flags_of`].
+#[inline(always)]
+unsafe fn find_chosen(entries: &Entries, entry: usize, count: usize, chosen: Chosen) -> u32 {
+    // SAFETY: the caller's promise.
+    let flags = unsafe { flags_of(entries, entry, count) };
+    let other = (flags & (u64::from(chosen.mask) * ONES)) ^ (u64::from(chosen.value) * ONES);
+    // The lowest bit of each byte that is zero; their product with the powers comes together in the highest byte.
+    let same = !((((other & (0x7f * ONES)) + 0x7f * ONES) | other) >> 7) & ONES;
+    ((same.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32) & ((1 << count) - 1)
+}
+
+/// Writes the flags of the chosen ones among some entries of which those touch whose bit is set. Where bodies do not touch,
+/// what is kept ends, but for a lasting offset.
+///
+/// # Safety
+/// As for [`flags_of`].
+#[inline(always)]
+unsafe fn end_chosen(entries: &Entries, entry: usize, count: usize, [chosen, bits]: [u32; 2]) {
+    // SAFETY: the caller's promise.
+    let before = unsafe { flags_of(entries, entry, count) };
+    let (mine, now) = (bytes(chosen), bytes(bits));
+    let after = (before & !(mine * u64::from(TOUCHING | SLIDING))) | now;
+    // SAFETY: the caller's promise.
+    unsafe {
+        let flags = entries.flags.pointer().add(entry);
+        std::ptr::copy_nonoverlapping(after.to_le_bytes().as_ptr(), flags, count);
+    }
+    let mut ended = (before | before >> 7) & mine & !now;
+    while ended != 0 {
+        let lane = ended.trailing_zeros() as usize / 8;
+        // SAFETY: the caller's promise; there is a row for each entry.
+        unsafe { end_one(entries, entry + lane) };
+        ended &= ended - 1;
+    }
+}
+
+/// Ends what is kept of an entry whose bodies do not touch, but for a lasting offset.
+///
+/// # Safety
+/// As for [`flags_of`].
+unsafe fn end_one(entries: &Entries, entry: usize) {
+    let Some((offset, remembered)) = entries.history().split_last() else { return };
+    // SAFETY: the caller's promise; there is a row for each entry.
+    unsafe {
+        for history in remembered {
+            *history.at(entry) = [0.0; 4];
+        }
+        let (flags, offset) = (entries.flags.at(entry), offset.at(entry));
+        let lasts = *flags & LASTING != 0;
+        *offset = [0.0, 0.0, 0.0, if lasts { offset[3] } else { 0.0 }];
+        if offset[3] == 0.0 {
+            *flags &= !RELEASED;
+        }
+    }
+}
+
 /// Writes the flags of some entries of which those touch whose bit is set; ends the contacts that came apart.
 ///
 /// # Safety
 /// The entries, at most 8, belong to this piece of the list.
 #[inline(always)]
 unsafe fn end(entries: &Entries, entry: usize, count: usize, bits: u32) {
-    /// A bit in each byte.
-    const ONES: u64 = 0x0101_0101_0101_0101;
-    // Bit k comes into byte k: each byte gets all bits, keeps its own, and is 1 where that is set.
-    let kept = u64::from(bits).wrapping_mul(ONES) & 0x8040_2010_0804_0201;
-    let now = (kept + 0x7f * ONES) >> 7 & ONES;
+    let now = bytes(bits);
     let mut before = [0; 8];
     // SAFETY: the caller's promise.
     unsafe {

@@ -36,7 +36,7 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
     if scene.contacts.is_empty() {
         return findings;
     }
-    findings.extend(scene.contacts.iter().filter_map(|law| cannot_be_hidden(scene, law)));
+    findings.extend(scene.contacts.iter().filter_map(|law| cannot_be_suppressed(scene, law)));
     findings.extend(scene.contacts.iter().filter_map(|law| cannot_meet_features(scene, law)));
     let count = scene.materials.len();
     let mut told = BTreeSet::new();
@@ -80,8 +80,8 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
     (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(|(a, b)| touch(*a, *b)).collect()
 }
 
-/// What speaks against a law where a bond hides contacts: its normal force must be one that an offset can be taken from.
-fn cannot_be_hidden(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
+/// What speaks against a law where a bond suppresses contacts: its normal force must be one that an offset can be taken from.
+fn cannot_be_suppressed(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
     let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
     if Law::of(&law.choice()).takes_offset() {
         return None;

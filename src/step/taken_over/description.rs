@@ -1,8 +1,7 @@
 //! What must be known of a scene to understand a state that it has reached.
 
 use crate::bond::{self, formulation::FormulationChoice};
-use crate::contact::Law;
-use crate::scene::{Boundary, ContactLaw, Scene};
+use crate::scene::{Boundary, Scene};
 use crate::state::{State, StateFault, demand};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -55,7 +54,9 @@ impl Description {
             course: course(scene),
             particles,
             boundaries: scene.boundaries.iter().map(|it| (it.name.clone(), shape(it).to_owned())).collect(),
-            contacts: scene.contacts.iter().map(|law| (law.name.clone(), memory(law))).collect(),
+            contacts: (0..scene.contacts.len())
+                .map(|law| (scene.contacts[law].name.clone(), memory(scene, law)))
+                .collect(),
             bonds: bonds.collect(),
         }
     }
@@ -153,7 +154,7 @@ impl Description {
             }
         }
         for (name, rows) in &self.contacts {
-            let kept = |row: &&String| !scene.contacts.iter().any(|law| memory(law).contains(row));
+            let kept = |row: &&String| !(0..scene.contacts.len()).any(|law| memory(scene, law).contains(row));
             for row in rows.iter().filter(kept) {
                 left.push(format!("the {row} of [contact.{name}] of {} has no law here that keeps it", self.scene));
             }
@@ -165,9 +166,9 @@ impl Description {
     }
 }
 
-/// Names of what a law remembers of a contact.
-fn memory(law: &ContactLaw) -> Vec<String> {
-    Law::of(&law.choice()).history().iter().map(|row| row.name.to_owned()).collect()
+/// Names of what is kept of a contact of a law.
+fn memory(scene: &Scene, law: usize) -> Vec<String> {
+    scene.kept_rows(law).iter().map(|row| row.name.to_owned()).collect()
 }
 
 /// The shape of a boundary, in one word.

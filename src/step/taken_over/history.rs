@@ -1,20 +1,13 @@
 //! Springs of contacts and bonds, from the lists of one scene to those of another.
 
 use super::{Description, Numbers};
-use crate::contact::{HistoryRow, Law};
+use crate::contact::HistoryRow;
 use crate::scene::Scene;
-use crate::state::contacts::TOUCHING;
-use crate::state::hidden::Hidden;
-use crate::state::{BondList, HiddenContact, Row, State, WallContacts};
+use crate::state::contacts::{BONDED, RELEASED, SILENT};
+use crate::state::{BondList, Row, State, WallContacts};
 use crate::step::Simulation;
 
-/// The contact law of two materials of a scene.
-fn law(scene: &Scene, one: u32, other: u32) -> Option<usize> {
-    let entry = one as usize * scene.materials.len() + other as usize;
-    scene.contacts.iter().position(|law| law.between[entry])
-}
-
-/// What the laws of both scenes remember of a contact.
+/// What both scenes keep of the contacts of their laws.
 pub(super) struct Memories {
     /// Of each law here: its rows.
     here: Vec<Vec<HistoryRow>>,
@@ -25,7 +18,7 @@ pub(super) struct Memories {
 impl Memories {
     /// Compares what is remembered, by name.
     pub(super) fn of(scene: &Scene, from: &Description) -> Self {
-        let here: Vec<_> = scene.contacts.iter().map(|law| Law::of(&law.choice()).history().to_vec()).collect();
+        let here: Vec<_> = (0..scene.contacts.len()).map(|law| scene.kept_rows(law)).collect();
         let find = |row: &HistoryRow, there: &[String]| there.iter().position(|name| name == row.name);
         let all = |rows: &[HistoryRow]| {
             let laws = from.contacts().iter();
@@ -54,21 +47,27 @@ fn push(history: &mut Vec<Vec<Row>>, rows: Vec<Row>) {
     }
 }
 
+/// Flags of a contact whose bonds are left behind: those that are here flag it again.
+fn unbonded(flags: u8) -> u8 {
+    let released = if flags & BONDED != 0 { RELEASED } else { 0 };
+    (flags | released) & !(BONDED | SILENT)
+}
+
 /// Puts what is remembered of touching bodies into the lists of the laws that govern them here. Slots are those of the
 /// scene.
 pub(super) fn put_contacts(scene: &Scene, state: &mut State, reached: &State, known: (&Description, &Numbers)) {
     let (from, numbers) = known;
-    let memories = Memories::of(scene, from);
+    let (memories, governing) = (Memories::of(scene, from), scene.governing_laws());
     let here = |slot: u32| numbers.at(reached.particles.id[slot as usize]);
     for (there, list) in reached.contacts.iter().enumerate() {
-        for (pair, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0) {
+        for (pair, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags != 0) {
             let (Some(a), Some(b)) = (here(list.first[pair]), here(list.second[pair])) else { continue };
             let [one, other] = [a, b].map(|index| state.particles.material[index as usize]);
-            let Some(law) = law(scene, one, other) else { continue };
+            let Some(law) = governing.between(one, other).map(|law| law as usize) else { continue };
             let new = &mut state.contacts[law];
             new.first.push(a.min(b));
             new.second.push(a.max(b));
-            new.flags.push(list.flags[pair]);
+            new.flags.push(unbonded(list.flags[pair]));
             push(&mut new.history, memories.taken(law, there, a > b, |row| list.history[row][pair]));
         }
     }
@@ -82,27 +81,30 @@ fn put_wall_contacts(
     reached: &State,
     (from, numbers, memories): (&Description, &Numbers, &Memories),
 ) {
-    let here = |slot: u32| numbers.at(reached.particles.id[slot as usize]);
+    let (here, governing) = (|slot: u32| numbers.at(reached.particles.id[slot as usize]), scene.governing_laws());
     for list in &reached.walls {
         let Some((boundary, material)) = plane(scene, from, list.boundary) else { continue };
-        let touching = list.flags.iter().enumerate().filter(|(_, flags)| **flags & TOUCHING != 0);
-        let mut touching: Vec<(u32, usize)> =
-            touching.filter_map(|(entry, _)| Some((here(list.particle[entry])?, entry))).collect();
-        touching.sort_unstable();
-        let features = scene.boundaries[boundary as usize].shape.features().map(|features| features.counts()[1]);
-        for (index, entry) in touching {
+        let flagged = list.flags.iter().enumerate().filter(|(_, flags)| **flags != 0);
+        let mut flagged: Vec<(u32, usize)> =
+            flagged.filter_map(|(entry, _)| Some((here(list.particle[entry])?, entry))).collect();
+        flagged.sort_unstable();
+        let surface = &scene.boundaries[boundary as usize];
+        let features = surface.shape.features().filter(|_| surface.shifting_plane().is_none());
+        let features = features.map(|features| features.counts()[1]);
+        for (index, entry) in flagged {
             // A mesh of the same name may have fewer triangles here; a plane is touched once.
             let feature = list.feature.get(entry).copied().filter(|_| features.is_some());
             let fits = |count: usize| feature.is_some_and(|feature| (feature as usize) < count);
             let once = |list: &WallContacts| features.is_some() || list.particle.last() != Some(&index);
-            let Some(law) = law(scene, state.particles.material[index as usize], material) else { continue };
+            let law = governing.between(state.particles.material[index as usize], material);
+            let Some(law) = law.map(|law| law as usize) else { continue };
             let governs = |list: &&mut WallContacts| (list.boundary, list.law) == (boundary, law as u32);
             let Some(new) = state.walls.iter_mut().find(governs) else { continue };
             if !features.is_none_or(fits) || !once(new) {
                 continue;
             }
             new.particle.push(index);
-            new.flags.push(list.flags[entry]);
+            new.flags.push(unbonded(list.flags[entry]));
             new.feature.extend(feature);
             let rows = memories.taken(law, list.law as usize, false, |row| list.history[row][entry]);
             push(&mut new.history, rows);
@@ -144,7 +146,6 @@ impl Simulation {
             }
         }
         self.count_bonds(reached, numbers, &taken);
-        self.put_hidden(reached, from, numbers);
         left
     }
 
@@ -189,67 +190,5 @@ impl Simulation {
                 list.first.iter().chain(&list.second).map(|&slot| particles.id[slot as usize]).collect();
             particles.count_bond(bodies);
         }
-    }
-
-    /// Enters the contacts that the bonds hide, with what is remembered of them.
-    fn put_hidden(&mut self, reached: &State, from: &Description, numbers: &Numbers) {
-        let Self { scene, hiding, state, .. } = self;
-        if !hiding.any() {
-            return;
-        }
-        state.hidden = Hidden::default();
-        let time = state.clock.time;
-        let start = crate::bond::creation::Moment { number: 0, from: time, to: time };
-        hiding.made(state, &vec![0; scene.bonds.len()], &start);
-        let memories = Memories::of(scene, from);
-        let kept = |law: usize, there: usize, entry: &HiddenContact| {
-            let mut history = HiddenContact::default().history;
-            for (row, taken) in history.iter_mut().zip(memories.taken(law, there, false, |row| entry.history[row])) {
-                *row = taken;
-            }
-            history
-        };
-        for (there, list) in reached.hidden.pairs.iter().enumerate() {
-            for entry in list {
-                let (Some(first), Some(second)) =
-                    (numbers.at(entry.first), entry.second.and_then(|second| numbers.at(second)))
-                else {
-                    continue;
-                };
-                let [one, other] = [first, second]
-                    .map(|index| state.particles.material[state.particles.slot[index as usize] as usize]);
-                let Some(law) = law(scene, one, other) else { continue };
-                let history = kept(law, there, entry);
-                remember(
-                    &mut state.hidden.pairs[law],
-                    HiddenContact { first, second: Some(second), history, ..*entry },
-                );
-            }
-        }
-        for (entries, list) in reached.hidden.planes.iter().zip(&reached.walls) {
-            let Some((boundary, material)) = plane(scene, from, list.boundary) else { continue };
-            for entry in entries {
-                let Some(first) = numbers.at(entry.first) else { continue };
-                let one = state.particles.material[state.particles.slot[first as usize] as usize];
-                let Some(law) = law(scene, one, material) else { continue };
-                let governs = |it: &WallContacts| (it.boundary, it.law) == (boundary, law as u32);
-                let Some(place) = state.walls.iter().position(governs) else { continue };
-                let history = kept(law, list.law as usize, entry);
-                remember(&mut state.hidden.planes[place], HiddenContact { first, second: None, history, ..*entry });
-            }
-        }
-        state.hidden.find_active();
-    }
-}
-
-/// Gives the entry of the same bodies what is remembered of them; an offset outlives its bond.
-fn remember(list: &mut Vec<HiddenContact>, old: HiddenContact) {
-    match Hidden::find(list, old.first, old.second) {
-        Ok(place) => {
-            let entry = &mut list[place];
-            *entry = HiddenContact { bonds: entry.bonds, ..old };
-        }
-        Err(place) if old.offset > 0.0 => list.insert(place, HiddenContact { bonds: 0, ..old }),
-        Err(_) => {}
     }
 }

@@ -1,8 +1,9 @@
-//! Contacts that a bond hides: nothing of them while bonded, and no jump when the bond breaks.
+//! Contacts that a bond suppresses: nothing of them while bonded, and no jump when the bond breaks.
 
 use cograin::lanes::Width;
 use cograin::scene::{Scene, Source};
 use cograin::state::State;
+use cograin::state::contacts::{BONDED, RELEASED, TOUCHING, is_resting};
 use cograin::step::Simulation;
 use std::sync::Arc;
 
@@ -123,19 +124,29 @@ fn a_broken_pair_starts_from_no_force_and_keeps_its_energy() {
 /// step with `"none"` where they took 0.60 ms with `"parallel"`, which does more.
 #[test]
 fn contacts_of_which_nothing_acts_are_left_alone_until_their_bond_breaks() {
-    let active = |simulation: &Simulation| simulation.state().hidden.active.iter().map(Vec::len).sum::<usize>();
-    assert_eq!(active(&pair("without_normal", "[1.0, 0.0, 0.0]", 1.0, 1e-8)), 1);
+    // The flags of the contact, and what is kept of it.
+    let kept = |simulation: &Simulation| {
+        let list = &simulation.state().contacts[0];
+        (list.flags[0], list.history.last().expect("offsets are kept")[0])
+    };
+    let mut followed = pair("without_normal", "[1.0, 0.0, 0.0]", 1.0, 1e-8);
+    let before = kept(&followed).1;
+    followed.advance(1e-8).unwrap();
+    let (flags, offset) = kept(&followed);
+    assert!(flags & TOUCHING != 0 && offset[3] < before[3], "{flags} {offset:?} {before:?}");
     let mut simulation = pair("none", "[1.0, 0.0, 0.0]", 1.0, 1e-8);
+    let before = kept(&simulation);
+    assert!(is_resting(before.0) && before.0 & TOUCHING == 0, "{before:?}");
     while living(&simulation) > 0 {
-        assert_eq!(active(&simulation), 0);
+        assert_eq!(kept(&simulation), before);
         let positions = &simulation.state().particles.position;
         let overlap = (2e-3 - (positions[1][0] - positions[0][0]).abs()) / 1e-3;
         assert!((simulation.largest_overlap() - overlap).abs() < 1e-12, "it is told all the same");
         simulation.advance(1e-8).unwrap();
     }
-    assert_eq!(active(&simulation), 1);
-    let entry = simulation.state().hidden.all().next().copied().expect("an offset is left");
-    assert!((entry.offset / 1e-3 - simulation.largest_overlap()).abs() < 1e-12, "{entry:?}");
+    let (flags, offset) = kept(&simulation);
+    assert_eq!(flags, TOUCHING | RELEASED);
+    assert!((offset[3] / 1e-3 - simulation.largest_overlap()).abs() < 1e-12, "{offset:?}");
 }
 
 /// Two spheres whose bond breaks while they are pressed together.
@@ -175,7 +186,7 @@ fn a_pair_that_breaks_under_pressure_is_stopped_by_the_overlap_beyond_what_was_l
 }
 
 #[test]
-fn a_bond_made_anew_hides_the_contact_again() {
+fn a_bond_made_anew_suppresses_the_contact_again() {
     let text = PAIR
         .replace("CONTACT", "none")
         .replace("VELOCITY", "[1.0, 0.3, 0.0]")
@@ -189,7 +200,7 @@ fn a_bond_made_anew_hides_the_contact_again() {
     assert_eq!(living(&simulation), 1);
     assert!(simulation.state().particles.force[0][0] < 0.0);
     simulation.advance(1e-7).unwrap();
-    assert_eq!(simulation.contact_count(), 0, "hidden from the next step on");
+    assert_eq!(simulation.contact_count(), 0, "suppressed from the next step on");
     let mut breaks = 0;
     for _ in 0..200 {
         simulation.advance(1e-7).unwrap();
@@ -278,15 +289,20 @@ fn run(simulation: &mut Simulation, steps: usize) -> usize {
 #[test]
 fn threads_widths_and_saved_states_give_the_same_bits_and_the_book_closes() {
     let mut first = block(1);
-    let hidden = first.state().hidden.clone();
+    // How many contacts have a flag, between spheres and at the plane.
+    let flagged = |simulation: &Simulation, flag: u8| {
+        let count = |flags: &[u8]| flags.iter().filter(|flags| **flags & flag != 0).count();
+        let State { contacts, walls, .. } = simulation.state();
+        [count(&contacts[0].flags), count(&walls[0].flags)]
+    };
     let spheres_below = 15 * 15;
-    assert_eq!(hidden.planes.iter().flatten().count(), spheres_below);
-    assert_eq!(hidden.pairs.iter().flatten().count(), 2 * 14 * 15 * 5 + spheres_below * 4 + spheres_below);
+    let between = 2 * 14 * 15 * 5 + spheres_below * 4 + spheres_below;
+    assert_eq!(flagged(&first, BONDED), [between, spheres_below]);
     let broken = run(&mut first, 12);
     let bytes = first.state().to_bytes(first.scene().fingerprint);
     let broken = broken + run(&mut first, 12);
     assert!(broken > 50, "{broken} bonds broke");
-    let over = first.state().hidden.all().filter(|entry| entry.bonds == 0 && entry.offset > 0.0).count();
+    let over = flagged(&first, RELEASED).iter().sum::<usize>();
     assert!(over > 5, "{over} contacts beyond an offset");
     let expected = first.state().fingerprint();
     let residual = first.energy_residual().expect("the scene keeps a book");

@@ -1,0 +1,48 @@
+//! Which contact law governs two materials, and what is kept of the contacts of a law.
+
+use super::Scene;
+use crate::bond::creation::ContactPolicy;
+use crate::contact::{HistoryRow, Law, OFFSET};
+
+/// The contact law of each two materials: who asks which law governs a contact asks here.
+#[derive(Clone, Debug)]
+pub struct GoverningLaws {
+    /// Of each two materials, row by row.
+    of: Vec<Option<u32>>,
+    /// How many materials there are.
+    materials: usize,
+}
+
+impl GoverningLaws {
+    /// The law that governs contacts of these two materials, if one does: its index in the scene.
+    pub fn between(&self, one: u32, other: u32) -> Option<u32> {
+        self.of[one as usize * self.materials + other as usize]
+    }
+
+    /// The law of each two materials, row by row.
+    pub fn rows(&self) -> &[Option<u32>] {
+        &self.of
+    }
+}
+
+impl Scene {
+    /// Which contact law governs each two materials.
+    pub fn governing_laws(&self) -> GoverningLaws {
+        let materials = self.materials.len();
+        let law = |entry: usize| self.contacts.iter().position(|law| law.between[entry]).map(|law| law as u32);
+        GoverningLaws { of: (0..materials * materials).map(law).collect(), materials }
+    }
+
+    /// Whether bonds of the scene suppress contacts.
+    pub fn suppresses_contacts(&self) -> bool {
+        self.bonds.iter().any(|bond| bond.keys.contact != ContactPolicy::Parallel)
+    }
+
+    /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,
+    /// [`OFFSET`] behind them.
+    pub fn kept_rows(&self, law: usize) -> Vec<HistoryRow> {
+        let mut rows = Law::of(&self.contacts[law].choice()).history().to_vec();
+        rows.extend(self.suppresses_contacts().then_some(OFFSET));
+        rows
+    }
+}
