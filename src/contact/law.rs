@@ -197,7 +197,7 @@ impl Law {
     /// The same of a contact that a bond suppresses, or has suppressed. The elastic force is taken from the overlap beyond the
     /// offset, and attraction is what the offset's does not hold already, so that neither jumps when the bond is
     /// gone; stiffness and damping are those of the whole overlap. Where the normal force does not act, friction
-    /// alone does.
+    /// alone does. For tests: what batches of such contacts are compared with.
     #[cfg(test)]
     pub fn react_beyond(
         &self,

@@ -8,7 +8,7 @@ mod start;
 mod step;
 mod time;
 
-pub use contact_policy::{ContactPolicy, Suppressed, suppressed};
+pub use contact_policy::ContactPolicy;
 
 use crate::quantity::NonNegative;
 use serde::Deserialize;

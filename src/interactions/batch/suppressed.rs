@@ -1,9 +1,11 @@
 //! Phase 3 for contacts that a bond suppresses or has suppressed: the force is taken from the overlap beyond an offset, and
-//! friction sees it even where it does not act ([`Law::react_beyond`] is the same for one contact).
+//! friction sees it even where it does not act. Stiffness and damping are those of the whole overlap.
+//!
+//! While bonded, the overlap becomes the offset. Afterwards what goes beyond the offset presses, and the offset shrinks with
+//! the overlap: nothing jumps when a bond breaks.
 
 use super::buffer::Buffer;
 use super::law::{Gathered, Run, RunOf, Stage};
-use crate::bond::creation::suppressed;
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::{
@@ -122,7 +124,7 @@ fn keep(stage: &mut Stage, bonded: bool) {
         let row = unsafe { stage.entries.history()[stage.offset].at(buffer.entry[place] as usize) };
         let [x, y, z, _] = buffer.force[place];
         let [overlap, offset] = buffer.overlap_and_offset(place);
-        let next = if bonded { suppressed(overlap, offset, true).offset } else { offset };
+        let next = if bonded { overlap } else { offset };
         *row = [x, y, z, if *step > 0.0 { next } else { row[3] }];
     }
 }

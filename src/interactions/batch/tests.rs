@@ -3,13 +3,15 @@
 
 use super::buffer::Buffer;
 use super::law::{BatchLaw, Stage};
-use super::{ContactGeometry, Entries};
+use super::{ContactGeometry, Entries, Manner};
 use crate::contact::fixtures::{corners, every_law, properties, with_pair};
-use crate::contact::{LawChoice, Needs};
+use crate::contact::{Contact, Law, LawChoice, Needs, Offset};
 use crate::interactions::coefficients::CoefficientTable;
+use crate::interactions::sphere_geometry::SpherePair;
 use crate::lanes::Width;
 use crate::number::{Row, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
+use std::f64::consts::PI;
 
 /// Contacts in a batch: more than a register holds, and no whole number of registers.
 const COUNT: usize = 11;
@@ -20,7 +22,7 @@ fn before(entry: usize, row: usize) -> Row {
 }
 
 /// Forces, couples, torques, flags and history of a batch.
-fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width) -> Vec<(Vec<Row>, u8)> {
+fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Option<Manner>) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
     let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true };
@@ -42,15 +44,25 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width) -> Vec<(Vec<
     buffer.ready = COUNT;
     let constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
     let mut flags = vec![TOUCHING; COUNT];
-    let kept = law.law.history().len();
+    let kept = law.law.history().len() + usize::from(manner.is_some());
     let mut history: Vec<Vec<Row>> =
         (0..kept).map(|row| (0..COUNT).map(|entry| before(entry, row)).collect()).collect();
     let entries = Entries::of(&mut flags, &mut history, &constants);
     let (places, own) = (law.law.places(), law.law.history_places());
     let uniform = uniform.then_some(rows);
-    let mut stage =
-        Stage { entries: &entries, table: &table, uniform, places, history: own, step: 0.5, buffer: &mut buffer };
-    law.react(width, &mut stage);
+    let offset = law.law.history().len();
+    let mut stage = Stage {
+        entries: &entries,
+        table: &table,
+        uniform,
+        places,
+        history: own,
+        offset,
+        step: 0.5,
+        buffer: &mut buffer,
+    };
+    let (needs, runs) = law.runs(manner);
+    runs.iter().for_each(|run| run(width, &mut stage));
     let mut found = Vec::new();
     for place in 0..COUNT {
         let entry = (place * 3) % COUNT;
@@ -58,7 +70,7 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width) -> Vec<(Vec<
         if law.needs.torque {
             rows.push(buffer.couple[place]);
         }
-        if law.needs.spin {
+        if needs.spin {
             rows.push(buffer.rolling[place]);
         }
         rows.extend(history.iter().map(|list| list[entry]));
@@ -92,6 +104,41 @@ fn one_by_one(law: &BatchLaw, rows: &[f64]) -> Vec<(Vec<Row>, u8)> {
     (0..COUNT).map(one).collect()
 }
 
+/// A contact at an overlap of the offset alone: two spheres by their arms, or one at a wall.
+fn at_offset(contact: &Contact, offset: f64) -> Contact {
+    let half = 0.5 * contact.overlap;
+    let area = if contact.radius > 0.75 * contact.section_radius {
+        PI * offset * (contact.radius + contact.radius - offset)
+    } else {
+        SpherePair::section_area([0.5 + half, 0.25 + half], offset)
+    };
+    Contact { overlap: offset, section_area: area, ..*contact }
+}
+
+/// The same, contact by contact, while a bond suppresses them or when it is gone.
+fn suppressed_one_by_one(law: &BatchLaw, rows: &[f64], bonded: bool) -> Vec<(Vec<Row>, u8)> {
+    let of = |vector: Vector| vector.row_with(0.0);
+    let one = |place: usize| {
+        let (entry, contact) = ((place * 3) % COUNT, corners()[place % 5]);
+        let mut history: Vec<Row> = (0..law.law.history().len()).map(|row| before(entry, row)).collect();
+        let offset = before(entry, history.len())[3].min(contact.overlap);
+        let pressing = contact.overlap - offset;
+        let beyond = Offset { pressing, acts: !bonded, contact: at_offset(&contact, offset) };
+        let reaction = law.law.react_beyond(rows, &contact, &beyond, &mut history, 0.5);
+        let mut found = vec![of(reaction.force)];
+        if law.needs.torque {
+            found.push(of(reaction.couple));
+        }
+        if law.needs.spin && !bonded {
+            found.push(of(reaction.rolling));
+        }
+        found.extend(history);
+        found.push(reaction.force.row_with(if bonded { contact.overlap } else { offset }));
+        (found, if reaction.sliding { TOUCHING | SLIDING } else { TOUCHING })
+    };
+    (0..COUNT).map(one).collect()
+}
+
 /// Bits of what was found.
 fn bits(found: &[(Vec<Row>, u8)]) -> Vec<u64> {
     let of = |(rows, flags): &(Vec<Row>, u8)| {
@@ -111,7 +158,7 @@ fn every_law_has_the_bits_of_one_contact_in_every_lane_width_sub_model_by_sub_mo
         let expected = one_by_one(&laws[0], &rows);
         for width in Width::ALL.into_iter().filter(|width| width.offered()) {
             for (law, uniform) in laws.iter().flat_map(|law| [(law, true), (law, false)]) {
-                let found = batch(law, &rows, uniform, width);
+                let found = batch(law, &rows, uniform, width, None);
                 assert_eq!(bits(&found), bits(&expected), "{choice:?}, {width:?}\n{found:?}\n{expected:?}");
                 tried += 1;
             }
@@ -119,6 +166,24 @@ fn every_law_has_the_bits_of_one_contact_in_every_lane_width_sub_model_by_sub_mo
     }
     // Forms that several models share count once for each of them.
     assert!(whole >= 6 && tried >= 90 * 4, "{whole} laws are compiled whole, {tried} batches");
+}
+
+#[test]
+fn suppressed_contacts_have_the_bits_of_one_contact_in_every_lane_width() {
+    let mut tried = 0;
+    for choice in every_law().into_iter().filter(|choice| Law::of(choice).takes_offset()) {
+        let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
+        let law = BatchLaw::of(&choice);
+        for (manner, bonded) in [(Manner::Bonded, true), (Manner::Released, false)] {
+            let expected = suppressed_one_by_one(&law, &rows, bonded);
+            for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+                let found = batch(&law, &rows, tried % 2 == 0, width, Some(manner));
+                assert_eq!(bits(&found), bits(&expected), "{choice:?}, {manner:?}, {width:?}\n{found:?}\n{expected:?}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried >= 100, "{tried} batches");
 }
 
 #[test]
