@@ -3,7 +3,9 @@
 //! Data goes one way: scene file → [`scene::Scene`] → [`state::State`] and passes →
 //! [`step::Simulation::advance`] → interface and outputs → unit and command line.
 
+mod batches;
 pub mod bond;
+mod bond_passes;
 mod books;
 mod boundaries;
 mod choices;

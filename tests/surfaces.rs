@@ -533,3 +533,68 @@ fn four_triangles_in_place_of_each_change_nothing() {
         assert_same(fine, coarse, 1e-10);
     }
 }
+
+/// Heights over a wall at z = 0, which is this boundary, of a sticky sphere that flies off it across the middle, and the forces
+/// along z: in each step \[m, N\].
+fn pulled_off(boundary: &str) -> Vec<[f64; 2]> {
+    let text = format!(
+        r#"
+[run]
+step = 2e-7
+threads = 1
+[material.sphere]
+density = 2500.0
+youngs_modulus = 5e6
+poissons_ratio = 0.3
+[material.wall]
+density = 2500.0
+youngs_modulus = 5e6
+poissons_ratio = 0.3
+[pair.sphere.wall]
+restitution = 0.5
+friction = 0.4
+surface_energy = 0.5
+[contact.touch]
+between = ["sphere", "wall"]
+[contact.touch.normal.jkr]
+[contact.touch.tangential.history]
+[particles.one]
+material = "sphere"
+list = [{{ position = [-2e-5, 1e-5, 4.98e-3], radius = {RADIUS:?}, velocity = [0.2, 0.0, 0.2] }}]
+[boundary.wall]
+material = "wall"
+{boundary}
+"#
+    );
+    let corners = [[-0.05, -0.05, 0.0], [0.05, -0.05, 0.0], [0.05, 0.05, 0.0], [-0.05, 0.05, 0.0]];
+    let floor = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
+    let files = BTreeMap::from([("floor.stl".to_owned(), stl(&floor))]);
+    let source = Source { name: "scene.toml".into(), text, files };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut simulation = Simulation::new(Arc::new(scene)).expect("it starts");
+    let step = |_| {
+        simulation.advance(2e-7).unwrap_or_else(|error| panic!("{error}"));
+        let particles = &simulation.state().particles;
+        [particles.position[0][2], particles.force[0][2]]
+    };
+    (0..2000).map(step).collect()
+}
+
+#[test]
+fn a_law_that_pulls_beyond_touch_does_so_at_a_mesh_and_at_a_plane_that_turns() {
+    let plane = "plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\n";
+    let expected = pulled_off(plane);
+    let beyond = expected.iter().filter(|[height, force]| *height > RADIUS && *force < 0.0).count();
+    assert!(beyond > 10 && expected[1999][1] == 0.0, "{beyond} steps beyond touch, {:?} at the end", expected[1999]);
+    let turning = format!("{plane}motion = {{ driven = [\"rotation.y\"] }}\n");
+    for other in ["mesh = { file = \"floor.stl\" }\n", &turning] {
+        for (found, expected) in pulled_off(other).iter().zip(&expected) {
+            let apart = (found[0] - expected[0]).abs() / RADIUS;
+            assert!(apart < 1e-12, "{found:?} found, {expected:?} expected, {other}");
+            assert!(
+                (found[1] - expected[1]).abs() < 1e-9 * expected[1].abs().max(1e-3),
+                "{found:?}, {expected:?}, {other}"
+            );
+        }
+    }
+}

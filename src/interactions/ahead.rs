@@ -1,6 +1,7 @@
 //! How stiff interactions are, and how stiff they may get before anybody looks again: what the stable time step is found
 //! from.
 
+use crate::batches::overlap_of;
 use crate::bond::creation::Window;
 use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::number::{Row, Vector};
@@ -8,13 +9,6 @@ use crate::state::Particles;
 
 /// How much faster than at the last look anything may become before the next.
 pub(crate) const FASTER: f64 = 1.5;
-
-/// Most iterations for the overlap at which a contact holds a given energy. The error of its logarithm shrinks to a
-/// quarter in each for Hertz's law; for a linear spring the first is exact.
-const ITERATIONS: usize = 12;
-
-/// Relative change of the overlap below which they end; what is left of the error is added.
-const SAME: f64 = 2e-3;
 
 /// A contact without a past.
 const NO_HISTORY: [Row; MOST_HISTORY] = [[0.0; 4]; MOST_HISTORY];
@@ -171,24 +165,4 @@ impl Ahead {
         }
         (deep > 0.0).then_some(Contact { overlap: deep, normal_velocity: 0.0, ..*contact })
     }
-}
-
-/// The overlap at which the normal force of a contact holds this energy \[J\], at most `most` \[m\].
-pub(crate) fn overlap_of(law: &Law, row: &[f64], contact: &Contact, energy: f64, most: f64) -> f64 {
-    let held = |overlap: f64| law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &NO_HISTORY);
-    let mut overlap = most;
-    for _ in 0..ITERATIONS {
-        let ratio = energy / held(overlap);
-        // Not a number where there is neither energy nor stiffness.
-        if !ratio.is_finite() || (overlap >= most && ratio >= 1.0) {
-            return most;
-        }
-        let next = overlap * ratio.sqrt();
-        let change = (next - overlap).abs();
-        overlap = next;
-        if change <= SAME * overlap {
-            break;
-        }
-    }
-    ((1.0 + SAME) * overlap).min(most)
 }

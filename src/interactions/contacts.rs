@@ -4,12 +4,12 @@
 //! neighbours are done. The order in which a particle gets its loads is thus always the same.
 
 use super::ahead::{Ahead, Link};
-use super::batch::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
-use super::coefficients::{CoefficientTable, Partners};
 use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
-use super::sphere_geometry::SpherePair;
+use crate::batches::SpherePair;
+use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
+use crate::batches::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
 use crate::lanes::{self, Lane, Shared};
 use crate::run_error::RunError;
@@ -45,7 +45,7 @@ impl Pass for ContactPass {
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
             },
-            entries: Entries::of(&mut list.flags, &mut list.history, &list.pair_constant),
+            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
             law: &self.law,
             table: &self.table,
             uniform: self.table.uniform(),
@@ -96,8 +96,8 @@ impl Pass for ContactPass {
         listed::stiffness(self, state, ahead, tell);
     }
 
-    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response> {
-        self.table.stiffest(&self.law.law, Partners::Particles, radius, mass, speed)
+    fn impacts(&self, radius: f64, mass: f64, speed: f64, tell: &mut dyn FnMut(Response)) {
+        self.table.stiffest(&self.law.law, Partners::Particles, radius, mass, speed).into_iter().for_each(tell);
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
@@ -249,16 +249,16 @@ impl Bodies for Pairs<'_> {
             let (i, j) = (first[place] as usize, second[place] as usize);
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
-                batch::add(self.force.at(i), &force[place]);
-                batch::subtract(self.force.at(j), &force[place]);
+                batches::add(self.force.at(i), &force[place]);
+                batches::subtract(self.force.at(j), &force[place]);
                 if needs.torque {
                     let [mut on_i, mut on_j] = touching.torques(place);
                     if needs.spin {
-                        batch::subtract(&mut on_i, &touching.rolling[place]);
-                        batch::add(&mut on_j, &touching.rolling[place]);
+                        batches::subtract(&mut on_i, &touching.rolling[place]);
+                        batches::add(&mut on_j, &touching.rolling[place]);
                     }
-                    batch::add(self.torque.at(i), &on_i);
-                    batch::add(self.torque.at(j), &on_j);
+                    batches::add(self.torque.at(i), &on_i);
+                    batches::add(self.torque.at(j), &on_j);
                 }
             }
         }

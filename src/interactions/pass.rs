@@ -2,7 +2,6 @@
 
 use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
-use super::walls::PlanePass;
 use crate::bond::creation::Moment;
 use crate::contact::Response;
 use crate::run_error::RunError;
@@ -16,11 +15,6 @@ pub(crate) trait Pass: Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
-
-    /// The pass as that of a plane, if it is one: those of all planes are done together, not by [`Pass::apply`].
-    fn at_plane(&self) -> Option<&dyn PlanePass> {
-        None
-    }
 
     /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
     /// whether anything was made: the lists are then made anew.
@@ -47,7 +41,7 @@ pub(crate) trait Pass: Send + Sync {
     fn check(&self, state: &State) -> Result<(), StateFault>;
 
     /// Prepares its part of the state after the neighbour lists were made anew.
-    fn prepare(&self, state: &mut State);
+    fn prepare(&self, _state: &mut State) {}
 
     /// The kind of force it is, for the energy book.
     fn source(&self) -> Source;
@@ -56,12 +50,12 @@ pub(crate) trait Pass: Send + Sync {
     /// stable time step.
     fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link));
 
-    /// The stiffest that it gets between two bodies of this effective radius \[m\] and mass \[kg\] which meet at
-    /// this speed \[m/s\].
-    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Option<Response>;
+    /// Tells the stiffest that each kind of contact gets between two bodies of this effective radius \[m\] and mass \[kg\]
+    /// which meet at this speed \[m/s\].
+    fn impacts(&self, _radius: f64, _mass: f64, _speed: f64, _tell: &mut dyn FnMut(Response)) {}
 
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
-    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord));
+    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;

@@ -247,7 +247,7 @@ impl Search {
         let (shape, reference, _) = &self.boundaries[list.boundary as usize];
         let plane = self.planes.iter().find(|plane| plane.boundary == list.boundary);
         if let (None, Some(features), Some(material)) = (plane, shape.features(), shape.material()) {
-            let (boundary, skin) = (list.boundary, state.neighbours.skin);
+            let (boundary, skin) = (list.boundary, state.neighbours.skin + self.reach);
             let moved = &state.boundaries[boundary as usize];
             let frame = Frame::of(*reference, moved.displacement.into(), moved.orientation.0);
             let near = surfaces::Near { boundary, material: material.0, features, frame, skin };

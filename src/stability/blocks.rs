@@ -52,6 +52,30 @@ struct Blocks<'a> {
 
 /// The largest root μ = 2/Δt \[1/s\], from the safe side, and the body that has it. `guess` is about what it will be, or 0.
 pub(super) fn largest_root(network: &Network, guess: f64) -> (f64, Option<usize>) {
+    let (_, (root, mover)) = swept(network, guess);
+    (root * (1.0 + ROUNDING), mover)
+}
+
+/// The motion that the bound comes from: of one body alone, scaled as the network is.
+pub(super) fn critical_motion(network: &Network, root: f64) -> Vec<[f64; 6]> {
+    /// Iterations after which it stands out.
+    const ITERATIONS: usize = 60;
+    let (blocks, (root, mover)) = swept(network, root);
+    let own = mover.map(|mover| {
+        let mut own = ASKEW;
+        blocks.estimate(mover, &mut own, root, ITERATIONS);
+        (mover, own)
+    });
+    drop(blocks);
+    let mut motion = vec![[0.0; 6]; network.movers()];
+    if let Some((mover, own)) = own {
+        motion[mover] = own;
+    }
+    motion
+}
+
+/// The blocks when load has been shared as well as sweeps find, the largest root \[1/s\] and the body that has it.
+fn swept<'a>(network: &'a Network, guess: f64) -> (Blocks<'a>, (f64, Option<usize>)) {
     let movers = network.movers();
     let mut blocks = Blocks {
         network,
@@ -75,7 +99,7 @@ pub(super) fn largest_root(network: &Network, guess: f64) -> (f64, Option<usize>
             break;
         }
     }
-    (best.0 * (1.0 + ROUNDING), best.1)
+    (blocks, best)
 }
 
 impl Blocks<'_> {
@@ -251,8 +275,8 @@ impl Blocks<'_> {
             }
         }
         let touches = |element: &Element| ends(element).iter().flatten().any(|&mover| swept[mover]);
-        let elements: Vec<usize> =
-            (0..network.elements.len()).filter(|&place| touches(&network.elements[place])).collect();
+        let elements: Vec<u32> =
+            (0..network.elements.len() as u32).filter(|&place| touches(&network.elements[place as usize])).collect();
         let active: Vec<usize> = (0..network.movers()).filter(|&mover| swept[mover]).collect();
         let mut vectors = vec![ASKEW; active.len()];
         let mut roots = vec![best.0; active.len()];
@@ -277,7 +301,7 @@ impl Blocks<'_> {
                 self.weights[mover] = weight.max(1e-9) as f32;
             }
             self.clear(active.iter().copied());
-            self.add(elements.iter().copied(), |mover| swept[mover]);
+            self.add(elements.iter().map(|&place| place as usize), |mover| swept[mover]);
         }
         least
     }

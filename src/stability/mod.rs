@@ -12,6 +12,7 @@ mod network;
 mod surfaces;
 
 use crate::boundaries::RigidBody;
+use crate::contact::Response;
 use crate::integration::Fields;
 use crate::interactions::{Ahead, FASTER, Kind, Link, Pass};
 use crate::scene::Scene;
@@ -137,19 +138,20 @@ impl System<'_> {
     /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
     pub(crate) fn find(&self, ahead: &Ahead, speed: f64, guess: f64, counter: &mut u64, context: &Context) -> Found {
         let network = self.network(ahead);
-        let bonds = self.state.bonds.iter().any(|list| !list.first.is_empty())
-            || ahead
-                .window
-                .as_ref()
-                .is_some_and(|window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window)));
         let root = if network.elements.is_empty() {
             0.0
-        } else if bonds {
+        } else if self.has_bonds(ahead) {
             lanczos::largest_root(&network, guess, counter, context)
         } else {
             blocks::largest_root(&network, guess).0
         };
         Found { network: root, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
+    }
+
+    /// Whether there are bonds, or are about to be.
+    fn has_bonds(&self, ahead: &Ahead) -> bool {
+        let coming = |window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window));
+        self.state.bonds.iter().any(|list| !list.first.is_empty()) || ahead.window.as_ref().is_some_and(coming)
     }
 
     /// The network, as it may get.
@@ -181,7 +183,10 @@ impl System<'_> {
         if network.elements.is_empty() {
             return None;
         }
-        let motion = lanczos::critical_motion(&network, found.network, counter, context);
+        let motion = match self.has_bonds(ahead) {
+            true => lanczos::critical_motion(&network, found.network, counter, context),
+            false => blocks::critical_motion(&network, found.network),
+        };
         let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
         let place = (0..network.elements.len())
             .map(|place| (place, shares(place).iter().sum::<f64>()))
@@ -227,11 +232,14 @@ impl System<'_> {
         let mut limit: Option<(f64, Meeting)> = None;
         for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(groups) {
             let closing = 2.0 * speed + (2.0 * ahead.acceleration * meeting.radius).sqrt();
+            let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
             for pass in self.passes {
-                let Some(root) = meeting.root(pass.as_ref(), closing) else { continue };
-                if root > limit.as_ref().map_or(0.0, |(most, _)| *most) {
-                    limit = Some((root, meeting));
-                }
+                pass.impacts(radius, mass, closing, &mut |response| {
+                    let root = meeting.root(&response);
+                    if root > limit.as_ref().map_or(0.0, |(most, _)| *most) {
+                        limit = Some((root, meeting));
+                    }
+                });
             }
         }
         limit
@@ -273,14 +281,13 @@ struct Meeting {
 }
 
 impl Meeting {
-    /// The root while it meets its like at this speed \[m/s\]: both move, their one spring acts on the reduced mass.
-    fn root(&mut self, pass: &dyn Pass, speed: f64) -> Option<f64> {
-        let response = pass.impact(0.5 * self.radius, 0.5 * self.mass, speed)?;
+    /// The root while it meets its like with this response: both move, their one spring acts on the reduced mass.
+    fn root(&mut self, response: &Response) -> f64 {
         let root = |k: f64, c: f64| c + (c * c + 2.0 * k).sqrt();
         let along = root(response.normal_stiffness / self.mass, response.normal_damping / self.mass);
         let across = root(response.tangential_stiffness * self.turn, response.tangential_damping * self.turn);
         self.across = across > along;
-        Some(along.max(across)).filter(|root| *root > 0.0)
+        along.max(across)
     }
 }
 

@@ -1,22 +1,18 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
+use crate::batches::{BatchLaw, CoefficientTable, coefficients};
+use crate::bond_passes::BondPass;
+use crate::bond_passes::walls::WallBondPass;
 use crate::boundaries::RigidBody;
 use crate::boundaries::{course, sphere_inertia};
-use crate::contact::Law;
 use crate::interactions::Pass;
-use crate::interactions::bonds::BondPass;
 use crate::interactions::contacts::ContactPass;
 use crate::interactions::surfaces::SurfacePass;
-use crate::interactions::wall_bonds::WallBondPass;
-use crate::interactions::walls::{Plane, WallPass};
-use crate::interactions::{BatchLaw, CoefficientTable, coefficients};
 use crate::neighbours;
-use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
 use crate::state::{
     BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Neighbours, Particles, State, WallContacts,
 };
-use crate::surface;
 
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
@@ -93,29 +89,30 @@ fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
     moved
 }
 
-/// Planes and contact laws that can meet: boundary and law.
+/// Surfaces and contact laws that can meet: boundary and law.
 fn meetings(scene: &Scene) -> Vec<(u32, u32)> {
-    let mut meetings = Vec::new();
-    let count = scene.materials.len();
-    for (index, boundary) in scene.boundaries.iter().enumerate() {
+    let (mut meetings, governing) = (Vec::new(), scene.governing_laws());
+    let mut present = vec![false; scene.materials.len()];
+    scene.particles.iter().for_each(|particle| present[particle.material.index()] = true);
+    for (index, boundary) in (0..).zip(&scene.boundaries) {
         let Some(material) = boundary.shape.material() else { continue };
-        for (number, law) in scene.contacts.iter().enumerate() {
-            let meets = |other: usize| law.between[other * count + material.index()];
-            if scene.particles.iter().any(|particle| meets(particle.material.index())) {
-                meetings.push((index as u32, number as u32));
+        for law in 0..scene.contacts.len() as u32 {
+            let meets = |other: usize| present[other] && governing.between(other as u32, material.0) == Some(law);
+            if (0..present.len()).any(meets) {
+                meetings.push((index, law));
             }
         }
     }
     meetings
 }
 
-/// Empty lists of the planes and contact laws that can meet.
+/// Empty lists of the surfaces and contact laws that can meet.
 fn wall_lists(scene: &Scene) -> Vec<WallContacts> {
     let lists = meetings(scene).into_iter();
     lists.map(|(boundary, law)| WallContacts { boundary, law, ..WallContacts::default() }).collect()
 }
 
-/// The passes of a scene: contacts between particles law by law, then planes.
+/// The passes of a scene: contacts between particles law by law, bonds law by law, then all surfaces.
 pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
     let mut passes = Vec::new();
     for index in 0..scene.contacts.len() {
@@ -127,9 +124,7 @@ pub(super) fn passes(scene: &Scene) -> Vec<Box<dyn Pass>> {
             Some(plane) => WallBondPass::of(scene, index, plane).map(|pass| Box::new(pass) as _),
         });
     }
-    for (list, meeting) in meetings(scene).into_iter().enumerate() {
-        passes.push(at_surface(scene, list, meeting));
-    }
+    passes.extend(SurfacePass::of(scene, &meetings(scene)).map(|pass| Box::new(pass) as _));
     passes
 }
 
@@ -142,24 +137,4 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         table: CoefficientTable::of(law, scene),
         law: BatchLaw::of(&law.choice()),
     }
-}
-
-/// The pass of a law at a surface; `list` is its place among those of the state.
-fn at_surface(scene: &Scene, list: usize, (boundary, law): (u32, u32)) -> Box<dyn Pass> {
-    let kept_rows = scene.kept_rows(law as usize).len();
-    let (boundary, law) = (&scene.boundaries[boundary as usize], &scene.contacts[law as usize]);
-    let table = CoefficientTable::of(law, scene);
-    let Some(surface::Plane { material, point, normal }) = boundary.shifting_plane() else {
-        return Box::new(SurfacePass::of(boundary, list, table, Law::of(&law.choice())));
-    };
-    Box::new(WallPass {
-        index: list,
-        kept_rows,
-        name: boundary.name.clone(),
-        plane: Plane { point: point.into(), normal: normal.into(), velocity: Vector::zero() },
-        material: material.0,
-        reference: boundary.reference.into(),
-        table,
-        law: BatchLaw::of(&law.choice()),
-    })
 }

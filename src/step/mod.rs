@@ -26,8 +26,8 @@ use crate::bond::creation::Moment;
 use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
+use crate::interactions::Pass;
 use crate::interactions::suppression::Suppression;
-use crate::interactions::{Pass, walls};
 use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
@@ -392,12 +392,7 @@ impl Simulation {
         seen.clear();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(match pass.at_plane() {
-                None => pass.apply(&mut self.state, context),
-                // The first of them does the others with it.
-                Some(_) if place > 0 && self.passes[place - 1].at_plane().is_some() => Ok(()),
-                Some(_) => walls::apply(&self.passes[place..], &mut self.state, context),
-            });
+            result = result.and(pass.apply(&mut self.state, context));
             let source = pass.source();
             if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
                 books::record(&mut self.state, source, &mut seen);

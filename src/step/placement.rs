@@ -2,10 +2,10 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
+use crate::bond_passes::begin_losses;
 use crate::boundaries::course;
 use crate::contact::Law;
 use crate::interactions::PlacedSpring;
-use crate::interactions::bonds::begin_losses;
 use crate::number::Vector;
 use crate::scene::{Scene, Step};
 use crate::state::contacts::TOUCHING;

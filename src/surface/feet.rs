@@ -50,6 +50,8 @@ pub struct Feet {
     pub list: Vec<Foot>,
     /// The saddles among them.
     pub saddles: Vec<Saddle>,
+    /// Room for who finds them.
+    pub(crate) room: [Vec<u32>; 2],
 }
 
 impl Feet {

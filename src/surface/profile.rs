@@ -152,7 +152,8 @@ impl Features for Revolution {
             }
         }
         for corner in 0..self.corners.len() as u32 {
-            let (mut weight, mut here, mut inside) = (1, None, Vec::new());
+            let (mut weight, mut here) = (1, None);
+            let (mut inside, mut count_inside) = ([None; 2], 0);
             for segment in self.at_corner(corner) {
                 let nearest = self.nearest(place, self.segments[segment]);
                 match nearest.corner {
@@ -165,7 +166,10 @@ impl Features for Revolution {
                             } else {
                                 self.length(segment) - nearest.along
                             };
-                            inside.push((segment as u32, from_end));
+                            if let Some(place) = inside.get_mut(count_inside) {
+                                *place = Some((segment as u32, from_end));
+                            }
+                            count_inside += 1;
                         }
                     }
                 }
@@ -179,8 +183,8 @@ impl Features for Revolution {
             }
             let feature = count + corner as usize;
             feet.list.push(foot(feature, &nearest, weight));
-            if let ([(one, x), (other, y)], true) = (&inside[..], weight < 0) {
-                feet.add_saddle(feature as u32, [*one, *other], [*x, *y]);
+            if let ([Some((one, x)), Some((other, y))], 2, true) = (inside, count_inside, weight < 0) {
+                feet.add_saddle(feature as u32, [one, other], [x, y]);
             }
         }
     }

@@ -37,7 +37,6 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
         return findings;
     }
     findings.extend(scene.contacts.iter().filter_map(|law| cannot_be_suppressed(scene, law)));
-    findings.extend(scene.contacts.iter().filter_map(|law| cannot_meet_features(scene, law)));
     let count = scene.materials.len();
     let mut told = BTreeSet::new();
     for (a, b) in touching(scene) {
@@ -93,27 +92,6 @@ fn cannot_be_suppressed(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
         law.normal.name()
     );
     Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
-}
-
-/// What speaks against a law that holds bodies together beyond touch where a surface is found anew in each step: what
-/// is not touched is not found there.
-fn cannot_meet_features(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
-    let count = scene.materials.len();
-    let meets = |boundary: &&Boundary| {
-        let material = boundary.shape.material().filter(|_| boundary.shifting_plane().is_none());
-        material.is_some_and(|material| (0..count).any(|other| law.between[other * count + material.index()]))
-    };
-    let boundary = scene.boundaries.iter().find(meets)?;
-    if !Law::of(&law.choice()).holds_beyond_touch() {
-        return None;
-    }
-    let message = format!(
-        "a surface that is no plane, or a plane that turns, found at a material of [contact.{}], whose normal model, {}, pulls beyond touch; \
-         a plane that does not turn, or another law for this material, is right",
-        law.name,
-        law.normal.name()
-    );
-    Some(Finding::at(format!("boundary.{}", boundary.name), "material", Mistake::Refused { message }))
 }
 
 /// What speaks against the combination of a law's sub-models and switches.

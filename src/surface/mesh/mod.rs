@@ -40,6 +40,19 @@ struct Mesh {
     middle: Vector,
 }
 
+/// How the foot of a centre in the plane of a triangle stands to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stand {
+    /// Inside, and no edge is within reach.
+    Inside,
+    /// Inside.
+    Over,
+    /// Outside.
+    Beside,
+    /// Outside, and the triangle is out of reach.
+    Apart,
+}
+
 /// The nearest point of an edge.
 #[derive(Clone, Copy)]
 struct OnEdge {
@@ -110,6 +123,31 @@ impl Mesh {
             (self.topology.vertices.len() as u32 + edge, centre - foot)
         };
         OnEdge { feature, apart, distance: apart.length() }
+    }
+
+    /// How the foot of a centre in the plane of a triangle stands to it, where the square of a radius goes beyond that of the
+    /// height by `rest` \[m²\].
+    fn stand(&self, centre: Vector, triangle: usize, rest: f64) -> Stand {
+        /// What rounding may take from a distance, with room.
+        const ROUNDING: f64 = 1.0 + 1e-9;
+        let corners = self.topology.triangles[triangle].map(|vertex| self.topology.vertices[vertex as usize]);
+        let (mut over, mut near) = (true, false);
+        for corner in 0..3 {
+            let way = corners[(corner + 1) % 3] - corners[corner];
+            // Beyond the edge where this is above 0: the distance from it times the length of the edge.
+            let beyond = way.cross(self.normals[triangle]).dot(centre - corners[corner]);
+            let out_of_reach = beyond * beyond > rest * way.dot(way) * ROUNDING;
+            if beyond > 0.0 && out_of_reach {
+                return Stand::Apart;
+            }
+            over &= beyond <= 0.0;
+            near |= !out_of_reach;
+        }
+        match (over, near) {
+            (true, false) => Stand::Inside,
+            (true, true) => Stand::Over,
+            (false, _) => Stand::Beside,
+        }
     }
 
     /// Whether the foot of a centre in the plane of a triangle is inside it.
@@ -193,7 +231,9 @@ impl Features for Mesh {
             let normal = on.apart * (1.0 / on.distance);
             Foot { feature: on.feature, distance: on.distance, normal, weight, behind: false }
         };
-        let mut touched: Vec<u32> = Vec::new();
+        let [mut touched, mut vertices] = std::mem::take(&mut feet.room);
+        touched.clear();
+        vertices.clear();
         for &triangle in parts.iter().filter(|triangle| self.counts(centre, **triangle)) {
             let place = triangle as usize;
             let (height, normal) = (self.height(centre, place), self.normals[place]);
@@ -201,10 +241,17 @@ impl Features for Mesh {
                 continue;
             }
             let edges = self.topology.edges_of[place];
-            if self.is_over(centre, place) {
+            let stand = self.stand(centre, place, radius * radius - height * height);
+            if stand == Stand::Apart {
+                continue;
+            }
+            if matches!(stand, Stand::Inside | Stand::Over) {
                 let (behind, normal) = (height < 0.0, if height < 0.0 { -normal } else { normal });
                 let (feature, distance) = (self.face(triangle), height.abs());
                 count(feet, Foot { feature, distance, normal, weight: 1.0, behind });
+                if stand == Stand::Inside {
+                    continue;
+                }
             } else {
                 let feet_on = edges.map(|edge| self.on_edge(centre, edge));
                 let nearest = |one: OnEdge, other: OnEdge| if other.distance < one.distance { other } else { one };
@@ -216,8 +263,7 @@ impl Features for Mesh {
         }
         touched.sort_unstable();
         touched.dedup();
-        let mut vertices: Vec<u32> = Vec::new();
-        for edge in touched {
+        for &edge in &touched {
             let on = self.on_edge(centre, edge);
             if on.distance <= radius {
                 count(feet, edge_foot(&on, 1.0 - self.at_edge(centre, edge) as f64));
@@ -226,7 +272,7 @@ impl Features for Mesh {
         }
         vertices.sort_unstable();
         vertices.dedup();
-        for vertex in vertices {
+        for &vertex in &vertices {
             let apart = centre - self.topology.vertices[vertex as usize];
             let distance = apart.length();
             if distance <= radius {
@@ -237,6 +283,7 @@ impl Features for Mesh {
         feet.list.retain(|foot| foot.weight != 0.0);
         feet.list.sort_unstable_by_key(|foot| foot.feature);
         self.find_saddles(centre, feet);
+        feet.room = [touched, vertices];
     }
 
     fn meet(&self, one: u32, other: u32) -> bool {
@@ -276,12 +323,11 @@ impl Mesh {
             }
             let foot = centre - edge.normal * edge.distance;
             let at = &self.topology.at_edge[(edge.feature - vertices) as usize];
-            let on_faces: Vec<(u32, f64)> = at
+            let mut on_faces = at
                 .iter()
                 .filter_map(|triangle| feet.on(self.face(*triangle)))
-                .map(|face| (face.feature, (centre - face.normal * face.distance - foot).length()))
-                .collect();
-            if let [(one, x), (other, y)] = on_faces[..] {
+                .map(|face| (face.feature, (centre - face.normal * face.distance - foot).length()));
+            if let (Some((one, x)), Some((other, y)), None) = (on_faces.next(), on_faces.next(), on_faces.next()) {
                 feet.add_saddle(edge.feature, [one, other], [x, y]);
             }
         }

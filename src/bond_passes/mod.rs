@@ -8,15 +8,15 @@ mod after;
 mod batch;
 mod book;
 mod pipeline_buffer;
+pub(crate) mod walls;
 
 pub(crate) use book::{Done, book};
 
-use super::ahead::{Ahead, Kind, Link};
-use super::pass::Pass;
-use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::{Body, Carried, Law, OneBond, Pair, Quaternion, Rows};
-use crate::contact::Response;
+use crate::interactions::BondRecord;
+use crate::interactions::Pass;
+use crate::interactions::{Ahead, Kind, Link};
 use crate::lanes::Shared;
 use crate::neighbours::PairCache;
 use crate::neighbours::bonds::is_bonded;
@@ -187,7 +187,7 @@ impl Pass for BondPass {
         for done in &mut *results {
             done.release(context.step, |bond| self.carried(state, bond));
         }
-        book(state, self.index, &results)
+        book(state, self.index, results.iter())
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
@@ -228,8 +228,6 @@ impl Pass for BondPass {
         Source::Bonds
     }
 
-    fn prepare(&self, _state: &mut State) {}
-
     fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
@@ -243,12 +241,6 @@ impl Pass for BondPass {
             tell(link_of(&self.law, &pair, (i, Some(j), None), Kind::ComingBond));
         }
     }
-
-    fn impact(&self, _radius: f64, _mass: f64, _speed: f64) -> Option<Response> {
-        None
-    }
-
-    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
     fn elastic_energy(&self, state: &State) -> f64 {
         (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()

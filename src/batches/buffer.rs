@@ -1,8 +1,8 @@
 //! The batch that goes through the phases.
 
 use super::{Bodies, ContactGeometry, FOUND, Touching};
+use crate::batches::sphere_geometry::SpherePair;
 use crate::contact::{Contact, Needs, NormalForce, NormalForm, Response, Roots};
-use crate::interactions::sphere_geometry::SpherePair;
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;

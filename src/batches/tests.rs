@@ -4,10 +4,10 @@
 use super::buffer::Buffer;
 use super::law::{BatchLaw, Stage};
 use super::{ContactGeometry, Entries, Manner};
+use crate::batches::coefficients::CoefficientTable;
+use crate::batches::sphere_geometry::SpherePair;
 use crate::contact::fixtures::{corners, every_law, properties, with_pair};
 use crate::contact::{Contact, Law, LawChoice, Needs, Offset};
-use crate::interactions::coefficients::CoefficientTable;
-use crate::interactions::sphere_geometry::SpherePair;
 use crate::lanes::Width;
 use crate::number::{Row, Vector};
 use crate::state::contacts::{SLIDING, TOUCHING};
@@ -42,12 +42,12 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         buffer.row[place] = buffer.row[COUNT - 1];
     }
     buffer.ready = COUNT;
-    let constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
+    let mut constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
     let mut flags = vec![TOUCHING; COUNT];
     let kept = law.law.history().len() + usize::from(manner.is_some());
     let mut history: Vec<Vec<Row>> =
         (0..kept).map(|row| (0..COUNT).map(|entry| before(entry, row)).collect()).collect();
-    let entries = Entries::of(&mut flags, &mut history, &constants);
+    let entries = Entries::of(&mut flags, &mut history, &mut constants);
     let (places, own) = (law.law.places(), law.law.history_places());
     let uniform = uniform.then_some(rows);
     let offset = law.law.history().len();

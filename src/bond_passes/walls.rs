@@ -3,22 +3,22 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::ahead::{Ahead, Kind, Link};
-use super::bonds::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched};
-use super::pass::Pass;
-use super::records::{BondRecord, ContactRecord};
+use super::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
-use crate::contact::Response;
+use crate::interactions::BondRecord;
+use crate::interactions::Pass;
+use crate::interactions::{Ahead, Kind, Link};
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Row, State, StateFault};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault};
 use crate::threads::{CHUNK, Context};
+use std::sync::{Mutex, PoisonError};
 
 /// The pass of one bond law at a plane.
 pub(crate) struct WallBondPass {
@@ -44,6 +44,8 @@ pub(crate) struct WallBondPass {
     normal: Vector,
     /// Point about which the moment is taken, at time 0 \[m\].
     reference: Vector,
+    /// Room for what each piece of the list came to.
+    pieces: Mutex<Vec<Piece>>,
 }
 
 /// What a piece of a list came to.
@@ -54,6 +56,12 @@ struct Piece {
     force: Vector,
     /// Moment on the plane about its moved reference point \[N m\].
     moment: Vector,
+}
+
+impl Default for Piece {
+    fn default() -> Self {
+        Self { done: Done::default(), force: Vector::zero(), moment: Vector::zero() }
+    }
 }
 
 impl WallBondPass {
@@ -74,6 +82,7 @@ impl WallBondPass {
             point: plane.point.into(),
             normal: plane.normal.into(),
             reference: (*reference).into(),
+            pieces: Mutex::default(),
         })
     }
 
@@ -134,10 +143,8 @@ impl WallBondPass {
 
 /// What all pieces of a list share.
 struct Work<'a> {
-    /// The law.
-    law: &'a Law,
-    /// Its formulation.
-    one_bond: OneBond,
+    /// The pass.
+    pass: &'a WallBondPass,
     /// The law at this step.
     coefficients: Coefficients,
     /// Rows of the list, each a column.
@@ -152,53 +159,57 @@ struct Work<'a> {
     torque: Shared<Row>,
     /// The particle of each bond.
     first: &'a [u32],
-    /// The bodies of each bond.
-    pairs: &'a [Pair],
-    /// Foot of each bond, from the reference point \[m\].
-    arms: &'a [Vector],
+    /// The foot of each bond.
+    foot: &'a [Row],
+    /// The particles.
+    particles: &'a Particles,
+    /// The plane.
+    plane: &'a BoundaryState,
     /// Time since bonds were last advanced \[s\].
     step: f64,
+}
+
+/// A row of a bond out of each column; zeros where there is none.
+///
+/// # Safety
+/// The bond is in the list, and belongs to the piece that asks.
+unsafe fn rows_of<const COUNT: usize>(columns: &[Shared<Row>; COUNT], bond: usize) -> [Row; COUNT] {
+    // SAFETY: the caller's promise; a column has a row for each bond, or none.
+    columns.map(|column| if column.length() > 0 { unsafe { *column.at(bond) } } else { [0.0; 4] })
 }
 
 impl Work<'_> {
     /// The law on a piece of the list. Each piece is for one thread only.
     fn piece(&self, from: usize, to: usize) -> Piece {
-        let mut piece = Piece { done: Done::default(), force: Vector::zero(), moment: Vector::zero() };
+        let WallBondPass { law, one_bond, reference, .. } = self.pass;
+        let mut piece = Piece::default();
         for bond in from..to {
-            let mut rows: Rows = [[0.0; 4]; MOST_ROWS];
-            for (row, column) in rows.iter_mut().zip(&self.rows).take(self.one_bond.rows) {
-                // SAFETY: pieces do not overlap, and each column has a row for each bond.
-                *row = unsafe { *column.at(bond) };
-            }
-            let mut last = [[0.0; 4]; 3];
-            for (row, column) in last.iter_mut().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
-                // SAFETY: as above.
-                *row = unsafe { *column.at(bond) };
-            }
-            let last = DampingLoad::from_rows(last);
-            let reaction = self.law.react(&self.coefficients, &self.pairs[bond], &rows, &last);
-            let rows = reaction.damping.to_rows();
-            for (row, column) in rows.iter().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
+            let slot = self.first[bond] as usize;
+            let pair = Pair::at_wall(&body_of(self.particles, slot), &self.pass.foot(self.foot[bond], self.plane));
+            // SAFETY: pieces do not overlap.
+            let (rows, last) = unsafe { (rows_of(&self.rows, bond), rows_of(&self.damping, bond)) };
+            let reaction = law.react(&self.coefficients, &pair, &rows, &DampingLoad::from_rows(last));
+            let damping = reaction.damping.to_rows();
+            for (row, column) in damping.iter().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
                 // SAFETY: as above.
                 unsafe { *column.at(bond) = *row };
             }
             if self.step > 0.0 {
-                for (row, column) in
-                    reaction.rows.iter().zip(&self.rows).take(self.one_bond.rows).skip(self.one_bond.fixed_rows)
-                {
+                let changing = reaction.rows.iter().zip(&self.rows).take(one_bond.rows).skip(one_bond.fixed_rows);
+                for (row, column) in changing {
                     // SAFETY: as above.
                     unsafe { *column.at(bond) = *row };
                 }
             }
-            let slot = self.first[bond] as usize;
             // SAFETY: a particle stands once in a list.
             let (force, torque) = unsafe { (self.force.at(slot), self.torque.at(slot)) };
             for (axis, (f, t)) in reaction.force.to_array().into_iter().zip(reaction.torque_i.to_array()).enumerate() {
                 force[axis] += f;
                 torque[axis] += t;
             }
+            let arm = Vector::from(self.foot[bond]) - *reference;
             piece.force += -reaction.force;
-            piece.moment += reaction.torque_j - self.arms[bond].cross(reaction.force);
+            piece.moment += reaction.torque_j - arm.cross(reaction.force);
             if self.lost.length() > 0 {
                 // SAFETY: pieces do not overlap, and there is one for each bond.
                 unsafe { *self.lost.at(bond) += reaction.relaxed + reaction.damped };
@@ -217,15 +228,12 @@ impl Pass for WallBondPass {
     }
 
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        let count = state.bonds[self.index].first.len();
-        let pairs: Vec<Pair> = (0..count).map(|bond| self.pair(state, bond)).collect();
         let list = &mut state.bonds[self.index];
-        let arms: Vec<Vector> = list.foot.iter().map(|foot| Vector::from(*foot) - self.reference).collect();
+        let count = list.first.len();
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
-            law: &self.law,
-            one_bond: self.one_bond,
+            pass: self,
             coefficients: self.law.elasticity.at_step(context.step),
             rows: [column(), column(), column()],
             damping: shared_damping(&mut list.damping),
@@ -233,23 +241,29 @@ impl Pass for WallBondPass {
             force: Shared::new(&mut state.particles.force),
             torque: Shared::new(&mut state.particles.torque),
             first: &list.first,
-            pairs: &pairs,
-            arms: &arms,
+            foot: &list.foot,
+            particles: &state.particles,
+            plane: &state.boundaries[self.boundary.index()],
             step: context.step,
         };
-        let pieces =
-            context.collect(count.div_ceil(CHUNK), |piece| work.piece(piece * CHUNK, ((piece + 1) * CHUNK).min(count)));
+        let mut pieces = self.pieces.lock().unwrap_or_else(PoisonError::into_inner);
+        pieces.clear();
+        pieces.resize_with(count.div_ceil(CHUNK), Piece::default);
+        let places = Shared::new(&mut pieces);
+        context.each(count.div_ceil(CHUNK), |piece| {
+            let done = work.piece(piece * CHUNK, ((piece + 1) * CHUNK).min(count));
+            // SAFETY: each piece is done once, and has a place of its own.
+            unsafe { *places.at(piece) = done };
+        });
         let plane = &mut state.boundaries[self.boundary.index()];
-        let mut results = Vec::with_capacity(pieces.len());
-        for piece in pieces {
+        for piece in &*pieces {
             plane.force = (Vector::from(plane.force) + piece.force).to_array();
             plane.moment = (Vector::from(plane.moment) + piece.moment).to_array();
-            results.push(piece.done);
         }
-        for done in &mut results {
-            done.release(context.step, |bond| self.carried(state, bond));
+        for piece in &mut *pieces {
+            piece.done.release(context.step, |bond| self.carried(state, bond));
         }
-        book(state, self.index, &results)
+        book(state, self.index, pieces.iter().map(|piece| &piece.done))
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {
@@ -290,8 +304,6 @@ impl Pass for WallBondPass {
         Source::Bonds
     }
 
-    fn prepare(&self, _state: &mut State) {}
-
     fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
@@ -308,12 +320,6 @@ impl Pass for WallBondPass {
             tell(link_of(&self.law, &pair, (slot, None, Some(self.boundary.0)), Kind::ComingBond));
         }
     }
-
-    fn impact(&self, _radius: f64, _mass: f64, _speed: f64) -> Option<Response> {
-        None
-    }
-
-    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
         let list = &state.bonds[self.index];

@@ -8,6 +8,7 @@
 use super::buffer::Buffer;
 use super::suppressed::Suppressed;
 use super::{Entries, Manner};
+use crate::batches::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
 use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
 use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::HookeStiffness};
 use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
@@ -16,7 +17,6 @@ use crate::contact::{
     CoefficientPlaces, Coefficients, Cohesion, CohesionForm, Contact, HistoryPlaces, Law, LawChoice, Needs, Normal,
     NormalForce, NormalForm, Rolling, Switches, Tangential,
 };
-use crate::interactions::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
 use crate::lanes::{self, Kernel, Lane, Width, columns};
 use crate::state::contacts::SLIDING;
 use std::any::TypeId;
@@ -183,7 +183,7 @@ const FUSED: &[fn() -> Fused] = &[
 /// What the sub-models of a law work on.
 pub(super) struct Stage<'a> {
     /// What the list keeps.
-    pub(super) entries: &'a Entries<'a>,
+    pub(super) entries: &'a Entries,
     /// Coefficients of the law.
     pub(super) table: &'a CoefficientTable,
     /// The coefficients of all entries, if they are the same.
@@ -290,7 +290,7 @@ impl Stage<'_> {
         unsafe {
             let entries = self.buffer.entry.as_ptr().add(place);
             let constant = match has_pair_constant {
-                true => N::gather(self.entries.pair_constant.as_ptr(), entries, 1),
+                true => N::gather(self.entries.pair_constant.pointer(), entries, 1),
                 false => N::zero(),
             };
             self.buffer.contact(place, constant)

@@ -1,18 +1,14 @@
 //! What a contact with a feature remembers, and how it goes from one feature to the next.
 
-use super::records;
-use crate::contact::{Law, MOST_HISTORY};
+use crate::contact::{HistoryRow, Law};
 use crate::number::{Row, Vector};
 use crate::state::WallContacts;
 use crate::state::contacts::REVERSE;
 use crate::surface::{Features, Feet, Foot};
 use std::ops::Range;
 
-/// What a law remembers of one contact.
-type History = [Row; MOST_HISTORY];
-
 /// The contacts that a particle had with the features of a surface in the last evaluation.
-pub(crate) struct Past<'a> {
+pub(super) struct Past<'a> {
     /// The list that they stand in.
     list: &'a WallContacts,
     /// Where.
@@ -21,7 +17,7 @@ pub(crate) struct Past<'a> {
 
 impl<'a> Past<'a> {
     /// These entries of a list.
-    pub(crate) fn of(list: &'a WallContacts, entries: Range<usize>) -> Self {
+    pub(super) fn of(list: &'a WallContacts, entries: Range<usize>) -> Self {
         Self { list, entries }
     }
 
@@ -31,40 +27,35 @@ impl<'a> Past<'a> {
         found.ok().map(|place| self.entries.start + place)
     }
 
+    /// Whether an entry is that of this feature.
+    pub(super) fn is_of(&self, entry: usize, feature: u32) -> bool {
+        self.list.feature[entry] == feature
+    }
+
     /// Whether the centre has come from one side of a face to the other.
-    pub(crate) fn went_through(&self, foot: &Foot) -> bool {
+    pub(super) fn went_through(&self, foot: &Foot) -> bool {
         self.entry(foot.feature).is_some_and(|entry| (self.list.flags[entry] & REVERSE != 0) != foot.behind)
     }
 
-    /// What the law remembers of an entry.
-    fn history(&self, entry: usize) -> History {
-        records::history(&self.list.history, entry)
+    /// A row of what the law remembers of an entry.
+    pub(super) fn row(&self, entry: usize, row: usize) -> Row {
+        self.list.history.get(row).map_or([0.0; 4], |rows| rows[entry])
     }
 }
 
-/// What a contact remembers as the step begins: its own; or, where the foot came over a bend, that of the contact which
-/// vanished there; or, where a bend brought it forth, that of the face across. A contact that begins remembers nothing.
-pub(crate) fn carry(
-    foot: &Foot,
-    normal: Vector,
-    feet: &Feet,
-    past: &Past,
-    features: &dyn Features,
-    law: &Law,
-) -> History {
-    let nothing = [[0.0; 4]; MOST_HISTORY];
-    if law.history().is_empty() {
-        return nothing;
+/// The contact whose memory a contact has as the step begins: its own; or, where the foot came over a bend, the one which
+/// vanished there; or, where a bend brought it forth, that of the face across. A contact that begins has none.
+pub(super) fn source(foot: &Foot, feet: &Feet, past: &Past, features: &dyn Features, law: &Law) -> Option<usize> {
+    if law.history().is_empty() && !law.holds_beyond_touch() {
+        return None;
     }
-    if let Some(entry) = past.entry(foot.feature) {
-        return past.history(entry);
-    }
-    if foot.weight <= 0.0 {
-        return nothing;
+    let own = past.entry(foot.feature);
+    if own.is_some() || foot.weight <= 0.0 {
+        return own;
     }
     let spring = |entry: usize| {
         law.spring().map_or(0.0, |place| {
-            let spring = Vector::from(past.history(entry)[place]);
+            let spring = Vector::from(past.row(entry, place));
             spring.dot(spring)
         })
     };
@@ -79,16 +70,15 @@ pub(crate) fn carry(
         let other = saddle.faces.iter().find(|face| **face != foot.feature)?;
         past.entry(*other)
     };
-    let Some(entry) = longest.or_else(across) else { return nothing };
-    let mut history = past.history(entry);
-    for (row, kept) in history.iter_mut().zip(law.history()) {
-        // Vectors change sign with the order of the bodies, and lie in the tangent plane.
-        if kept.odd[..3] == [true; 3] {
-            let [x, y, z] = turned(Vector::from(*row), normal).to_array();
-            *row = [x, y, z, row[3]];
-        }
+    longest.or_else(across)
+}
+
+/// A row that comes from another feature: vectors, which change sign with the order of the bodies, lie in the tangent plane.
+pub(super) fn taken(row: Row, kept: &HistoryRow, normal: Vector) -> Row {
+    if kept.odd[..3] != [true; 3] {
+        return row;
     }
-    history
+    turned(Vector::from(row), normal).row_with(row[3])
 }
 
 /// A spring turned into another tangent plane, its length kept.

@@ -7,7 +7,7 @@ use crate::state::State;
 use crate::state::bonds::Break;
 
 /// Sums energies of the bonds of a law, takes out what broke and tells of it.
-pub(crate) fn book(state: &mut State, law: usize, results: &[Done]) -> Result<(), RunError> {
+pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Item = &'a Done>) -> Result<(), RunError> {
     let (list, particles, time) = (&mut state.bonds[law], &state.particles, state.clock.time);
     let mut outcome = Ok(());
     let mut gone = Vec::new();

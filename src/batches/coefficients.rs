@@ -1,7 +1,6 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
-use super::ahead::overlap_of;
-use crate::contact::{Contact, Law, MaterialPair, Response};
+use crate::contact::{Contact, Law, MOST_HISTORY, MaterialPair, Response};
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::scene::{ContactLaw, Scene};
@@ -21,6 +20,13 @@ pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
     };
     (0..materials * materials).flat_map(row).collect()
 }
+
+/// Most iterations for the overlap at which a contact holds a given energy. The error of its logarithm shrinks to a
+/// quarter in each for Hertz's law; for a linear spring the first is exact.
+const ITERATIONS: usize = 12;
+
+/// Relative change of the overlap below which they end; what is left of the error is added.
+const SAME: f64 = 2e-3;
 
 /// Overlap over the effective radius below which no impact is thought: what touches has a stiffness.
 const LEAST_OVERLAP: f64 = 1e-12;
@@ -156,4 +162,24 @@ fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Respons
     };
     let overlap = overlap_of(law, row, &contact, 0.5 * mass * speed * speed, radius);
     law.stiffness(row, &Contact { overlap: overlap.max(LEAST_OVERLAP * radius), ..contact })
+}
+
+/// The overlap at which the normal force of a contact holds this energy \[J\], at most `most` \[m\].
+pub(crate) fn overlap_of(law: &Law, row: &[f64], contact: &Contact, energy: f64, most: f64) -> f64 {
+    let held = |overlap: f64| law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &[[0.0; 4]; MOST_HISTORY]);
+    let mut overlap = most;
+    for _ in 0..ITERATIONS {
+        let ratio = energy / held(overlap);
+        // Not a number where there is neither energy nor stiffness.
+        if !ratio.is_finite() || (overlap >= most && ratio >= 1.0) {
+            return most;
+        }
+        let next = overlap * ratio.sqrt();
+        let change = (next - overlap).abs();
+        overlap = next;
+        if change <= SAME * overlap {
+            break;
+        }
+    }
+    ((1.0 + SAME) * overlap).min(most)
 }

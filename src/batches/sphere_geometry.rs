@@ -1,6 +1,6 @@
 //! Two spheres and how they lie to each other: the geometry of their contact.
 
-use super::batch::{ContactGeometry, FOUND};
+use super::{ContactGeometry, FOUND};
 use crate::contact::Contact;
 use crate::lanes::{Lane, vector};
 use crate::number::{Number, Vector};

@@ -59,7 +59,7 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                     let mut lane = 0;
                     while lane < here {
                         if *entries.flags.pointer().add(entry + lane) & TOUCHING != 0 {
-                            reaches[lane] = entries.pair_constant[entry + lane];
+                            reaches[lane] = *entries.pair_constant.at(entry + lane);
                         }
                         lane += 1;
                     }

@@ -15,12 +15,12 @@
 use super::after::{After, Bonds};
 use super::book::Done;
 use super::pipeline_buffer::{PipelineBuffer, start_of};
+use crate::batches::{add, subtract};
 use crate::bond::damping::DampingLoad;
 use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
     Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
 };
-use crate::interactions::batch::{add, subtract};
 use crate::lanes::{self, Kernel, Lane, Shared, Width, prefetch, vector};
 use crate::state::Row;
 use std::marker::PhantomData;

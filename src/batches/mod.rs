@@ -16,21 +16,22 @@
 //! the list that share no body that is written to.
 
 mod buffer;
+pub(crate) mod coefficients;
 mod law;
 mod phases;
+mod sphere_geometry;
 mod suppressed;
-#[cfg(test)]
-mod tests;
 
-use super::coefficients::CoefficientTable;
 use crate::contact::{Contact, MOST_KEPT, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
+pub(crate) use coefficients::{CoefficientTable, Partners, overlap_of};
 pub(crate) use law::BatchLaw;
 use law::Stage;
 use phases::{Meet, Spread, Touch};
+pub(crate) use sphere_geometry::SpherePair;
 use std::ops::Range;
 
 /// A contact and the arms of its bodies.
@@ -130,7 +131,7 @@ impl Touching<'_> {
 
 /// What a list keeps of each entry.
 #[derive(Clone, Copy)]
-pub(crate) struct Entries<'a> {
+pub(crate) struct Entries {
     /// Its bits.
     pub flags: Shared<u8>,
     /// What is kept of it: a row of each entry in each of the first lists.
@@ -138,18 +139,18 @@ pub(crate) struct Entries<'a> {
     /// How many rows are kept.
     kept: usize,
     /// Its pair constant; empty where the law has none.
-    pub pair_constant: &'a [f64],
+    pub pair_constant: Shared<f64>,
 }
 
-impl<'a> Entries<'a> {
+impl Entries {
     /// What a list keeps.
-    pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &'a [f64]) -> Self {
+    pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &mut [f64]) -> Self {
         let mut rows = [Shared::new(&mut []); MOST_KEPT];
         let kept = history.len();
         for (rows, list) in rows.iter_mut().zip(history) {
             *rows = Shared::new(list);
         }
-        Self { flags: Shared::new(flags), history: rows, kept, pair_constant }
+        Self { flags: Shared::new(flags), history: rows, kept, pair_constant: Shared::new(pair_constant) }
     }
 
     /// What is kept: lists with a row of each entry.
@@ -209,7 +210,7 @@ pub(crate) struct Batches<'a, B> {
     /// Which bodies meet.
     pub bodies: B,
     /// What the list keeps.
-    pub entries: Entries<'a>,
+    pub entries: Entries,
     /// The law.
     pub law: &'a BatchLaw,
     /// Coefficients of the law.
@@ -320,3 +321,6 @@ pub(crate) fn add(sum: &mut Row, row: &Row) {
 pub(crate) fn subtract(sum: &mut Row, row: &Row) {
     *sum = [sum[0] - row[0], sum[1] - row[1], sum[2] - row[2], sum[3] - row[3]];
 }
+
+#[cfg(test)]
+mod tests;

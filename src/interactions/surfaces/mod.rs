@@ -1,0 +1,331 @@
+//! Contacts of particles with surfaces: one pass for all surfaces of a scene.
+//!
+//! The surfaces are worked on together, pieces of the particles side by side: a particle gets the loads of all surfaces from
+//! one thread, in their order, and what a piece needs is where the contacts of its particles were worked on. A surface alone
+//! has too few particles for several threads. Loads on a surface are summed piece by piece, in order.
+
+mod features;
+mod history;
+mod plane;
+mod sphere;
+
+use super::ahead::{Ahead, Link};
+use super::listed;
+use super::pass::Pass;
+use super::records::ContactRecord;
+use crate::batches::{BatchLaw, Batches, Entries};
+use crate::batches::{CoefficientTable, Partners};
+use crate::contact::Response;
+use crate::lanes::Shared;
+use crate::number::Vector;
+use crate::run_error::{Cause, RunError};
+use crate::scene::{Boundary, Scene, Shape};
+use crate::state::ledger::Source;
+use crate::state::{BoundaryState, State, StateFault, WallContacts};
+use crate::surface;
+use crate::threads::{CHUNK, Context};
+use features::FeatureContacts;
+use plane::{AtPlane, Plane, PlaneList};
+use sphere::{Load, Loaded};
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Particles in one piece of work.
+const PIECE: usize = 2 * CHUNK;
+
+/// The pass of all surfaces and the contact laws that they meet.
+pub(crate) struct SurfacePass {
+    /// The surfaces, in the order of their lists.
+    surfaces: Vec<AtSurface>,
+    /// Room for a step.
+    room: Mutex<Room>,
+}
+
+/// One surface and one contact law that meet.
+pub(super) struct AtSurface {
+    /// Which list of the state is their own.
+    index: usize,
+    /// Name of the boundary.
+    name: String,
+    /// What is touched.
+    touched: Touched,
+    /// Index of its material.
+    material: u32,
+    /// Point about which the moment is taken, at time 0 \[m\].
+    reference: Vector,
+    /// Rows that are kept of each contact.
+    kept_rows: usize,
+    /// Coefficients of the law.
+    table: CoefficientTable,
+    /// The law.
+    law: BatchLaw,
+}
+
+/// What is touched of a surface.
+enum Touched {
+    /// A plane that does not turn, as it is at time 0.
+    Plane(Plane),
+    /// Features of a shape.
+    Features(Shape),
+}
+
+/// What a step needs, kept from one to the next.
+#[derive(Default)]
+struct Room {
+    /// What the lists keep.
+    entries: Vec<Entries>,
+    /// What each piece does to each surface, piece by piece.
+    loads: Vec<Load>,
+    /// Contacts with features, of each piece and each surface.
+    contacts: Vec<FeatureContacts>,
+}
+
+/// What all pieces share.
+struct Work<'a> {
+    /// Lists.
+    walls: &'a [WallContacts],
+    /// What they keep.
+    entries: &'a [Entries],
+    /// Boundaries.
+    boundaries: &'a [BoundaryState],
+    /// Particles.
+    particles: Loaded<'a>,
+    /// Who works.
+    context: &'a Context<'a>,
+}
+
+impl AtSurface {
+    /// A boundary and a law that meet, whose list is this one.
+    fn of(scene: &Scene, index: usize, (boundary, law): (&Boundary, usize)) -> Self {
+        let choice = &scene.contacts[law];
+        let touched = match boundary.shifting_plane() {
+            Some(surface::Plane { point, normal, .. }) => {
+                Touched::Plane(Plane { point: point.into(), normal: normal.into(), velocity: Vector::zero() })
+            }
+            None => Touched::Features(boundary.shape.clone()),
+        };
+        Self {
+            index,
+            name: boundary.name.clone(),
+            touched,
+            material: boundary.shape.material().map_or(0, |material| material.0),
+            reference: boundary.reference.into(),
+            kept_rows: scene.kept_rows(law).len(),
+            table: CoefficientTable::of(choice, scene),
+            law: BatchLaw::of(&choice.choice()),
+        }
+    }
+
+    /// Its list.
+    fn list<'a>(&self, state: &'a State) -> &'a WallContacts {
+        &state.walls[self.index]
+    }
+
+    /// The coefficients of a particle (slot).
+    fn row(&self, state: &State, slot: u32) -> &[f64] {
+        self.table.row(state.particles.material[slot as usize], self.material)
+    }
+
+    /// What the particles in a range of slots do to it. Ranges worked on at the same time do not overlap.
+    fn piece(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
+        let list = &work.walls[self.index];
+        let boundary = &work.boundaries[list.boundary as usize];
+        match &self.touched {
+            Touched::Plane(plane) => {
+                let pivot = self.reference + boundary.displacement.into();
+                let (particle, material) = (&list.particle[..], self.material);
+                let plane = plane.at(boundary);
+                let bodies = AtPlane { plane, pivot, particle, material, particles: work.particles };
+                let [from, to] =
+                    [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
+                self.batches(bodies, work.entries[self.index], work.context).run(from, to, 0..0)
+            }
+            Touched::Features(shape) => match shape.features() {
+                Some(features) => self.piece_at_features(features, work, slots, contacts),
+                None => Load::default(),
+            },
+        }
+    }
+
+    /// A list to be worked on in batches.
+    fn batches<B>(&self, bodies: B, entries: Entries, context: &Context) -> Batches<'_, B> {
+        Batches {
+            bodies,
+            entries,
+            law: &self.law,
+            table: &self.table,
+            uniform: self.table.uniform_with(self.material),
+            step: context.step,
+            width: context.width,
+        }
+    }
+
+    /// Adds to its boundary what the pieces did to it, in order.
+    fn book<'a>(&self, state: &mut State, loads: impl Iterator<Item = &'a Load>) -> Result<(), RunError> {
+        let boundary = &mut state.boundaries[state.walls[self.index].boundary as usize];
+        let mut behind = None;
+        for load in loads {
+            for axis in 0..3 {
+                boundary.force[axis] += load.force[axis];
+                boundary.moment[axis] += load.moment[axis];
+            }
+            behind = behind.or(load.behind);
+        }
+        match behind {
+            None => Ok(()),
+            Some(slot) => Err(RunError::Behind {
+                id: state.particles.id[slot as usize],
+                boundary: self.name.clone(),
+                time: state.clock.time,
+                cause: Cause::Unknown,
+            }),
+        }
+    }
+}
+
+impl SurfacePass {
+    /// The pass of the boundaries and laws of the scene that meet, in the order of their lists; none where there are none.
+    pub(crate) fn of(scene: &Scene, meetings: &[(u32, u32)]) -> Option<Self> {
+        let surface = |(index, &(boundary, law)): (usize, &(u32, u32))| {
+            AtSurface::of(scene, index, (&scene.boundaries[boundary as usize], law as usize))
+        };
+        let surfaces: Vec<AtSurface> = meetings.iter().enumerate().map(surface).collect();
+        (!surfaces.is_empty()).then(|| Self { surfaces, room: Mutex::default() })
+    }
+}
+
+impl Pass for SurfacePass {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
+        let (room, count) = (&mut *room, self.surfaces.len());
+        let pieces = state.particles.len().div_ceil(PIECE);
+        room.entries.clear();
+        let lists = state.walls.iter_mut();
+        room.entries.extend(lists.map(|it| Entries::of(&mut it.flags, &mut it.history, &mut it.pair_constant)));
+        room.loads.clear();
+        room.loads.resize(pieces * count, Load::default());
+        room.contacts.resize_with(pieces * count, FeatureContacts::default);
+        let particles = state.particles.len();
+        let work = Work {
+            walls: &state.walls,
+            entries: &room.entries,
+            boundaries: &state.boundaries,
+            particles: Loaded::of(&mut state.particles),
+            context,
+        };
+        let (loads, contacts) = (Shared::new(&mut room.loads), Shared::new(&mut room.contacts));
+        context.each(pieces, |piece| {
+            let slots = piece * PIECE..((piece + 1) * PIECE).min(particles);
+            for (place, surface) in (piece * count..).zip(&self.surfaces) {
+                // SAFETY: each piece is done once, and has places of its own.
+                unsafe { *loads.at(place) = surface.piece(&work, slots.clone(), contacts.at(place)) };
+            }
+        });
+        let mut result = Ok(());
+        for (place, surface) in self.surfaces.iter().enumerate() {
+            if let Touched::Features(_) = surface.touched {
+                let found = room.contacts.iter().skip(place).step_by(count);
+                features::replace(&mut state.walls[surface.index], surface.kept_rows, found);
+            }
+            result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
+        }
+        result
+    }
+
+    fn check(&self, state: &State) -> Result<(), StateFault> {
+        self.surfaces.iter().try_for_each(|surface| {
+            let (list, constant) = (surface.list(state), surface.law.law.has_pair_constant());
+            match &surface.touched {
+                Touched::Plane(_) => list.check_columns(surface.kept_rows, constant),
+                Touched::Features(shape) => {
+                    let counts = shape.features().map_or([0; 2], |features| features.counts());
+                    list.check_features(surface.kept_rows, constant, counts)
+                }
+            }
+        })
+    }
+
+    fn has_torque(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.law.needs.torque)
+    }
+
+    fn source(&self) -> Source {
+        Source::Walls
+    }
+
+    fn take_coefficients(&mut self, state: &State) {
+        for surface in &mut self.surfaces {
+            surface.table.take(&state.coefficients[state.walls[surface.index].law as usize]);
+        }
+    }
+
+    fn prepare(&self, state: &mut State) {
+        for surface in &self.surfaces {
+            let (list, particles, law) = (&mut state.walls[surface.index], &state.particles, &surface.law.law);
+            list.pair_constant.clear();
+            if law.has_pair_constant() {
+                let near = match &surface.touched {
+                    Touched::Plane(_) => &list.particle,
+                    Touched::Features(_) => &list.near.particle,
+                };
+                list.pair_constant.extend(near.iter().map(|&slot| {
+                    let slot = slot as usize;
+                    let row = surface.table.row(particles.material[slot], surface.material);
+                    law.pair_constant(row, particles.position[slot][3], particles.velocity[slot][3])
+                }));
+            }
+        }
+    }
+
+    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+        for surface in &self.surfaces {
+            match surface.plane_list(state) {
+                Some(list) => listed::stiffness(&list, state, ahead, tell),
+                None => surface.stiffness_at_features(state, ahead, tell),
+            }
+        }
+    }
+
+    fn impacts(&self, radius: f64, mass: f64, speed: f64, tell: &mut dyn FnMut(Response)) {
+        for surface in &self.surfaces {
+            let AtSurface { table, law, material, .. } = surface;
+            // Against a surface the effective radius and mass are the particle's own, twice those of an equal pair.
+            let (radius, mass) = (2.0 * radius, 2.0 * mass);
+            table
+                .stiffest(&law.law, Partners::Boundary(*material), radius, mass, speed)
+                .into_iter()
+                .for_each(&mut *tell);
+        }
+    }
+
+    fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+        for surface in &self.surfaces {
+            match surface.plane_list(state) {
+                Some(list) => listed::records(&list, state, step, tell),
+                None => surface.records_at_features(state, step, tell),
+            }
+        }
+    }
+
+    fn elastic_energy(&self, state: &State) -> f64 {
+        let energy = |surface: &AtSurface| match surface.plane_list(state) {
+            Some(list) => listed::elastic_energy(&list, state),
+            None => surface.energy_at_features(state),
+        };
+        self.surfaces.iter().map(energy).sum()
+    }
+
+    fn largest_overlap(&self, state: &State) -> f64 {
+        let at_features = self.surfaces.iter().filter(|surface| matches!(surface.touched, Touched::Features(_)));
+        at_features.map(|surface| surface.largest_overlap(state)).fold(0.0, f64::max)
+    }
+}
+
+impl AtSurface {
+    /// Its contacts, if it is a plane that does not turn.
+    fn plane_list(&self, state: &State) -> Option<PlaneList<'_>> {
+        let Touched::Plane(plane) = &self.touched else { return None };
+        let plane = plane.at(&state.boundaries[self.list(state).boundary as usize]);
+        Some(PlaneList { surface: self, plane })
+    }
+}
