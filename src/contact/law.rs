@@ -2,7 +2,7 @@
 
 use super::functions::{CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
 #[cfg(test)]
-use super::sub_model::pressing_force;
+use super::pressing_force;
 use super::{
     Adhesion, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Reaction, Response, RollingStiffness,
     Switches,

@@ -28,6 +28,7 @@ pub(crate) use coefficients::coefficients;
 pub use law::Offset;
 pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
+pub(crate) use sub_model::pressing_force;
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
 
 use crate::number::{Number, Row, Vector};

@@ -97,7 +97,7 @@ pub trait NormalForm: Coefficients {
 
 /// Force of spring and dashpot, of so much overlap \[m\] and this velocity along the normal \[m/s\].
 #[inline(always)]
-pub(super) fn pressing_force<N: Number>(
+pub(crate) fn pressing_force<N: Number>(
     mut response: Response<N>,
     switches: Switches<N>,
     overlap: N,
