@@ -41,7 +41,7 @@ struct Standing<'a> {
 impl<'a> Standing<'a> {
     /// A surface of features where its boundary stands.
     fn of(features: &'a dyn Features, reference: Vector, boundary: &BoundaryState) -> Self {
-        let frame = Frame::of(reference, boundary.displacement.into(), boundary.attitude.0);
+        let frame = Frame::of(reference, boundary.displacement.into(), boundary.orientation.0);
         let spin = boundary.angular_velocity.into();
         let (pivot, turning) = (frame.pivot(), spin != Vector::zero());
         Self { features, frame, pivot, velocity: boundary.velocity.into(), spin, turning }
