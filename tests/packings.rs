@@ -58,17 +58,25 @@ fn equal_spheres_reach_six_tenths_where_shaking_has_to_order_them() {
     (1..=2).for_each(|seed| expect(seed, [6.0, 10.0, 10.0], 0.59));
 }
 
+#[test]
+fn small_boxes_are_filled_further_by_longer_shaking() {
+    (1..=2).for_each(|seed| expect(seed, [5.0; 3], 0.55));
+}
+
 /// `cargo test --release --test packings -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes; docs/scene.md has the figures"]
 fn success_and_time_of_dense_packings() {
-    let cases: [([f64; 3], f64); 10] = [
+    let cases: [([f64; 3], f64); 13] = [
         ([10.0; 3], 0.55),
         ([10.0; 3], 0.6),
         ([10.0; 3], 0.62),
         ([3.0, 10.0, 10.0], 0.55),
+        ([3.0, 10.0, 10.0], 0.555),
+        ([3.0, 10.0, 10.0], 0.58),
         ([3.0, 20.0, 20.0], 0.58),
         ([4.0, 10.0, 10.0], 0.58),
+        ([5.0; 3], 0.55),
         ([5.0; 3], 0.58),
         ([5.0, 10.0, 10.0], 0.58),
         ([20.0; 3], 0.6),

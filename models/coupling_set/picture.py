@@ -1,4 +1,4 @@
-"""Error and interface energy against wall time, a column for each problem."""
+"""Error and interface energy against processor time, a column for each problem."""
 
 import matplotlib
 
@@ -32,7 +32,7 @@ def draw(path, columns, table):
         for line, key in enumerate(("error", "interface")):
             panel(axes[line, column], chosen, key)
         axes[0, column].set_title(problem)
-        axes[1, column].set_xlabel("wall time [s]")
+        axes[1, column].set_xlabel("processor time [s]")
     axes[0, 0].set_ylabel("error against the closed form")
     axes[1, 0].set_ylabel("interface energy over exchanged work")
     handles, labels = {}, []
@@ -52,7 +52,7 @@ def panel(axes, rows, key):
         style = {"color": COLOURS[name], "marker": MARKS[program], "linestyle": "-" if program == "cograin" else ":"}
         label = name if program == "cograin" else f"{program}, {name}"
         values = [max(abs(one[key]), ROUNDING) for one in line]
-        axes.plot([one["wall"] for one in line], values, label=label, markersize=4, linewidth=1.2, **style)
+        axes.plot([one["processor"] for one in line], values, label=label, markersize=4, linewidth=1.2, **style)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.grid(alpha=0.25)

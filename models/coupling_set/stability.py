@@ -52,7 +52,7 @@ BED_COLUMNS = [
     "unconverged",
     "residual",
 ]
-BED_COLUMNS += ["refused", "interface", "wall", "said"]
+BED_COLUMNS += ["refused", "interface", "processor", "said"]
 RATIOS = np.logspace(-2, 3, 11)  # mass of the particles over that of the partner
 DAMPING = 0.05  # damping ratio of the partner on its own spring
 STEPS = 400  # that a course has to bear without growing
@@ -72,7 +72,7 @@ def cell(unit, problem, make, mass, step):
     """One run of the bed, as figures of BED_COLUMNS."""
     unit.reset()
     control = StepControl(unconverged="accept", halvings=0)
-    began, said = time.perf_counter(), ""
+    began, said = time.process_time(), ""
     coupling = None
     try:
         coupling = Coupling(
@@ -84,7 +84,7 @@ def cell(unit, problem, make, mass, step):
                 break
     except (CouplingStopped, ValueError) as refusal:
         said = str(refusal)
-    wall = time.perf_counter() - began
+    taken = time.process_time() - began
     if coupling is None or not len(coupling.record):
         return [*[""] * 10, said]
     record = coupling.record
@@ -93,7 +93,7 @@ def cell(unit, problem, make, mass, step):
     left = max((row.residual for row in record.unconverged), default=0.0)
     counts, share = record["evaluations"], record.interface_energy / max(record.exchanged_work, 1e-300)
     figures = [record["time"][-1], np.abs(sags).max(), late.mean() if len(late) else "", counts.mean(), counts.max()]
-    return [*figures, len(record.unconverged), left, int(record["refusals"].sum()), share, wall, said]
+    return [*figures, len(record.unconverged), left, int(record["refusals"].sum()), share, taken, said]
 
 
 def bed(options):
@@ -111,7 +111,7 @@ def bed(options):
 
 def told(found):
     """A cell in words."""
-    name, mass, step, reached, largest, mean, evaluations, most, unconverged, residual, _, share, wall, said = found
+    name, mass, step, reached, largest, mean, evaluations, most, unconverged, residual, _, share, taken, said = found
     head = f"{name:20} M = {mass:5g} kg, H = {step:7.0e} s"
     if reached == "":
         return f"{head}: {said[:90]}"
@@ -119,7 +119,7 @@ def told(found):
         f"to {reached:.3f} s, largest {largest:8.3g}, mean {mean if mean == '' else f'{mean:.4f}'} of the static sag"
     )
     counts = f"{evaluations:.2f} evaluations, at most {most:.0f}, {unconverged} not converged (up to {residual:.0e} m)"
-    return f"{head}: {course}; {counts}; interface {share:+.0e}; {wall:.1f} s {said[:60]}"
+    return f"{head}: {course}; {counts}; interface {share:+.0e}; {taken:.1f} s {said[:60]}"
 
 
 def grows(unit, make, mass, step):

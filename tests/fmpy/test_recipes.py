@@ -18,6 +18,7 @@ SECTIONS = dict(part.split("\n", 1) for part in PAGE.split("\n## ")[1:])
 RECIPES = {
     ("Oedometer", "Mean stress of a bed (Love and Weber)"): r"stress \[kPa\], compression positive: \[",
     ("Triaxial test",): r"mobilised friction 0\.[3-7]",
+    ("Stages: prepare, consolidate, shear, unload",): r"3_shear .* shear +[34]\d\.\d+ kPa",
     ("Silo",): r"t = 0\.60 s .* on the floor +0\.[1-4]",
     ("Drum",): r"power of its motor \d\.\d+e-03 W",
     ("A deformable interface",): r"t = 0\.60 s  grains on the membrane  -0\.3",

@@ -2,6 +2,7 @@
 //! its scene, so a preparation could not be loaded, and a run could not be given a later end.
 
 use crate::ground::{Place, SCENE, assert_same, cograin, column, complaint, results, summary, wait_for_rows};
+use cograin::results::Checkpoint;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -108,6 +109,31 @@ fn a_later_end_goes_on_bit_for_bit() {
         bytes[start + 1..].to_vec()
     };
     assert!(state(&later["checkpoint.cograin"]) == state(&all["checkpoint.cograin"]), "the last states differ");
+}
+
+#[test]
+fn settling_begins_with_the_checkpoint_of_another_scene_and_leaves_boundaries_and_springs() {
+    let place = Place::new("settle_from");
+    let scenes = stages(&place);
+    let [prepared, consolidated, sheared] = ["prepared", "consolidated", "sheared"].map(|name| place.at(name));
+    let settled = place.at("settled.cograin");
+    complaint(&cograin(&[&"run", &scenes[0], &"-o", &prepared]).output().unwrap(), 0);
+    complaint(&cograin(&[&"run", &scenes[1]]).args(begin(&consolidated, Some(&prepared))).output().unwrap(), 0);
+    let from = consolidated.join("checkpoint.cograin");
+    let output = cograin(&[&"settle", &scenes[2], &"-o", &settled, &"--from", &from]).output().unwrap();
+    complaint(&output, 0);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("settled after"), "{output:?}");
+    // The clock went on: the next stage ends later than this one was to end.
+    let time = Checkpoint::read(&settled).unwrap().scene.time;
+    assert!(time > 0.04, "{time}");
+    let end = format!("run.end={}", time + 2e-3);
+    let call = ["--set", &end, "--from", &settled.display().to_string(), "-o", &sheared.display().to_string()];
+    complaint(&cograin(&[&"run", &scenes[2]]).args(call).output().unwrap(), 0);
+    let first = |name: &str| column(&sheared, name)[0];
+    assert!((first("lid.displacement.z") + 4e-3).abs() < 1e-12, "the lid stays where it came to");
+    let (before, after) = (*column(&consolidated, "energy.kinetic").last().unwrap(), first("energy.kinetic"));
+    assert!(after < 1e-3 * before, "{before} J before it settled, {after} J after");
+    assert!(first("energy.elastic") > 0.0, "the spheres still touch");
 }
 
 #[test]
