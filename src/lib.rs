@@ -32,6 +32,7 @@ pub mod scene;
 mod scene_file;
 mod stability;
 pub mod state;
+pub mod statics;
 pub mod step;
 pub mod surface;
 mod threads;

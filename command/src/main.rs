@@ -82,6 +82,9 @@ struct CheckArguments {
     /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
+    /// Tell the condensed static stiffness of every boundary instead, which is that of a packing at rest
+    #[arg(long)]
+    stiffness: bool,
 }
 
 /// `cograin run`
@@ -261,6 +264,10 @@ fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), End
 /// `cograin check`
 fn check(arguments: &CheckArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(&arguments.scene)?;
+    if arguments.stiffness {
+        say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
+        return Ok(());
+    }
     let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
     say(report);
     Ok(())

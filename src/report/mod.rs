@@ -2,7 +2,10 @@
 
 mod forecast;
 mod rules;
+mod stiffness;
 mod trial;
+
+pub use stiffness::{StiffnessReport, stiffness};
 
 use crate::interface::Interface;
 use crate::results::Refusal;
@@ -42,16 +45,8 @@ pub struct Report {
 
 /// Takes a scene to its start and a few steps further, writes nothing, and tells what was seen.
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
-    let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
-    let (mut simulation, left_behind) = match from {
-        None => (Simulation::new(Arc::clone(scene)).map_err(start)?, Vec::new()),
-        Some(path) => {
-            let not = |error| Refusal::not_taken_over(scene_name, error);
-            let taken = Checkpoint::read(path)?.taken_over(scene).map_err(not)?;
-            (taken.simulation, taken.left_behind)
-        }
-    };
+    let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
     let begins = schedule.as_ref().map_or(0.0, |schedule| {
         let time = simulation.time();
         schedule.point_of(time).unwrap_or(time)
@@ -74,6 +69,17 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
         None => (Vec::new(), None, None),
     };
     Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, remarks })
+}
+
+/// The scene at its start, which may be a checkpoint's, and what of that stays behind.
+fn begin(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<(Simulation, Vec<String>), Refusal> {
+    let Some(path) = from else {
+        let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
+        return Ok((Simulation::new(Arc::clone(scene)).map_err(start)?, Vec::new()));
+    };
+    let not = |error| Refusal::not_taken_over(scene_name, error);
+    let taken = Checkpoint::read(path)?.taken_over(scene).map_err(not)?;
+    Ok((taken.simulation, taken.left_behind))
 }
 
 impl fmt::Display for Report {

@@ -22,6 +22,14 @@ pub enum Refusal {
         /// Why not.
         source: RunError,
     },
+    /// The packing has no static stiffness.
+    #[error("{scene}: {source}")]
+    Stiffness {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: crate::statics::StaticsError,
+    },
     /// A frame cannot be made.
     #[error("{scene}: {source}")]
     Frame {

@@ -36,6 +36,11 @@ struct Sight {
 }
 
 impl Simulation {
+    /// Mean overlap of the contacts that touch \[m\], if any do.
+    pub fn mean_overlap(&self) -> Option<f64> {
+        mean_overlap(&self.state, &self.scene)
+    }
+
     /// The stable time step of the network of contacts and bonds as it may become soon, and of impacts to come; with what
     /// limits it.
     pub fn limit(&self) -> Limit {

@@ -5,6 +5,7 @@ mod coefficients;
 mod limits;
 mod observe;
 mod placement;
+mod probe;
 mod room;
 mod run_checks;
 mod start;
@@ -19,6 +20,7 @@ pub use coefficients::TuneError;
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
+pub use probe::{Displacement, Probe, ProbeBody};
 pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use taken_over::Description;
 

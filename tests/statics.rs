@@ -1,0 +1,201 @@
+//! The condensed stiffness of boundaries: against closed forms, and against what the time steps come to when they have
+//! settled.
+
+use cograin::quantity::BoundaryIndex;
+use cograin::scene::{Scene, Source};
+use cograin::statics::{Stiffness, stiffness};
+use cograin::step::Simulation;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A simulation of this text.
+fn simulation(text: &str) -> Simulation {
+    let source = Source { name: "scene.toml".to_owned(), text: text.to_owned(), files: BTreeMap::new() };
+    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The last boundary of a scene.
+fn last(simulation: &Simulation) -> BoundaryIndex {
+    BoundaryIndex(simulation.scene().boundaries.len() as u32 - 1)
+}
+
+/// The stiffness of the last boundary.
+fn of_last(simulation: &Simulation) -> Stiffness {
+    stiffness(simulation, &[last(simulation)]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The force on the last boundary along an axis when it was displaced along it and all has come to rest \[N\].
+fn settled_force(simulation: &mut Simulation, axis: usize, way: f64, time: f64) -> f64 {
+    let boundary = last(simulation);
+    simulation.set_input(boundary, axis, way);
+    simulation.advance(0.2 * time).unwrap();
+    simulation.advance(0.8 * time).unwrap();
+    simulation.state().boundaries[boundary.index()].force[axis]
+}
+
+/// The stiffness along an axis by displacements there and back from the present state.
+fn settled_stiffness(simulation: &mut Simulation, axis: usize, way: f64, time: f64) -> f64 {
+    let start = simulation.state().clone();
+    let there = settled_force(simulation, axis, way, time);
+    simulation.restore(&start).unwrap();
+    let back = settled_force(simulation, axis, -way, time);
+    simulation.restore(&start).unwrap();
+    (back - there) / (2.0 * way)
+}
+
+/// A column of bonded spheres between a fixed and a driven end.
+fn bonded(counts: [u32; 3]) -> String {
+    let top = 0.02 * f64::from(counts[2] - 1) - 0.005;
+    format!(
+        r#"
+[run]
+step = 1.0e-6
+threads = 1
+
+[material.ice]
+density = 900.0
+
+[particles.column]
+material = "ice"
+lattice = {{ kind = "simple_cubic", radius = 0.01, spacing = 0.02, origin = [0.0, 0.0, 0.0], counts = {counts:?} }}
+
+[bond.neck]
+between = ["column", "column"]
+create_distance = 0.0201
+normal_stiffness = 1.0e10
+tangential_stiffness = 4.0e9
+
+[damping.all]
+linear = 0.3
+angular = 0.3
+
+[boundary.bottom]
+particles = {{ set = "column", box = [[-1.0, -1.0, -1.0], [1.0, 1.0, 0.005]] }}
+
+[boundary.top]
+particles = {{ set = "column", box = [[-1.0, -1.0, {top:?}], [1.0, 1.0, 1.0]] }}
+motion = {{ driven = ["x", "z"] }}
+"#
+    )
+}
+
+#[test]
+fn bonds_in_a_row_are_springs_in_series() {
+    let found = of_last(&simulation(&bonded([1, 1, 6])));
+    // five bonds of k_n times their area, pi r²
+    let expected = 1.0e10 * std::f64::consts::PI * 1.0e-4 / 5.0;
+    let along = found.boundaries[0].matrix[2][2];
+    assert!((along - expected).abs() <= 1e-7 * expected, "{along} is not {expected}");
+    assert!(found.boundaries[0].residual < 1e-6, "{}", found.boundaries[0].residual);
+    assert!(found.rattlers.is_empty() && found.loose.is_empty());
+}
+
+#[test]
+fn a_bonded_block_is_as_stiff_as_it_is_when_time_steps_have_settled() {
+    let mut simulation = simulation(&bonded([2, 2, 4]));
+    let found = of_last(&simulation);
+    for axis in [0, 2] {
+        let (condensed, expected) =
+            (found.boundaries[0].matrix[axis][axis], settled_stiffness(&mut simulation, axis, 1.0e-9, 0.02));
+        let off = (condensed - expected).abs() / expected;
+        assert!(off <= 1e-6, "axis {axis}: {condensed} is not {expected}, off by {off:e}");
+    }
+}
+
+#[test]
+fn a_bed_is_as_stiff_as_it_is_when_time_steps_have_settled() {
+    let text = r#"
+gravity = [0.0, 0.0, -9.81]
+
+[run]
+step = 5.0e-6
+threads = 1
+
+[material.glass]
+density = 2500.0
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+
+[pair.glass.glass]
+restitution = 0.5
+friction = 0.5
+
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+
+[particles.bed]
+material = "glass"
+lattice = { kind = "simple_cubic", radius = 0.01, spacing = 0.01999, origin = [0.0, 0.0, 0.009995], counts = [4, 4, 3] }
+
+[damping.all]
+linear = 0.3
+angular = 0.3
+
+[boundary.west]
+plane = { point = [-0.009995, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }
+material = "glass"
+
+[boundary.east]
+plane = { point = [0.069965, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }
+material = "glass"
+
+[boundary.south]
+plane = { point = [0.0, -0.009995, 0.0], normal = [0.0, 1.0, 0.0] }
+material = "glass"
+
+[boundary.north]
+plane = { point = [0.0, 0.069965, 0.0], normal = [0.0, -1.0, 0.0] }
+material = "glass"
+
+[boundary.lid]
+particles = { set = "bed", box = [[-1.0, -1.0, 0.03], [1.0, 1.0, 1.0]] }
+
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+motion = { driven = ["x", "z"] }
+"#;
+    let mut simulation = simulation(text);
+    // pressed and sheared a little, and left alone
+    settled_force(&mut simulation, 2, 2.0e-6, 0.05);
+    settled_force(&mut simulation, 0, 1.0e-6, 0.05);
+    simulation.advance(0.2).unwrap();
+    let found = of_last(&simulation);
+    let start = simulation.state().boundaries[last(&simulation).index()].displacement[2];
+    let boundary = last(&simulation);
+    let settled = |simulation: &mut Simulation, way: f64| {
+        simulation.set_input(boundary, 2, start + way);
+        simulation.advance(0.02).unwrap();
+        simulation.advance(0.15).unwrap();
+        simulation.state().boundaries[boundary.index()].force[2]
+    };
+    let state = simulation.state().clone();
+    let there = settled(&mut simulation, 1.0e-9);
+    simulation.restore(&state).unwrap();
+    let back = settled(&mut simulation, -1.0e-9);
+    let (condensed, expected) = (found.boundaries[0].matrix[2][2], (back - there) / 2.0e-9);
+    let off = (condensed - expected).abs() / expected;
+    assert!(off <= 5e-4, "{condensed} is not {expected}, off by {off:e}");
+    assert!(found.asymmetry > 1e-6, "springs follow the overlap: {}", found.asymmetry);
+}
+
+#[test]
+fn particles_that_nothing_holds_are_told() {
+    let text = bonded([1, 1, 4]).replace(
+        "[bond.neck]",
+        "[particles.dust]\nmaterial = \"ice\"\nlist = [{ position = [1.0, 0.0, 0.0], radius = 0.01 }]\n\n[bond.neck]",
+    );
+    let simulation = simulation(&text);
+    let found = of_last(&simulation);
+    assert_eq!(found.rattlers, [simulation.scene().particles.len() as u32 - 1]);
+}
+
+#[test]
+fn what_has_no_static_stiffness_is_refused_by_name() {
+    let text =
+        bonded([1, 1, 4]).replace("[damping.all]", "[bond.neck.relaxation]\nnormal_force = 1.0\n\n[damping.all]");
+    let simulation = simulation(&text);
+    let error = stiffness(&simulation, &[last(&simulation)]).unwrap_err().to_string();
+    assert_eq!(error, "[bond.neck] relaxation has no static stiffness; a bond that keeps its load is right");
+}
