@@ -111,9 +111,9 @@ fn displace(state: &mut State, slot: usize, axis: usize, amount: f64) {
         return;
     }
     particles.angular_velocity[slot][axis - 3] = amount / SLOWLY;
-    if let Some(row) = particles.attitude.get_mut(slot) {
+    if let Some(row) = particles.orientation.get_mut(slot) {
         let mut turn = [0.0; 3];
         turn[axis - 3] = amount;
-        *row = (rotation::attitude(Vector::from(turn)) * Quaternion::from_row(*row)).to_row();
+        *row = (rotation::orientation(Vector::from(turn)) * Quaternion::from_row(*row)).to_row();
     }
 }
