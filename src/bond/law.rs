@@ -4,8 +4,13 @@ use super::breakage::{Breakage, Loaded, Rule, Stress, TakeRule};
 use super::damping::{Damping, DampingChoice, DampingLoad, TakeDamping};
 use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
+use super::keys::{KeyError, Keys};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
 use crate::number::Vector;
+use crate::quantity::Positive;
+
+/// |u| up to which the engine's bond bears no normal force \[m\].
+const ENGINE_DEAD_BAND: f64 = 1e-15;
 
 /// The law of a `[bond.<name>]` table in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,6 +137,34 @@ pub fn remembered() -> String {
     let asked = Asked { relaxation: true, rates: true };
     let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(asked, TakeRemembered));
     FormulationChoice::ALL.iter().map(line).collect()
+}
+
+impl Keys {
+    /// The law in numbers, or every contradiction among the keys.
+    pub fn law(&self) -> Result<Law, Vec<KeyError>> {
+        let wrong = self.contradictions();
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
+        let part = |bears: bool, stiffness: f64| if bears { stiffness } else { 0.0 };
+        let (normal, tangential) = (self.normal_stiffness.get(), self.tangential_stiffness.get());
+        Ok(Law {
+            formulation: self.formulation,
+            elasticity: Elasticity {
+                radius_multiplier: self.radius_multiplier.map_or(1.0, Positive::get),
+                tension: part(self.tension, normal),
+                compression: part(self.compression, normal),
+                shear: part(self.shear, tangential),
+                torsion: part(self.torsion, tangential),
+                bending: part(self.bending, normal),
+                dead_band: if self.formulation.is_engine() { ENGINE_DEAD_BAND } else { 0.0 },
+                relaxation_rate: self.relaxation.map_or([0.0; 4], |keys| keys.parts(|time| 1.0 / time.get())),
+            },
+            damping: self.damping,
+            breakage: self.breakage.map_or_else(Vec::new, |keys| keys.rules(self.formulation)),
+            compression_share: self.breakage.unwrap_or_default().stress.compression_share(self.formulation),
+        })
+    }
 }
 
 impl Law {

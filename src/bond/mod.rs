@@ -27,16 +27,20 @@ pub mod creation;
 pub mod damping;
 pub mod elasticity;
 pub mod formulation;
+mod key_error;
 pub mod keys;
 mod law;
 pub mod list;
 pub mod motion;
+mod pair;
+mod part_keys;
 
 pub use crate::geometry::Quaternion;
 pub use elasticity::{Coefficients, Elasticity};
 pub use formulation::Formulation;
 pub use law::{Carried, Law, OneBond, Reaction, remembered, rows};
-pub use motion::{Body, Lengths, Motion, Opening, Pair, Rates, Section};
+pub use motion::{Lengths, Motion, Opening, Rates};
+pub use pair::{Body, Pair, Section};
 
 use crate::number::{Number, Vector};
 

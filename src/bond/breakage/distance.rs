@@ -1,7 +1,9 @@
 //! Breakage by distance.
 
+use super::BreakageKeys;
 use super::{Breakage, Loaded, flat_keys};
-use crate::bond::keys::{KeyError, Keys as BondKeys};
+use crate::bond::formulation::FormulationChoice;
+use crate::bond::key_error::KeyError;
 use crate::number::Number;
 use crate::quantity::Positive;
 
@@ -26,11 +28,11 @@ impl Breakage for Distance {
     const LIMITS: &'static [&'static str] = &["max_distance"];
     const CAUSES: &'static [&'static str] = &["distance"];
 
-    fn of(own: &Keys, _bond: &BondKeys) -> Option<Self> {
+    fn of(own: &Keys, _formulation: FormulationChoice) -> Option<Self> {
         own.max_distance.map(|most| Self { most: most.get() })
     }
 
-    fn check(_own: &Keys, _bond: &BondKeys, _wrong: &mut Vec<KeyError>) {}
+    fn check(_own: &Keys, _all: &BreakageKeys, _formulation: FormulationChoice, _wrong: &mut Vec<KeyError>) {}
 
     #[inline(always)]
     fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N {

@@ -153,16 +153,16 @@ macro_rules! breakage_rules {
 
         impl BreakageKeys {
             /// The rules that they mean, in the order of the list.
-            pub fn rules(&self, bond: &Keys) -> Vec<Rule> {
+            pub fn rules(&self, formulation: FormulationChoice) -> Vec<Rule> {
                 let mut rules = Vec::new();
-                $(rules.extend(<$file::$rule>::of(&self.$name, bond).map(Rule::$rule));)+
+                $(rules.extend(<$file::$rule>::of(&self.$name, formulation).map(Rule::$rule));)+
                 rules
             }
 
             /// What they say that cannot be.
-            pub(in crate::bond) fn check(&self, bond: &Keys, wrong: &mut Vec<KeyError>) {
-                $(<$file::$rule>::check(&self.$name, bond, wrong);)+
-                if self.rules(bond).is_empty() {
+            pub(in crate::bond) fn check(&self, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
+                $(<$file::$rule>::check(&self.$name, self, formulation, wrong);)+
+                if self.rules(formulation).is_empty() {
                     let message = format!("no limit found; {} or no table is right", LIMITS.concat().join(", "));
                     wrong.push(KeyError { key: "breakage", message });
                 }

@@ -13,7 +13,8 @@ pub use keys::{KeysOf, Strength};
 pub(in crate::bond) use keys::{breakage_rules, flat_keys, named_keys};
 
 use super::Section;
-use super::keys::{KeyError, Keys};
+use super::formulation::FormulationChoice;
+use super::key_error::KeyError;
 use crate::number::{Number, Vector};
 
 breakage_rules! {
@@ -30,10 +31,10 @@ pub trait Breakage: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     const LIMITS: &'static [&'static str];
     /// The causes that it reports, by their names in `breakage.csv`.
     const CAUSES: &'static [&'static str];
-    /// The rule that a bond's table means, if it names this one at all.
-    fn of(own: &Self::Keys, bond: &Keys) -> Option<Self>;
-    /// What the table says that cannot be, each with its key below `breakage`.
-    fn check(own: &Self::Keys, bond: &Keys, wrong: &mut Vec<KeyError>);
+    /// The rule that the keys mean for a bond of this formulation, if they name this one at all.
+    fn of(own: &Self::Keys, formulation: FormulationChoice) -> Option<Self>;
+    /// What the keys, or these beside those of the other rules, say that cannot be, each with its key below `breakage`.
+    fn check(own: &Self::Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>);
     /// 0 where the bond holds, else the place of its cause in [`Breakage::CAUSES`], from 1.
     fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N;
 }

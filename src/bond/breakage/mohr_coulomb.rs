@@ -1,7 +1,9 @@
 //! Breakage by Mohr and Coulomb's limit on the principal stresses at the rim, with a limit of tension.
 
+use super::BreakageKeys;
 use super::{Breakage, Loaded, named_keys};
-use crate::bond::keys::{KeyError, Keys as BondKeys};
+use crate::bond::formulation::FormulationChoice;
+use crate::bond::key_error::KeyError;
 use crate::number::Number;
 use crate::quantity::{NonNegative, Positive};
 
@@ -60,7 +62,7 @@ impl Breakage for MohrCoulomb {
     const LIMITS: &'static [&'static str] = &["mohr_coulomb"];
     const CAUSES: &'static [&'static str] = &["tension", "shear"];
 
-    fn of(own: &Keys, _bond: &BondKeys) -> Option<Self> {
+    fn of(own: &Keys, _formulation: FormulationChoice) -> Option<Self> {
         own.0.map(|table| Self {
             shear_limit: 2.0 * table.cohesion.get() * libm::cos(table.friction_angle.get()),
             friction: libm::sin(table.friction_angle.get()),
@@ -68,7 +70,7 @@ impl Breakage for MohrCoulomb {
         })
     }
 
-    fn check(own: &Keys, bond: &BondKeys, wrong: &mut Vec<KeyError>) {
+    fn check(own: &Keys, _all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
         let Some(table) = own.0 else { return };
         let (cohesion, angle) = (table.cohesion.get(), table.friction_angle.get());
         KeyError::add(
@@ -85,7 +87,7 @@ impl Breakage for MohrCoulomb {
         );
         KeyError::add(
             wrong,
-            bond.formulation.is_engine(),
+            formulation.is_engine(),
             "breakage.mohr_coulomb",
             "found with engine_exact, which has the engine's limits only",
         );

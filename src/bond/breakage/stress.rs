@@ -1,7 +1,9 @@
 //! Breakage by the largest stresses at the rim.
 
+use super::BreakageKeys;
 use super::{Breakage, Loaded, flat_keys};
-use crate::bond::keys::{KeyError, Keys as BondKeys};
+use crate::bond::formulation::FormulationChoice;
+use crate::bond::key_error::KeyError;
 use crate::number::Number;
 use crate::quantity::{NonNegative, Positive};
 
@@ -71,23 +73,30 @@ const BENDING: f64 = 4.0;
 /// Place of `torsion`.
 const TORSION: f64 = 5.0;
 
+impl Keys {
+    /// What compression adds to the normal stress over |N|/A: 1 where compression breaks, −1 where it relieves.
+    pub(in crate::bond) fn compression_share(&self, formulation: FormulationChoice) -> f64 {
+        if self.compression_breaks.unwrap_or(formulation.is_engine()) { 1.0 } else { -1.0 }
+    }
+}
+
 impl Breakage for ByStress {
     type Keys = Keys;
     const LIMITS: &'static [&'static str] = &["max_normal_stress", "max_shear_stress"];
     const CAUSES: &'static [&'static str] = &["tension", "compression", "shear", "bending", "torsion"];
 
-    fn of(own: &Keys, bond: &BondKeys) -> Option<Self> {
+    fn of(own: &Keys, formulation: FormulationChoice) -> Option<Self> {
         let strength = own.max_normal_stress.map_or(f64::INFINITY, Positive::get);
         own.has_limit().then(|| Self {
             compression_strength: strength,
             tension_strength: strength * own.tension_ratio.map_or(1.0, Positive::get),
             shear_strength: own.max_shear_stress.map_or(f64::INFINITY, Positive::get),
             friction: own.friction_angle.map_or(0.0, |angle| libm::tan(angle.get())),
-            compression_share: bond.compression_share(),
+            compression_share: own.compression_share(formulation),
         })
     }
 
-    fn check(own: &Keys, bond: &BondKeys, wrong: &mut Vec<KeyError>) {
+    fn check(own: &Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
         let (no_normal, no_shear) = (own.max_normal_stress.is_none(), own.max_shear_stress.is_none());
         let mut add = |there: bool, key: &'static str, message: &str| KeyError::add(wrong, there, key, message);
         add(
@@ -110,13 +119,13 @@ impl Breakage for ByStress {
             "breakage.compression_breaks",
             "found without max_normal_stress, to which it belongs",
         );
-        let exact = bond.formulation.is_engine();
+        let exact = formulation.is_engine();
         add(
             exact && own.compression_breaks == Some(false),
             "breakage.compression_breaks",
             "false found; in engine_exact compression always breaks",
         );
-        let by_distance = bond.breakage.is_some_and(|keys| keys.distance.max_distance.is_some());
+        let by_distance = all.distance.max_distance.is_some();
         add(
             exact && own.has_limit() && by_distance,
             "breakage.max_distance",

@@ -2,7 +2,7 @@
 
 use super::{Damped, Damping, Model, by_share};
 use crate::bond::elasticity::Parts;
-use crate::bond::keys::PartKeys;
+use crate::bond::part_keys::PartKeys;
 use crate::bond::{Coefficients, Elastic, Motion, Pair};
 use crate::number::{Number, Vector};
 use crate::quantity::Fraction;
