@@ -1,7 +1,7 @@
 """The coupling set: problems with closed forms, by every exchange, and by other programs where they are installed.
 
-Writes results.csv and coupling_set.png: error and interface energy against processor time, which other work on the machine
-changes least.
+Writes results.csv and coupling_set.png: error and interface energy against processor time, which other work
+on the machine changes least.
 """
 
 import argparse

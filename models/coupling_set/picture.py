@@ -4,6 +4,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 COLOURS = {
     "Gauss–Seidel": "#b5482a",
@@ -55,5 +56,9 @@ def panel(axes, rows, key):
         axes.plot([one["processor"] for one in line], values, label=label, markersize=4, linewidth=1.2, **style)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    # Enough marks where the times span less than a power of ten, and none that run into one another.
+    axes.xaxis.set_major_locator(FixedLocator([mark * 10.0**power for power in range(-4, 4) for mark in (1, 2, 5)]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda time, _: f"{time:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.grid(alpha=0.25)
     axes.spines[["top", "right"]].set_visible(False)

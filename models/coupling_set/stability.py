@@ -56,6 +56,7 @@ BED_COLUMNS += ["refused", "interface", "processor", "said"]
 RATIOS = np.logspace(-2, 3, 11)  # mass of the particles over that of the partner
 DAMPING = 0.05  # damping ratio of the partner on its own spring
 STEPS = 400  # that a course has to bear without growing
+LIMIT = 1.0  # displacement at which it has grown [m]
 
 
 def arguments():
@@ -129,43 +130,52 @@ def grows(unit, make, mass, step):
     unit.reset()
     control = StepControl(unconverged="stop", halvings=0)
     coupling = Coupling(Interface(unit, "right.displacement.x"), partner, make(), step, control=control)
-    limit = 100 * problem.speed  # far above what the start can bring
     try:
         for _ in range(STEPS):
-            if not abs(coupling.advance().displacement[0]) < limit:
+            if not abs(coupling.advance().displacement[0]) < LIMIT:
                 return True
     except CouplingStopped:
         return True
     return False
 
 
-def measured(unit, make, mass, steps):
-    """The smallest of these steps at which it grows [s]; 0 or infinity where all or none do."""
-    low, high = -1, len(steps)
-    while high - low > 1:
-        middle = (low + high) // 2
-        if grows(unit, make, mass, steps[middle]):
-            high = middle
-        else:
-            low = middle
-    return steps[high] if high < len(steps) else np.inf
+def measured(unit, make, mass, steps, near):
+    """The step at which it grows, and does not at the one before, nearest to the place `near` [s].
+
+    Bands of growth may lie apart, so that a search of the whole range need not find the first one.
+    """
+    place = near
+    if grows(unit, make, mass, steps[place]):
+        while place > 0 and grows(unit, make, mass, steps[place - 1]):
+            place -= 1
+        return steps[place]
+    while place + 1 < len(steps):
+        place += 1
+        if grows(unit, make, mass, steps[place]):
+            return steps[place]
+    return np.inf
 
 
 def border(options):
-    """Rows of exchange, ratio of the masses, border by theory and measured [s]."""
+    """Rows of exchange, ratio of the masses, border by theory of any growth and of one that is seen, measured [s]."""
     path = Program(options.program).export(HERE / "oscillator.toml", options.output / "oscillator.fmu")
     time_step = 5e-4
     counts = np.unique(np.round(np.logspace(0, np.log10(600), 120)).astype(int))
+    # From the amplitude that the left mass brings to the limit within the steps of a course.
+    seen = (LIMIT / (TwoMasses.speed / (2.0 * np.pi))) ** (1.0 / STEPS)
     with Unit(path) as unit:
         for name, make in BORDER.items():
             for ratio in RATIOS:
                 mass = 1.0 / ratio
                 theory = FixedPointGain if name == "fixed point" else Linear
-                steps = counts * time_step
-                expected = theory(name, mass, DAMPING, time_step).border(counts) if name != "secant" else np.inf
-                found = measured(unit, make, mass, steps)
-                yield [name, ratio, expected, found]
-                print(f"{name:14} masses {ratio:8.3g}: theory {expected:9.4g} s, measured {found:9.4g} s", flush=True)
+                linear = None if name == "secant" else theory(name, mass, DAMPING, time_step)
+                any_growth, expected = (linear.border(counts, it) if linear else np.inf for it in (1.0, seen))
+                near = min(int(np.searchsorted(counts, expected / time_step - 0.5)), len(counts) - 1)
+                found = measured(unit, make, mass, counts * time_step, near)
+                yield [name, ratio, any_growth, expected, found]
+                share = f"{found / expected:.2f}" if np.isfinite(expected) and np.isfinite(found) else "–"
+                borders = f"any growth {any_growth:9.4g} s, theory {expected:9.4g} s, measured {found:9.4g} s"
+                print(f"{name:14} masses {ratio:8.3g}: {borders}, measured over theory {share}", flush=True)
 
 
 def main():
@@ -179,7 +189,7 @@ def main():
     if not options.no_border:
         lines = list(border(options))
         with (options.output / "border.csv").open("w", newline="") as text:
-            csv.writer(text).writerows([["exchange", "mass_ratio", "theory", "measured"], *lines])
+            csv.writer(text).writerows([["exchange", "mass_ratio", "any_growth", "theory", "measured"], *lines])
         from stability_picture import draw
 
         draw(options.output / "stability.png", lines)

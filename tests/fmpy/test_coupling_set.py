@@ -2,14 +2,17 @@
 
 import sys
 
+import numpy as np
 import pytest
-from cograin import Program, Unit
+from cograin import Program, Unit, Verlet
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "models" / "coupling_set"))
 
 import couple  # noqa: E402
 import problems  # noqa: E402
+import stability  # noqa: E402
+import theory  # noqa: E402
 
 # Problem, exchange, step, error: the scheme's own, from the table of the page.
 CASES = [
@@ -45,3 +48,13 @@ def test_errors_are_the_schemes_own_and_repeated_steps_keep_the_energy(opened, p
     if exchange == "secant":
         assert measure.interface <= 1e-9
         assert touched <= 2.6
+
+
+@pytest.mark.parametrize("ratio", [10.0, 100.0, 1000.0])
+def test_verlet_grows_at_the_border_of_theory_and_not_one_step_below_it(opened, ratio):
+    time_step, mass = 5e-4, 1.0 / ratio
+    counts = np.arange(1, 120)
+    border = theory.Linear("Verlet", mass, stability.DAMPING, time_step).border(counts)
+    unit = opened(problems.TwoMasses())
+    assert stability.grows(unit, Verlet, mass, border)
+    assert not stability.grows(unit, Verlet, mass, border - time_step)
