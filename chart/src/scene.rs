@@ -21,6 +21,9 @@ const GIVEN: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
 /// Rows of outputs that are compared, where the scene does not say how often it writes them.
 const ROWS: f64 = 100.0;
 
+/// Communication steps into which an interval is divided, to see what that changes.
+const DIVISIONS: u32 = 4;
+
 /// Wall time of the trial that tells what the chart costs \[s\].
 const TRIAL: f64 = 0.5;
 
@@ -69,7 +72,9 @@ impl SceneChart {
             Step::Automatic { safety } => step / safety,
             Step::Given(step) => step,
         };
-        chart.seconds = chart.parts().iter().map(|part| end / (part * own) * each).sum();
+        let of = |part: f64| end / (part * own) * each;
+        let present = if matches!(chart.scene.run.step, Step::Given(_)) { 1.0 } else { step / own };
+        chart.seconds = chart.parts().into_iter().map(of).sum::<f64>() + 2.0 * of(present);
         Ok(chart)
     }
 
@@ -91,14 +96,16 @@ impl SceneChart {
         scene
     }
 
-    /// Runs it.
-    fn run(&self, part: f64) -> Result<Run, ChartError> {
+    /// Runs it, each interval in so many communication steps.
+    fn run(&self, part: f64, communication_steps: u32) -> Result<Run, ChartError> {
         let mut simulation = Simulation::new(Arc::new(self.at(part)))?;
         let interface = Interface::of(&self.scene);
         let begun = Instant::now();
         let mut rows = Vec::new();
         for _ in 0..(self.end / self.interval).round() as u64 {
-            simulation.advance(self.interval)?;
+            for _ in 0..communication_steps {
+                simulation.advance(self.interval / f64::from(communication_steps))?;
+            }
             rows.push(interface.outputs().map(|(index, _)| interface.value(&simulation, index).number()).collect());
         }
         let (steps, seconds) = (simulation.state().clock.steps, begun.elapsed().as_secs_f64());
@@ -108,7 +115,7 @@ impl SceneChart {
     /// Computes the chart.
     pub fn draw(&self) -> Result<Drawing, ChartError> {
         let [coarser @ .., finest] = self.parts();
-        let right = self.run(finest)?;
+        let right = self.run(finest, 1)?;
         let word = match self.scene.run.step {
             Step::Automatic { .. } => "safety",
             Step::Given(_) => "given step times",
@@ -117,7 +124,7 @@ impl SceneChart {
         let mut notes = Vec::new();
         let mut enough = [None, None];
         for part in coarser {
-            let run = match self.run(part) {
+            let run = match self.run(part, 1) {
                 Ok(run) => run,
                 Err(error) => {
                     notes.push(format!("{word} {part}: {error}"));
@@ -135,6 +142,7 @@ impl SceneChart {
                 }
             }
         }
+        notes.extend(self.communication());
         for (enough, when) in enough.into_iter().zip(["at any moment", "in the mean"]) {
             let wanted = self.wanted;
             notes.push(match enough {
@@ -150,6 +158,19 @@ impl SceneChart {
             panel("means of outputs over time", "error of the mean over the largest value"),
         ];
         Ok(Drawing { table, picture: Picture { panels, ..Picture::default() }, notes })
+    }
+
+    /// What shorter communication steps change at the scene's own step: in a run alone they shorten time steps that do not fit.
+    fn communication(&self) -> Option<String> {
+        let own = match self.scene.run.step {
+            Step::Automatic { safety } => safety,
+            Step::Given(_) => 1.0,
+        };
+        let [whole, divided] = [1, DIVISIONS].map(|count| self.run(own, count).ok());
+        let [moment, mean] = self.compare(&divided?, &whole?, &mut Table::new(COLUMNS));
+        Some(format!(
+            "communication steps 1/{DIVISIONS} as long change {moment:.1e} at any moment, {mean:.1e} in the mean"
+        ))
     }
 
     /// Adds how far a run is from the finest one, a row for each quantity. Returns the worst at any moment and in the mean.

@@ -2,6 +2,7 @@
 
 mod forecast;
 mod rules;
+mod savings;
 mod stiffness;
 mod trial;
 
@@ -39,6 +40,8 @@ pub struct Report {
     pub cost: String,
     /// Wall time of a run.
     pub time: Option<String>,
+    /// What the scene pays for and could drop, and what that saves, a line each.
+    pub savings: Vec<String>,
     /// What is legal but risky.
     pub remarks: Vec<String>,
 }
@@ -63,12 +66,13 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     simulation.restore(&present).expect("a state of this simulation");
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
+    let savings = savings::of(scene, &simulation);
     remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));
     let (outputs, steps, time) = match forecast {
         Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
         None => (Vec::new(), None, None),
     };
-    Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, remarks })
+    Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, savings, remarks })
 }
 
 /// The scene at its start, which may be a checkpoint's, and what of that stays behind.
@@ -101,6 +105,9 @@ impl fmt::Display for Report {
         write!(formatter, "cost       {}", self.cost)?;
         if let Some(time) = &self.time {
             write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
+        }
+        for saving in &self.savings {
+            write!(formatter, "\nspare      {saving}")?;
         }
         for remark in &self.remarks {
             write!(formatter, "\nremark     {remark}")?;

@@ -14,7 +14,7 @@ use cograin::interface::Interface;
 pub(super) const CHART: Chart = Chart {
     name: "bed",
     shows: "settled column and collapse: height, force on the gate, coordination, run-out, over the time step and packings",
-    seconds: 30.0,
+    seconds: 33.0,
     draw,
 };
 

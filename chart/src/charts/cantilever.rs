@@ -17,7 +17,7 @@ use std::fmt::Write;
 pub(super) const CHART: Chart = Chart {
     name: "cantilever",
     shows: "bonded cantilever and spinning pair: error over time steps, over formulations and dampings",
-    seconds: 20.0,
+    seconds: 10.0,
     draw,
 };
 
@@ -177,8 +177,8 @@ fn draw() -> Result<Drawing, ChartError> {
             table.push(["pair".into(), bonds[0].into(), "".into(), "".into(), steps.into(), error.into()]);
         }
     }
-    let panel = |case, title: &str, [across, upwards]: [&'static str; 2]| Panel {
-        only: Some(("case", case)),
+    let panel = |case: &str, title: &str, [across, upwards]: [&'static str; 2]| Panel {
+        only: Some(("case", case.to_owned())),
         ..Panel::new(title, logarithmic(across), logarithmic(upwards), "series")
     };
     let panels = vec![

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 pub(super) const CHART: Chart = Chart {
     name: "cohesion",
     shows: "stability: overlap at rest and collapse of cohesive contacts over stiffness, measured and in theory",
-    seconds: 5.0,
+    seconds: 1.0,
     draw,
 };
 
@@ -113,8 +113,8 @@ fn draw() -> Result<Drawing, ChartError> {
         add("measured", collapse(stiffness)?);
         add("theory", stiffness / (PI * RADIUS));
     }
-    let panel = |case, title: &str, [across, upwards]: [&'static str; 2]| Panel {
-        only: Some(("case", case)),
+    let panel = |case: &str, title: &str, [across, upwards]: [&'static str; 2]| Panel {
+        only: Some(("case", case.to_owned())),
         theory: vec!["theory"],
         single: vec!["measured"],
         ..Panel::new(title, logarithmic(across), logarithmic(upwards), "series")

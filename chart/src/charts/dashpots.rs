@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 pub(super) const CHART: Chart = Chart {
     name: "dashpots",
     shows: "stability: longest stable step over the damping of contacts and of bonds, measured, stated, in theory",
-    seconds: 20.0,
+    seconds: 3.0,
     draw,
 };
 
@@ -141,8 +141,8 @@ fn draw() -> Result<Drawing, ChartError> {
     let mut table = Table::new(columns);
     fill_contacts(&mut table)?;
     fill_bonds(&mut table)?;
-    let panel = |case, title: &str, column| Panel {
-        only: Some(("case", case)),
+    let panel = |case: &str, title: &str, column| Panel {
+        only: Some(("case", case.to_owned())),
         theory: THEORY.into(),
         ..Panel::new(title, linear(COLUMNS[0]), logarithmic(column), "series")
     };

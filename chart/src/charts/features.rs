@@ -14,7 +14,7 @@ use std::time::Instant;
 pub(super) const CHART: Chart = Chart {
     name: "features",
     shows: "what laws, bonds, damping and books add to the time of a step",
-    seconds: 30.0,
+    seconds: 16.0,
     draw,
 };
 

@@ -5,6 +5,7 @@
 //! gives; Tsuji's dashpot is exact for Hertz's force, the dashpot of `hooke` for its spring, where the end may pull.
 
 use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
+use super::liggghts;
 use super::schemes::{SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
@@ -15,7 +16,7 @@ use crate::table::Table;
 pub(super) const CHART: Chart = Chart {
     name: "impact",
     shows: "error of restitution over time steps in a contact: hertz and hooke, from damped to elastic",
-    seconds: 2.0,
+    seconds: 5.0,
     draw,
 };
 
@@ -30,6 +31,12 @@ const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
 
 /// What the default step is called.
 const DEFAULT: &str = "default step, all e";
+
+/// What the points of a peer are called.
+const PEER: &str = "LIGGGHTS, all e";
+
+/// Time steps in an elastic contact of the peer's points.
+const PEER_STEPS: [f64; 3] = [20.0, 80.0, 400.0];
 
 /// A normal model: its name, its table in the scene, the duration of an elastic contact \[s\].
 struct Normal {
@@ -64,10 +71,10 @@ fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Resu
 
 /// Adds a row for each number of steps.
 fn fill(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
-    let series = scheme.series(&format!("e = {restitution}"));
+    let (case, series) = (scheme.named(normal.name), format!("e = {restitution}"));
     for steps in STEPS {
         let error = error(normal, restitution, scheme, steps)?;
-        table.push([normal.name.into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
+        table.push([case.clone().into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
     }
     Ok(())
 }
@@ -76,8 +83,23 @@ fn fill(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -
 fn fill_default(table: &mut Table, normal: &Normal, restitution: f64, scheme: &Scheme) -> Result<(), ChartError> {
     let (_, steps) = normal.throw(restitution).automatic(scheme.run)?;
     let error = error(normal, restitution, scheme, steps)?;
-    table.push([normal.name.into(), scheme.series(DEFAULT).into(), restitution.into(), steps.into(), error.into()]);
+    table.push([scheme.named(normal.name).into(), DEFAULT.into(), restitution.into(), steps.into(), error.into()]);
     Ok(())
+}
+
+/// Adds the points of LIGGGHTS. Returns whether it is installed.
+fn fill_peer(table: &mut Table, normal: &Normal) -> Result<bool, ChartError> {
+    for restitution in RESTITUTIONS {
+        for steps in PEER_STEPS {
+            let mut error = 0.0_f64;
+            for end in ENDS {
+                let Some(found) = liggghts::error(normal.name, restitution, steps + end)? else { return Ok(false) };
+                error = error.max(found);
+            }
+            table.push([normal.name.into(), PEER.into(), restitution.into(), steps.into(), error.into()]);
+        }
+    }
+    Ok(true)
 }
 
 /// Computes the chart.
@@ -94,6 +116,7 @@ fn draw() -> Result<Drawing, ChartError> {
         ("time steps in an elastic contact", "1"),
         ("largest error of restitution", "1"),
     ]);
+    let mut has_peer = true;
     for normal in &models {
         for scheme in SCHEMES {
             for restitution in RESTITUTIONS {
@@ -103,18 +126,24 @@ fn draw() -> Result<Drawing, ChartError> {
                 fill_default(&mut table, normal, restitution, scheme)?;
             }
         }
+        has_peer = has_peer && fill_peer(&mut table, normal)?;
     }
-    let panel = |law: &'static str| {
+    let panel = |law: String| {
         let title = format!("{law}, without limit_force");
         let axes = [logarithmic("time steps in an elastic contact"), logarithmic("largest error of restitution")];
-        Panel { only: Some(("law", law)), single: vec![DEFAULT], ..Panel::new(&title, axes[0], axes[1], "series") }
+        Panel {
+            only: Some(("law", law)),
+            single: vec![DEFAULT, PEER],
+            ..Panel::new(&title, axes[0], axes[1], "series")
+        }
     };
-    let notes = notes(&table);
-    Ok(Drawing {
-        table,
-        picture: Picture { panels: vec![panel("hertz"), panel("hooke")], ..Picture::default() },
-        notes,
-    })
+    let mut notes = notes(&table);
+    if !has_peer {
+        notes.push("LIGGGHTS is not installed: its points are left out".to_owned());
+    }
+    let laws = models.iter().flat_map(|normal| SCHEMES.iter().map(|scheme| scheme.named(normal.name)));
+    let panels = laws.map(panel).collect();
+    Ok(Drawing { table, picture: Picture { panels, ..Picture::default() }, notes })
 }
 
 /// What the default step costs in accuracy.

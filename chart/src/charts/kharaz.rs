@@ -14,7 +14,7 @@ use crate::table::Table;
 pub(super) const CHART: Chart = Chart {
     name: "kharaz",
     shows: "oblique impacts over the angle: laws, closed form and experiment (Kharaz et al. 2001)",
-    seconds: 6.0,
+    seconds: 1.0,
     draw,
 };
 

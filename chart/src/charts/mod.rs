@@ -9,6 +9,7 @@ mod drops;
 mod features;
 mod impact;
 mod kharaz;
+mod liggghts;
 mod oblique;
 mod rolling;
 mod runs;
@@ -26,7 +27,7 @@ pub struct Chart {
     pub name: &'static str,
     /// What it shows, in a line.
     pub shows: &'static str,
-    /// What it takes, about: a release build, one thread of a server processor \[s\].
+    /// What it takes, about: processor time of one core with the development build \[s\].
     pub seconds: f64,
     /// Computes it.
     pub draw: fn() -> Result<Drawing, ChartError>,

@@ -15,7 +15,7 @@ use crate::table::Table;
 pub(super) const CHART: Chart = Chart {
     name: "oblique",
     shows: "error of rebound of oblique impacts over time steps in a contact, over tangential laws",
-    seconds: 15.0,
+    seconds: 2.0,
     draw,
 };
 
@@ -72,6 +72,7 @@ fn draw() -> Result<Drawing, ChartError> {
     for (case, tangential, coefficients) in CASES {
         let law = format!("[contact.touch.normal.hertz]\n[contact.touch.tangential.{tangential}]");
         for scheme in SCHEMES {
+            let case = scheme.named(case);
             let mut defaults = Vec::new();
             for angle in ANGLES {
                 let radians = angle.to_radians();
@@ -79,26 +80,28 @@ fn draw() -> Result<Drawing, ChartError> {
                 let throw = Throw { law: &law, coefficients, angle: radians, duration };
                 let right = mean(&throw.steps(CONVERGED, scheme.run)?);
                 let mut add = |series: String, steps: f64, error: f64| {
-                    table.push([case.into(), series.into(), angle.into(), steps.into(), error.into()]);
+                    table.push([case.clone().into(), series.into(), angle.into(), steps.into(), error.into()]);
                 };
                 for steps in STEPS {
                     let error = largest(&throw.steps(steps, scheme.run)?, &right);
-                    add(scheme.series(&format!("{angle}°")), steps, error);
+                    add(format!("{angle}°"), steps, error);
                 }
                 let (rebounds, steps) = throw.automatic(scheme.run)?;
                 defaults.push((angle, steps, largest(&rebounds, &right)));
             }
             for (angle, steps, error) in defaults {
-                let series = scheme.series(DEFAULT);
-                notes.push(format!("{case}, {angle}°, {series}: {steps:.1} steps, error {error:.1e}"));
-                table.push([case.into(), series.into(), angle.into(), steps.into(), error.into()]);
+                notes.push(format!("{case}, {angle}°, default step: {steps:.1} steps, error {error:.1e}"));
+                table.push([case.clone().into(), DEFAULT.into(), angle.into(), steps.into(), error.into()]);
             }
         }
     }
-    let panel = |(case, _, _): Case| {
+    let panel = |case: String| {
         let across = logarithmic("time steps in an elastic contact");
         let upwards = logarithmic("largest error of rebound over impact speed");
-        Panel { only: Some(("case", case)), single: vec![DEFAULT], ..Panel::new(case, across, upwards, "series") }
+        let panel = Panel::new(&case, across, upwards, "series");
+        Panel { only: Some(("case", case)), single: vec![DEFAULT], ..panel }
     };
-    Ok(Drawing { table, picture: Picture { panels: CASES.map(panel).into(), ..Picture::default() }, notes })
+    let cases = CASES.iter().flat_map(|(case, ..)| SCHEMES.iter().map(|scheme| scheme.named(case)));
+    let panels = cases.map(panel).collect();
+    Ok(Drawing { table, picture: Picture { panels, ..Picture::default() }, notes })
 }

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 pub(super) const CHART: Chart = Chart {
     name: "rolling",
     shows: "error of a sphere that rocks, swings or slides on a plane, over time steps",
-    seconds: 5.0,
+    seconds: 1.0,
     draw,
 };
 
@@ -114,16 +114,16 @@ fn draw() -> Result<Drawing, ChartError> {
                 for steps in STEPS {
                     let error = apart(&run(steps)?, &right) / case.speed;
                     errors.push(error);
-                    table.push([case.name.into(), scheme.series(tangential).into(), steps.into(), error.into()]);
+                    table.push([case.name.into(), scheme.named(tangential).into(), steps.into(), error.into()]);
                 }
                 let [.., coarse, fine] = errors[..] else { continue };
-                let (series, order) = (scheme.series(tangential), libm::log2(coarse / fine));
+                let (series, order) = (scheme.named(tangential), libm::log2(coarse / fine));
                 notes.push(format!("{}, {series}: order {order:.2} between the two finest", case.name));
             }
         }
     }
     let panel = |case: &Case| Panel {
-        only: Some(("case", case.name)),
+        only: Some(("case", case.name.to_owned())),
         ..Panel::new(
             case.name,
             logarithmic("time steps in a period of the bounce"),

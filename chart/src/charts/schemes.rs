@@ -13,8 +13,8 @@ pub(super) struct Scheme {
 pub(super) const SCHEMES: &[Scheme] = &[Scheme { name: "", run: "" }];
 
 impl Scheme {
-    /// The name of a series of this scheme.
-    pub(super) fn series(&self, name: &str) -> String {
+    /// What a series or a diagram of this name is called with this scheme.
+    pub(super) fn named(&self, name: &str) -> String {
         if self.name.is_empty() { name.to_owned() } else { format!("{name}, {}", self.name) }
     }
 }

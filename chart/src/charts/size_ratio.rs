@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 pub(super) const CHART: Chart = Chart {
     name: "size_ratio",
     shows: "stability: longest stable step of a small sphere between large ones, with and without friction",
-    seconds: 5.0,
+    seconds: 1.0,
     draw,
 };
 

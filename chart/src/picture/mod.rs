@@ -46,7 +46,7 @@ pub struct Panel {
     /// The column whose words divide the rows into series.
     pub series: &'static str,
     /// Only rows that have this word in this column.
-    pub only: Option<(&'static str, &'static str)>,
+    pub only: Option<(&'static str, String)>,
     /// Series that are lines without markers: theory.
     pub theory: Vec<&'static str>,
     /// Series that are markers without a line: measurements of others, single settings.

@@ -37,7 +37,7 @@ fn series(panel: &Panel, table: &Table) -> Vec<Series> {
     let mut all: Vec<Series> = Vec::new();
     let place = table.place(panel.series);
     for (number, row) in table.rows.iter().enumerate() {
-        if panel.only.is_some_and(|(column, word)| row[table.place(column)].to_string() != word) {
+        if panel.only.as_ref().is_some_and(|(column, word)| row[table.place(column)].to_string() != *word) {
             continue;
         }
         let name = row[place].to_string();

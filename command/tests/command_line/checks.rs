@@ -29,6 +29,24 @@ fn check_tells_what_a_scene_uses_and_costs() {
     }
 }
 
+#[test]
+fn check_tells_what_a_scene_could_drop() {
+    let place = Place::new("spare");
+    let scene = place.scene("end = 0.1\nstep = 1e-7", "energy = true");
+    let needed = report(&scene);
+    assert!(!needed.contains("friction is 0"), "{needed}");
+    let text = fs::read_to_string(&scene).unwrap().replace("friction = ", "friction = 0.0 # ");
+    fs::write(&scene, text).unwrap();
+    let said = report(&scene);
+    for part in [
+        "spare      [contact.touch.tangential.history]: friction is 0 in all its pairs: without it a step takes ",
+        "spare      [output] energy: the book is kept, and without history_interval only summary.json tells of it: without",
+        "spare      [run] step = 1e-7: ",
+    ] {
+        assert!(said.contains(part), "{part} is missing in:\n{said}");
+    }
+}
+
 /// The text that `check` prints.
 fn report(scene: &std::path::Path) -> String {
     let output = cograin(&[&"check", &scene]).output().unwrap();
