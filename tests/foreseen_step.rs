@@ -54,6 +54,70 @@ fn a_plane_that_hits_a_sphere_gives_it_twice_its_speed() {
     }
 }
 
+/// How fast a sphere is that a plane has hit in this motion, in communication steps of this length \[s\] \[m/s\].
+fn speed_behind(motion: &str, position: [f64; 3], interval: f64) -> f64 {
+    let text = plane_hits_sphere("safety = 0.2", motion).replace("[0.0, 0.0, 0.02]", &format!("{position:?}"));
+    let mut simulation = start(&text);
+    for _ in 0..(0.1 / interval).round() as usize {
+        simulation.advance(interval).expect("it runs");
+    }
+    simulation.state().particles.velocity[0][2]
+}
+
+#[test]
+fn a_plane_that_turns_hits_a_sphere_with_the_speed_that_it_has_there() {
+    for interval in [0.1, 1e-3] {
+        // At x = −0.3 m a turn about y at 1 rad/s goes up at 0.3 m/s.
+        let speed = speed_behind("prescribed = { \"rotation.y\" = 1.0 }", [-0.3, 0.0, 0.012], interval);
+        assert!((speed / 0.6 - 1.0).abs() < 0.02, "{speed} m/s in steps of {interval} s, 0.6 m/s expected");
+    }
+}
+
+#[test]
+fn a_plane_that_starts_within_a_communication_step_is_foreseen() {
+    let motion =
+        "prescribed = { z = { trapezoid = { distance = 0.04, speed = 1.0, acceleration = 1e4, start = 0.03 } } }";
+    for interval in [0.1, 1e-3] {
+        let speed = speed_behind(motion, [0.0, 0.0, 0.02], interval);
+        assert!((speed / 2.0 - 1.0).abs() < 0.02, "{speed} m/s in steps of {interval} s, 2 m/s expected");
+    }
+}
+
+#[test]
+fn a_plate_driven_into_a_loose_packing_gives_it_no_more_than_its_work() {
+    let plane = |name: &str, point: [f64; 3], normal: [f64; 3], motion: &str| {
+        format!(
+            "[boundary.{name}]\nplane = {{ point = {point:?}, normal = {normal:?} }}\nmaterial = \"wall\"\n{motion}"
+        )
+    };
+    let edge = 0.016;
+    let walls = [
+        plane("bottom", [0.0; 3], [0.0, 0.0, 1.0], ""),
+        plane("top", [0.0, 0.0, edge], [0.0, 0.0, -1.0], "motion = { driven = [\"z\"] }\n"),
+        plane("xl", [0.0; 3], [1.0, 0.0, 0.0], ""),
+        plane("xh", [edge, 0.0, 0.0], [-1.0, 0.0, 0.0], ""),
+        plane("yl", [0.0; 3], [0.0, 1.0, 0.0], ""),
+        plane("yh", [0.0, edge, 0.0], [0.0, -1.0, 0.0], ""),
+    ];
+    let text = format!(
+        "[run]\nthreads = 1\n[material.sand]\ndensity = 2650.0\nyoungs_modulus = 1e8\npoissons_ratio = 0.25\n\
+         [material.wall]\ndensity = 2650.0\nyoungs_modulus = 1e8\npoissons_ratio = 0.25\n\
+         [pair.sand.sand]\nrestitution = 0.4\nfriction = 0.4\n[pair.sand.wall]\nrestitution = 0.4\nfriction = 0.0\n\
+         [contact.g.normal.hertz]\n[contact.g.tangential.history]\n[particles.s]\nmaterial = \"sand\"\n\
+         packing = {{ box = [[0.0, 0.0, 0.0], [{edge:?}, {edge:?}, {edge:?}]], solid_fraction = 0.5, radius = [0.0015, 0.0025] }}\n{}",
+        walls.concat()
+    );
+    let mut simulation = start(&text);
+    let top = simulation.scene().boundaries.iter().position(|boundary| boundary.name == "top").unwrap();
+    for interval in 1..=10 {
+        simulation.set_input(BoundaryIndex(top as u32), 2, -1e-4 * f64::from(interval));
+        simulation.advance(2e-3).expect("it runs");
+    }
+    let given: f64 = simulation.state().boundaries.iter().map(|boundary| boundary.work).sum();
+    let held = simulation.kinetic_energy() + simulation.elastic_energy();
+    assert!(given > 0.0 && held < 1.01 * given, "{held:e} J of {given:e} J");
+}
+
 #[test]
 fn a_given_step_is_refused_before_numbers_are_nonsense_and_the_bound_is_renewed() {
     let mut simulation = start(&plane_hits_sphere("step = 1e-3", "driven = [\"z\"]"));

@@ -243,6 +243,13 @@ impl Instance {
         self.simulation.time() + self.course.origin
     }
 
+    /// The time step, the stable one and what limits it, in words.
+    pub(crate) fn time_step_limit(&self) -> String {
+        let (limit, step) = (self.simulation.limit(), self.simulation.state().clock.step);
+        let by = limit.by.map_or_else(String::new, |by| format!(", limited by {}", self.simulation.words(&by)));
+        format!("time step {step:.4e} s, the stable one {:.4e} s{by}", limit.safe)
+    }
+
     /// How the last communication step ended.
     pub(crate) fn last_step(&self) -> Status {
         self.course.last_step

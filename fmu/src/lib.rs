@@ -141,7 +141,10 @@ pub extern "C" fn fmi2EnterInitializationMode(component: Component) -> Status {
 pub extern "C" fn fmi2ExitInitializationMode(component: Component) -> Status {
     call(component, &calls::EXIT_INITIALIZATION_MODE, |instance, logger| {
         instance.exit_initialization()?;
-        logger.event(|| format!("fmi2ExitInitializationMode: starts at {} s", instance.time()));
+        logger.event(|| {
+            let (time, limit) = (instance.time(), instance.time_step_limit());
+            format!("fmi2ExitInitializationMode: starts at {time} s; {limit}")
+        });
         Ok(())
     })
 }

@@ -114,22 +114,26 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    /// How far the boundary went, or what it carries \[m\].
-    pub(crate) fn farthest(&self) -> f64 {
-        let [x, y, z, ..] = self.led;
-        (x * x + y * y + z * z).sqrt().max(self.carried)
+    /// How far the boundary went, or what it carries, or a surface at the distance `extent` from its point of reference
+    /// \[m\].
+    pub(crate) fn farthest(&self, extent: f64) -> f64 {
+        let [x, y, z, u, v, w] = self.led;
+        let swept = (u * u + v * v + w * w).sqrt() * extent;
+        ((x * x + y * y + z * z).sqrt() + swept).max(self.carried)
     }
 }
 
 /// Largest speed that each boundary has, or gets in the communication step that has begun, of the particles that it
-/// carries \[m/s\].
+/// carries or, where it is a surface that turns, may meet \[m/s\].
 pub(crate) fn speeds<'a>(
     scene: &'a Scene,
     bodies: &'a [Option<RigidBody>],
     state: &'a State,
 ) -> impl Iterator<Item = f64> + 'a {
     let time = state.clock.time;
-    scene.boundaries.iter().zip(bodies).zip(&state.boundaries).map(move |((boundary, body), moved)| {
+    let extents = state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
+    let boundaries = scene.boundaries.iter().zip(bodies).zip(&state.boundaries).zip(extents);
+    boundaries.map(move |(((boundary, body), moved), extent)| {
         // Of what an axis is known to do, the faster: as it moves, as it is about to, as the scene says.
         let speed = |axis: usize, now: f64| {
             let said = boundary.axes[axis].at(time).map_or(0.0, |[_, velocity]| velocity.abs());
@@ -137,7 +141,7 @@ pub(crate) fn speeds<'a>(
         };
         let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
         let about = Vector::from([0, 1, 2].map(|axis| speed(3 + axis, moved.angular_velocity[axis]))).length();
-        along + body.as_ref().map_or(0.0, |body| about * body.farthest)
+        along + body.as_ref().map_or(0.0, |body| about * body.farthest.max(extent))
     })
 }
 

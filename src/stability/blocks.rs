@@ -15,13 +15,19 @@ type Triangle = [f32; 21];
 const ROUNDING: f64 = 1e-5;
 
 /// Most sweeps over the bodies that limit the step.
-const SWEEPS: usize = 24;
+const SWEEPS: usize = 30;
 
-/// Gain of the bound in two sweeps below which there are no more.
-const GAIN: f64 = 5e-4;
+/// Sweeps in which the bound may stand still: the largest of many roots often waits for its neighbours.
+const PATIENCE: usize = 4;
 
-/// Parts of the first bound above which bodies are swept, one after the other until those below limit nothing.
+/// Gain of the bound in so many sweeps below which there are no more.
+const GAIN: f64 = 2e-3;
+
+/// Parts of the first bound above which bodies are swept, one after the other until a lower one gains nothing.
 const LEVELS: [f64; 4] = [0.92, 0.84, 0.74, 0.6];
+
+/// Gain of the bound by a level below which there is no further one.
+const LEVEL_GAIN: f64 = 4e-3;
 
 /// Largest and least share ratio t.
 const MOST_UNEVEN: f64 = 1e6;
@@ -94,8 +100,13 @@ fn swept<'a>(network: &'a Network, guess: f64) -> (Blocks<'a>, (f64, Option<usiz
     let first = blocks.largest(0..movers, 0.0);
     let mut best = first;
     for level in LEVELS {
+        if level * first.0 >= best.0 {
+            continue;
+        }
+        let before = best.0;
         best = blocks.refine(level * first.0, best);
-        if best.0 > level * first.0 {
+        // Bodies below a level bear nothing of what those above it could hand on: what they hold up, a lower one finds.
+        if best.0 > level * first.0 && best.0 > (1.0 - LEVEL_GAIN) * before {
             break;
         }
     }
@@ -280,7 +291,7 @@ impl Blocks<'_> {
         let active: Vec<usize> = (0..network.movers()).filter(|&mover| swept[mover]).collect();
         let mut vectors = vec![ASKEW; active.len()];
         let mut roots = vec![best.0; active.len()];
-        let (mut least, mut history) = (best, [f64::INFINITY; 2]);
+        let (mut least, mut history) = (best, [f64::INFINITY; PATIENCE]);
         for sweep in 0..SWEEPS {
             for ((&mover, vector), root) in active.iter().zip(&mut vectors).zip(&mut roots) {
                 let iterations = if sweep == 0 { ITERATIONS } else { 2 };
@@ -290,10 +301,10 @@ impl Blocks<'_> {
             if top.0 < least.0 {
                 least = (top.0, top.1.or(least.1));
             }
-            if top.0 <= floor || top.0 > (1.0 - GAIN) * history[0] || sweep + 1 == SWEEPS {
+            let before = std::mem::replace(&mut history[sweep % PATIENCE], least.0);
+            if top.0 <= floor || least.0 > (1.0 - GAIN) * before || sweep + 1 == SWEEPS {
                 break;
             }
-            history = [history[1], top.0];
             for (&mover, root) in active.iter().zip(&roots) {
                 let ratio = (root / top.0).clamp(0.3, 1.0);
                 let (fourth, eighth) = (ratio.sqrt().sqrt(), ratio.sqrt().sqrt().sqrt());

@@ -133,8 +133,7 @@ impl Found {
 }
 
 impl System<'_> {
-    /// The stable time step of the network as it may get, and of impacts to come at up to this speed \[m/s\].
-    ///
+    /// The stable time step of the network as it may get, and of impacts to come at up to twice this speed \[m/s\].
     /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
     pub(crate) fn find(&self, ahead: &Ahead, speed: f64, guess: f64, counter: &mut u64, context: &Context) -> Found {
         let network = self.network(ahead);

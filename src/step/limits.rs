@@ -10,19 +10,25 @@ use crate::state::State;
 use crate::threads::Context;
 
 /// Time steps in which the motion of a flow uses up what was foreseen, about.
-const STEPS_BETWEEN_LOOKS: f64 = 500.0;
+const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
 
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
 
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
-const CERTAIN: f64 = 0.1;
+const CERTAIN: f64 = 0.05;
 
 /// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
 const LEAST: [f64; 2] = [2e-6, 2e-3];
 
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
+
+/// How much longer the automatic time step may be than that for which it was foreseen.
+const MUCH_LONGER: f64 = 20.0;
+
+/// How often it is foreseen at a time.
+const MOST_TRIES: usize = 4;
 
 /// The automatic time step of a scene in which nothing is stiff \[s\].
 pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
@@ -31,8 +37,10 @@ pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 struct Sight {
     /// How far.
     ahead: Ahead,
-    /// Half of the speed at which bodies may meet that are not near each other \[m/s\].
+    /// Half of the speed at which bodies may meet \[m/s\].
     speed: f64,
+    /// The largest speed of anything \[m/s\].
+    fastest: f64,
 }
 
 impl Simulation {
@@ -44,11 +52,10 @@ impl Simulation {
     /// The stable time step of the network of contacts and bonds as it may become soon, and of impacts to come; with what
     /// limits it.
     pub fn limit(&self) -> Limit {
-        let sight = self.sight(self.state.clock.step);
         let mut counter = self.state.foresight.counter;
-        let (system, context) = (self.system(), self.standing());
-        let found = system.find(&sight.ahead, sight.speed, 0.0, &mut counter, &context);
-        let by = system.limiter(&sight.ahead, sight.speed, &found, counter, &context);
+        let context = self.standing();
+        let (sight, found) = self.foresee(self.state.clock.step, 0.0, &mut counter, &context);
+        let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &context);
         Limit { safe: found.safe(), by }
     }
 
@@ -81,15 +88,49 @@ impl Simulation {
             to: clock.time + STEPS_BETWEEN_LOOKS * step,
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
-        Sight { ahead: Ahead { margin, way, acceleration, boundaries, window }, speed }
+        let ahead = Ahead { margin, way, acceleration, boundaries, window };
+        Sight { ahead, speed, fastest: fastest.max(driven) }
+    }
+
+    /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer.
+    fn foresee(&self, step: f64, guess: f64, counter: &mut u64, context: &Context) -> (Sight, stability::Found) {
+        let mut step = step;
+        let mut tries = 0;
+        loop {
+            let sight = self.sight(step);
+            let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
+            if !self.may_strangers_meet(&sight, &found, step) {
+                found.impacts = 0.0;
+            }
+            let next = self.automatic_step(found.safe()).unwrap_or(step);
+            tries += 1;
+            if next <= MUCH_LONGER * step || sight.fastest == 0.0 || tries == MOST_TRIES {
+                return (sight, found);
+            }
+            step = next;
+        }
+    }
+
+    /// Whether bodies that are in no list may meet before the next look, at time steps of this length \[s\] or of the one that
+    /// follows from the network alone.
+    fn may_strangers_meet(&self, sight: &Sight, found: &stability::Found, step: f64) -> bool {
+        let step = self.automatic_step(2.0 / found.network).unwrap_or(step).max(step);
+        let way = sight.ahead.way.max(2.0 * sight.fastest * STEPS_BETWEEN_LOOKS * step);
+        !self.search.holds_all_within(&self.state, way)
+    }
+
+    /// The automatic time step that belongs to a stable one \[s\]; none where it is given.
+    fn automatic_step(&self, stable: f64) -> Option<f64> {
+        match self.scene.run.step {
+            Step::Given(_) => None,
+            Step::Automatic { safety } => Some((safety * stable).min(LONGEST_AUTOMATIC_STEP)),
+        }
     }
 
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
     pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
-        let sight = self.sight(step);
         let mut counter = self.state.foresight.counter;
-        let guess = self.state.foresight.root;
-        let found = self.system().find(&sight.ahead, sight.speed, guess, &mut counter, context);
+        let (sight, found) = self.foresee(step, self.state.foresight.root, &mut counter, context);
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();
         self.state.foresight = crate::state::Foresight {
@@ -168,10 +209,15 @@ impl Simulation {
         course::speeds(&self.scene, &self.bodies, &self.state).fold(0.0, f64::max)
     }
 
+    /// Whether the scene moves a boundary, at a speed that is not that of the communication step's beginning.
+    pub(super) fn boundaries_change_speed(&self) -> bool {
+        let time = self.state.clock.time;
+        self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
+    }
+
     /// Shortens an automatic time step when the stable one has become shorter. Returns whether it has.
     pub(super) fn shorten_step(&mut self) -> bool {
-        let Step::Automatic { safety } = self.scene.run.step else { return false };
-        let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
         // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
         let shorter = step < self.state.clock.step && step > 0.0;
         if shorter {
@@ -182,8 +228,7 @@ impl Simulation {
 
     /// Lengthens an automatic time step, between communication steps, where the packing allows a good deal more.
     pub(super) fn lengthen_step(&mut self) {
-        let Step::Automatic { safety } = self.scene.run.step else { return };
-        let step = (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP);
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
         if step > LENGTHENING * self.state.clock.step {
             self.state.clock.step = step;
         }
@@ -196,10 +241,7 @@ impl Simulation {
             Step::Automatic { .. } => 0.0,
         };
         self.look(given, context)?;
-        self.state.clock.step = match self.scene.run.step {
-            Step::Given(step) => step,
-            Step::Automatic { safety } => (safety * self.state.clock.stable).min(LONGEST_AUTOMATIC_STEP),
-        };
+        self.state.clock.step = self.automatic_step(self.state.clock.stable).unwrap_or(given);
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod coefficients;
+mod depth;
 mod limits;
 mod observe;
 mod placement;
@@ -296,7 +297,7 @@ impl Simulation {
     /// the way, the rest is divided again. Returns how long they took \[s\], and why they ended early.
     fn run(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
         let width = self.width;
-        let boundaries = self.boundary_speed();
+        let mut boundaries = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
         if self.is_due(boundaries, step) {
             if let Err(error) = self.look(step, &Context { step, width, threads }) {
@@ -320,6 +321,9 @@ impl Simulation {
             let (context, elapsed) = (Context { step, width, threads }, elapsed(progress.done));
             if let Err(error) = self.step(progress, &context) {
                 return (elapsed, Err(error));
+            }
+            if self.boundaries_change_speed() {
+                boundaries = self.boundary_speed();
             }
             if !self.is_due(boundaries, step) {
                 continue;
@@ -353,11 +357,14 @@ impl Simulation {
         let ways = &self.room.ways;
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
         self.state.neighbours.travel += (speed * step).max(carried);
-        let farthest = ways.iter().fold(speed * step, |most: f64, way| most.max(way.farthest()));
+        let extents = self.state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
+        let ways = ways.iter().zip(extents).map(|(way, extent)| way.farthest(extent));
+        let farthest = ways.fold(speed * step, f64::max);
         self.state.foresight.travel += farthest;
-        let mut result = Ok(());
-        if self.search.outdated(&mut self.state, context) {
-            result = self.check_domain();
+        let outdated = self.search.outdated(&mut self.state, context);
+        let mut result = if self.is_depth_due(speed * step, outdated) { self.check_depth() } else { Ok(()) };
+        if outdated {
+            result = result.and_then(|()| self.check_domain());
             self.rebuild(context);
         }
         if !self.scene.bonds.is_empty() {

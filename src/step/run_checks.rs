@@ -5,14 +5,10 @@ use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
 use crate::state::Clock;
-use crate::state::contacts::TOUCHING;
 use crate::surface;
 
 /// Way of a particle in one time step, over its radius, that is no longer taken for motion.
 const RUNAWAY: f64 = 0.5;
-
-/// Overlap over the smaller radius at which the centre of one particle is inside the other: no contact law means that.
-const DEEPEST: f64 = 1.0;
 
 /// Cohesion energy density over effective modulus from which contacts collapse.
 pub(crate) const COLLAPSING_COHESION: f64 = 0.07;
@@ -35,7 +31,7 @@ impl Simulation {
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
             if way > RUNAWAY * radius {
                 let [speed, force] = [velocity, force].map(|row| Vector::from(row).length());
-                let cause = self.cause_of_way(speed, force, step * speed > 0.5 * way);
+                let cause = self.cause_of_way(step, speed, force, step * speed > 0.5 * way);
                 return Err(self.runaway(particles.id[slot], way / radius, cause));
             }
         }
@@ -45,7 +41,7 @@ impl Simulation {
             if way > RUNAWAY * body.smallest {
                 let now = body.coming_speed(moved, 0.0);
                 let force = Vector::from(moved.inertial.load).length();
-                let cause = self.cause_of_way(now, force, step * now > 0.5 * way);
+                let cause = self.cause_of_way(step, now, force, step * now > 0.5 * way);
                 let Some(&member) = body.members.first() else {
                     let (boundary, time) = (self.scene.boundaries[index].name.clone(), self.time());
                     return Err(RunError::SurfaceRunaway { boundary, way, radii: way / body.smallest, time, cause });
@@ -61,14 +57,14 @@ impl Simulation {
         RunError::Runaway { id, radii, time: self.time(), cause }
     }
 
-    /// Why a body goes far in one step: the step, its speed \[m/s\] (where it `has` that already) or the force on it \[N\].
-    fn cause_of_way(&self, speed: f64, force: f64, has: bool) -> Cause {
-        let Clock { last_step: step, stable, .. } = self.state.clock;
+    /// Why a body goes far in one step \[s\]: the step itself, its speed \[m/s\] (where it `has` that already) or the force on it \[N\].
+    fn cause_of_way(&self, step: f64, speed: f64, force: f64, has: bool) -> Cause {
+        let stable = self.state.clock.stable;
         self.step_as_cause().unwrap_or(if has { Cause::Speed { speed, step, stable } } else { Cause::Force { force } })
     }
 
     /// The time step as the cause, where it is above the stable one.
-    fn step_as_cause(&self) -> Option<Cause> {
+    pub(super) fn step_as_cause(&self) -> Option<Cause> {
         let Clock { last_step, step, stable, .. } = self.state.clock;
         let step = if last_step > 0.0 { last_step } else { step };
         (step > stable).then_some(Cause::Step { step, stable })
@@ -80,37 +76,13 @@ impl Simulation {
         self.step_as_cause().unwrap_or(Cause::Unseen { step, stable })
     }
 
-    /// Stops where cohesion has pulled particles so deep into each other that no law holds, and before energy comes out of
-    /// nothing. Other deep overlaps are what the scene or a jump of a boundary put there.
+    /// Stops where particles are so deep in each other that no law holds, and before energy comes out of nothing.
     pub(super) fn check_contacts(&self) -> Result<(), RunError> {
         if self.scene.run.allow_unstable {
             return Ok(());
         }
-        if self.scene.contacts.iter().any(|law| law.cohesion.name() != "none") {
-            self.check_collapse()?;
-        }
+        self.check_depth()?;
         self.check_energy()
-    }
-
-    /// Stops where contacts have collapsed.
-    fn check_collapse(&self) -> Result<(), RunError> {
-        let particles = &self.state.particles;
-        for list in &self.state.contacts {
-            for place in (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0) {
-                let [i, j] = [list.first[place], list.second[place]].map(|slot| slot as usize);
-                let (a, b) = (particles.position[i], particles.position[j]);
-                let apart = Vector::from(a) - Vector::from(b);
-                let overlap = (a[3] + b[3] - apart.length()) / a[3].min(b[3]);
-                let [one, other] = [i, j].map(|slot| particles.material[slot] as usize);
-                let ratio = self.scene.cohesion_ratio(one, other).filter(|ratio| *ratio > COLLAPSING_COHESION);
-                if let Some(ratio) = ratio.filter(|_| overlap > DEEPEST) {
-                    let [first, second] = [i, j].map(|slot| particles.id[slot]);
-                    let cause = Cause::Cohesion { ratio, bound: COLLAPSING_COHESION };
-                    return Err(RunError::Crushed { first, second, overlap, time: self.time(), cause });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Stops where a scene that keeps an energy book sees more energy come out of contacts and bonds than went in. The

@@ -126,3 +126,19 @@ fn what_trembles_for_ever_is_told_with_the_reason() {
     let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap(), 1);
     assert!(said.contains("comes no nearer") && said.contains("rolling.cdt"), "{said}");
 }
+
+/// Damping that leaves gravity out holds a body beside its rest, as dry friction would.
+#[test]
+fn what_damping_without_gravity_holds_off_its_rest_is_told_with_the_reason() {
+    let place = Place::new("gravity_undamped");
+    let scene = place.at("scene.toml");
+    let text = "gravity = [0.0, 0.0, -9.0]\n[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e6\n\
+                poissons_ratio = 0.3\n[pair.a.a]\nrestitution = 1.0\n[contact.c.normal.hertz]\n[particles.p]\nmaterial = \"a\"\n\
+                list = [ { position = [0.0, 0.0, 0.01], radius = 0.01 } ]\n\
+                [boundary.f]\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nmaterial = \"a\"\n\
+                [damping.d]\nparticles = { set = \"p\" }\nlinear = 0.1\nangular = 0.1\ngravity_damped = false\n";
+    fs::write(&scene, text).unwrap();
+    let state = place.at("settled.cograin");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap(), 1);
+    assert!(said.contains("comes no nearer") && said.contains("gravity_damped"), "{said}");
+}

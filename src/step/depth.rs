@@ -1,0 +1,85 @@
+//! Particles that are deeper in each other than any contact law means.
+
+use super::run_checks::COLLAPSING_COHESION;
+use super::{RunError, Simulation};
+use crate::motion::InputCourse;
+use crate::number::Vector;
+use crate::run_error::Cause;
+use crate::state::contacts::TOUCHING;
+
+/// Overlap over the smaller radius at which the centre of one particle is inside the other: no contact law means that.
+const DEEPEST: f64 = 1.0;
+
+/// Way over the smallest radius between two looks: particles do not pass through each other unseen.
+const BETWEEN_LOOKS: f64 = 0.25;
+
+/// Way in one time step over the smallest radius above which every step is looked at.
+const FAST: f64 = 0.1;
+
+impl Simulation {
+    /// Whether it is time to look how deep contacts are, in a step in which nothing moves further than by `way` \[m\]: where that
+    /// is much, and when the neighbour lists are outdated, every time or, where they reach less far, less often.
+    pub(super) fn is_depth_due(&self, way: f64, outdated: bool) -> bool {
+        let smallest = self.search.smallest_radius();
+        let lists = (BETWEEN_LOOKS * smallest / self.state.neighbours.skin) as u64;
+        let due = way > FAST * smallest || (outdated && self.state.clock.rebuilds.is_multiple_of(lists.max(1)));
+        due && !self.scene.run.allow_unstable
+    }
+
+    /// Stops where one particle's centre is inside another: cohesion has pulled it there, an impact or a load has pushed
+    /// it. What the scene put there, bonded bodies and jumps of a boundary are not judged.
+    pub(super) fn check_depth(&self) -> Result<(), RunError> {
+        let particles = &self.state.particles;
+        for list in &self.state.contacts {
+            for place in (0..list.flags.len()).filter(|&place| list.flags[place] & TOUCHING != 0) {
+                let slots = [list.first[place], list.second[place]];
+                let [a, b] = slots.map(|slot| particles.position[slot as usize]);
+                let apart = Vector::from(a) - Vector::from(b);
+                let overlap = (a[3] + b[3] - apart.length()) / a[3].min(b[3]);
+                if overlap > DEEPEST
+                    && let Some(cause) = self.cause_of_depth(slots, apart)
+                {
+                    let [first, second] = slots.map(|slot| particles.id[slot as usize]);
+                    return Err(RunError::Crushed { first, second, overlap, time: self.time(), cause });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Why two particles (slots) are that deep in each other, whose centres are this vector apart \[m\]; none where it was
+    /// meant.
+    fn cause_of_depth(&self, slots: [u32; 2], apart: Vector) -> Option<Cause> {
+        let particles = &self.state.particles;
+        let [one, other] = slots.map(|slot| particles.material[slot as usize] as usize);
+        let cohesive = self.scene.cohesion_ratio(one, other).filter(|ratio| *ratio > COLLAPSING_COHESION);
+        if let Some(ratio) = cohesive {
+            return Some(Cause::Cohesion { ratio, bound: COLLAPSING_COHESION });
+        }
+        let ids = slots.map(|slot| particles.id[slot as usize]);
+        let jumps = self.scene.boundaries.iter().any(|boundary| boundary.input == InputCourse::Hold);
+        if jumps || self.began_deep(ids) || self.are_bonded(slots) {
+            return None;
+        }
+        let [u, v] = slots.map(|slot| Vector::from(particles.velocity[slot as usize]));
+        let closing = -(u - v).dot(apart) / apart.length();
+        Some(self.step_as_cause().unwrap_or(match closing > 0.0 {
+            true => Cause::Impact { speed: closing },
+            false => Cause::Load,
+        }))
+    }
+
+    /// Whether the scene puts two particles (index) so deep into each other that they may get there again.
+    fn began_deep(&self, ids: [u32; 2]) -> bool {
+        let [a, b] = ids.map(|id| &self.scene.particles[id as usize]);
+        let apart = (Vector::from(a.position) - Vector::from(b.position)).length();
+        a.radius + b.radius - apart > 0.5 * DEEPEST * a.radius.min(b.radius)
+    }
+
+    /// Whether a bond holds two particles (slots).
+    fn are_bonded(&self, slots: [u32; 2]) -> bool {
+        let [i, j] = slots;
+        let holds = |pair: (&u32, &u32)| pair == (&i, &j) || pair == (&j, &i);
+        self.state.bonds.iter().any(|list| list.first.iter().zip(&list.second).any(holds))
+    }
+}
