@@ -4,7 +4,7 @@
   cargo build --release && benches/unit_cost.py [SCENE ...]
 
 A small host in C (unit_cost.c, built with cc) calls the unit's library directly, so nothing of an importer is measured. Each
-figure is the least of several repeats. "Over the engine" is what one call of one time step takes more than a hundredth of a
+figure is the least processor time of several repeats. "Over the engine" is what one call of one time step takes more than a hundredth of a
 call of a hundred. Without scenes: the smallest (two spheres, one held), models/ice_beam, 10,000 spheres, and 1,000
 units with two threads each, one after the other in one process.
 """
