@@ -89,9 +89,8 @@ fn spares(scene: &Scene) -> Vec<Spare> {
             spares.push(Spare { what, without });
         };
         if law.tangential.name() != "none" && zero(|pair| pair.friction) {
-            add("tangential", law.tangential.name(), "friction", |law| {
-                law.tangential = TangentialChoice::None(NoKeys {})
-            });
+            let drop = |law: &mut ContactLaw| law.tangential = TangentialChoice::None(NoKeys {});
+            add("tangential", law.tangential.name(), "friction", drop);
         }
         if law.rolling.name() != "none" && zero(|pair| pair.rolling_friction) {
             add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = RollingChoice::None(NoKeys {}));
