@@ -181,7 +181,7 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
         (
             "vtu",
             format!("{particles}file = \"packed.vtu\"\n"),
-            "data that need about 0.60 GB of memory instead of what fits into",
+            "data that need about 1.20 GB of memory instead of what fits into",
         ),
         ("stl", mesh, "large.stl: triangles that need about 0.12 GB of memory found; what fits into"),
     ] {

@@ -115,6 +115,16 @@ fn a_later_end_goes_on_bit_for_bit() {
 fn settling_begins_with_the_checkpoint_of_another_scene_and_leaves_boundaries_and_springs() {
     let place = Place::new("settle_from");
     let scenes = stages(&place);
+    // Walls all round, so that the spheres can come to rest.
+    for scene in &scenes {
+        let wall = |name: &str, at: f64, normal: f64| {
+            format!(
+                "[boundary.{name}]\nplane = {{ point = [0.0, {at}, 0.0], normal = [0.0, {normal:?}, 0.0] }}\nmaterial = \"glass\"\n"
+            )
+        };
+        let text = fs::read_to_string(scene).unwrap();
+        fs::write(scene, text + &wall("y_low", -0.01, 1.0) + &wall("y_high", 0.02, -1.0)).unwrap();
+    }
     let [prepared, consolidated, sheared] = ["prepared", "consolidated", "sheared"].map(|name| place.at(name));
     let settled = place.at("settled.cograin");
     complaint(&cograin(&[&"run", &scenes[0], &"-o", &prepared]).output().unwrap(), 0);

@@ -1,6 +1,7 @@
 //! Springs of contacts and bonds, from the lists of one scene to those of another.
 
 use super::{Description, Numbers};
+use crate::bond::Law;
 use crate::contact::HistoryRow;
 use crate::scene::Scene;
 use crate::state::contacts::{BONDED, RELEASED, SILENT};
@@ -130,8 +131,8 @@ impl Simulation {
             };
             match self.scene.bonds.iter().position(same) {
                 Some(law) => {
-                    let lossy = self.scene.bonds[law].law.dissipates();
-                    self.state.bonds[law] = self.bonds_here(list, reached, numbers, lossy);
+                    let here = self.bonds_here(list, reached, numbers, &self.scene.bonds[law].law);
+                    self.state.bonds[law] = here;
                     taken[law] = true;
                     let missing = list.first.len() - self.state.bonds[law].first.len();
                     if missing > 0 {
@@ -150,12 +151,13 @@ impl Simulation {
     }
 
     /// The bonds of a list between particles that are here, in the present order of the particles.
-    fn bonds_here(&self, list: &BondList, reached: &State, numbers: &Numbers, lossy: bool) -> BondList {
+    fn bonds_here(&self, list: &BondList, reached: &State, numbers: &Numbers, law: &Law) -> BondList {
         let slot = |old: u32| {
             let here = numbers.at(reached.particles.id[old as usize])?;
             Some(self.state.particles.slot[here as usize])
         };
-        let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], ..BondList::default() };
+        let damping = if law.damping.is_some() { vec![Vec::new(); 3] } else { Vec::new() };
+        let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], damping, ..BondList::default() };
         for bond in 0..list.first.len() {
             let second = list.second.get(bond).map(|&second| slot(second));
             let (Some(first), true) = (slot(list.first[bond]), second.is_none_or(|second| second.is_some())) else {
@@ -167,8 +169,11 @@ impl Simulation {
             for (column, row) in new.rows.iter_mut().zip(&list.rows) {
                 column.push(row[bond]);
             }
-            if lossy {
+            if law.dissipates() {
                 new.lost.push(list.lost.get(bond).copied().unwrap_or(0.0));
+            }
+            for (place, column) in new.damping.iter_mut().enumerate() {
+                column.push(list.damping.get(place).and_then(|rows| rows.get(bond)).copied().unwrap_or_default());
             }
         }
         new.made = new.first.len() as u64;

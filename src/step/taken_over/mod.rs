@@ -126,7 +126,7 @@ fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), 
         for &member in boundary.shape.members() {
             let (now, then) = (state.particles.position[member as usize], there[member as usize]);
             let way = (0..3).map(|axis| (now[axis] - then[axis]).powi(2)).sum::<f64>().sqrt();
-            if way > IN_PLACE * now[3] {
+            if way.is_nan() || way > IN_PLACE * now[3] {
                 let (boundary, id) = (boundary.name.clone(), scene.particles[member as usize].id.0);
                 return Err(RunError::GroupElsewhere { boundary, id, way });
             }
