@@ -1,12 +1,17 @@
 //! Boundaries as rigid bodies: what they weigh, and how forces move their free axes.
 
+mod groups;
+mod kick;
+
+pub(crate) use groups::{coming_speed, kick_again, place_groups};
+
 use super::implicit::{self, Triangle};
 use super::inertia::{Matrix, sphere_inertia};
 use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
-use crate::state::{BoundaryState, Orientation, Particles, State};
+use crate::state::{BoundaryState, Orientation};
 
 /// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
 const ITERATIONS: usize = 40;
@@ -58,16 +63,6 @@ pub(crate) struct RigidBody {
 
 /// A motion: velocity of the reference point \[m/s\] and angular velocity \[rad/s\].
 pub(crate) type Motion = [Vector; 2];
-
-/// What half a kick makes of the free axes.
-struct Kick {
-    /// Their motion afterwards.
-    motion: Motion,
-    /// Angular momentum afterwards \[kg m²/s\].
-    momentum: Vector,
-    /// Impulse and angular impulse of what stiff contacts add to the inertia \[N s, N m s\].
-    added: [f64; 6],
-}
 
 /// The bodies of a scene; `None` for boundaries that only stand or shift.
 pub(crate) fn of(scene: &Scene) -> Vec<Option<RigidBody>> {
@@ -182,89 +177,6 @@ impl RigidBody {
         [x, y, z, a, b, c]
     }
 
-    /// Half a kick to the free axes.
-    pub(crate) fn kick(&self, moved: &mut BoundaryState, step: f64) {
-        let Kick { motion: [velocity, spin], momentum, added } = self.kicked(moved, step);
-        let before = moved.angular_velocity;
-        for axis in 0..3 {
-            if self.moves[axis] {
-                moved.inertial.kick[axis] = velocity.to_array()[axis] - moved.velocity[axis];
-                moved.velocity[axis] = velocity.to_array()[axis];
-            }
-        }
-        if self.spins() {
-            moved.inertial.angular_momentum = momentum.to_array();
-            moved.angular_velocity = spin.to_array();
-            moved.inertial.spin_kick = (spin - before.into()).to_array();
-        }
-        self.book(moved, added, step);
-    }
-
-    /// Books what half a kick gave beside the particles, weight and damping.
-    fn book(&self, moved: &mut BoundaryState, added: [f64; 6], step: f64) {
-        let inertial = &mut moved.inertial;
-        let freedoms = self.freedoms();
-        for axis in (0..6).filter(|&axis| freedoms[axis]) {
-            inertial.applied_impulse[axis] += 0.5 * step * inertial.applied[axis];
-            inertial.support_impulse[axis] += 0.5 * step * inertial.support[axis];
-            inertial.added_impulse[axis] += added[axis];
-        }
-    }
-
-    /// Angular momentum that half a kick gives \[kg m²/s\].
-    fn twist(&self, moved: &BoundaryState, step: f64) -> Vector {
-        self.about_free(moved.inertial.couple) * (0.5 * step)
-    }
-
-    /// Half a kick with the present load.
-    fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
-        let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
-        let before = Vector::from(inertial.angular_momentum);
-        let added = implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step);
-        if added == [0.0; 21] {
-            let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
-            let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
-            let momentum = before + self.twist(moved, step);
-            return Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [0.0; 6] };
-        }
-        let [shift, turn, impulse] = self.kicked_implicitly(moved, &added, step);
-        let velocity = self.along_free(moved.velocity) + shift;
-        let momentum = before + self.about_free(self.inertia.turned(orientation).times(turn).to_array());
-        let [x, y, z] = impulse.to_array();
-        let [a, b, c] = (momentum - before - self.twist(moved, step)).to_array();
-        Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [x, y, z, a, b, c] }
-    }
-
-    /// The change of velocity and of angular velocity by half a kick, and the impulse of what is added to the mass.
-    fn kicked_implicitly(&self, moved: &BoundaryState, added: &Triangle, step: f64) -> [Vector; 3] {
-        let free = self.freedoms();
-        let mut matrix = *added;
-        let inertia = self.inertia.turned(Quaternion::from(moved.orientation));
-        for row in 0..6 {
-            let held = if free[row] { 0.0 } else { 1.0 };
-            for column in 0..=row {
-                let own = match (row, column) {
-                    (0..3, _) if row == column => self.mass,
-                    (3..6, 3..6) => inertia.0[row - 3][column - 3],
-                    _ => 0.0,
-                };
-                let both = free[row] && free[column];
-                matrix[row * (row + 1) / 2 + column] += if both {
-                    own
-                } else if row == column {
-                    held
-                } else {
-                    0.0
-                };
-            }
-        }
-        let force = self.along_free(moved.inertial.load) * (0.5 * step);
-        let [[x, y, z], [a, b, c]] = [force, self.twist(moved, step)].map(Vector::to_array);
-        let [x, y, z, a, b, c] = implicit::solve(matrix, [x, y, z, a, b, c]);
-        let shift = Vector::new(x, y, z);
-        [shift, Vector::new(a, b, c), shift * self.mass - force]
-    }
-
     /// Puts what springs and dashpots to the ground do.
     pub(crate) fn support(&self, moved: &mut BoundaryState) {
         let places = [moved.displacement, moved.rotation].concat();
@@ -281,32 +193,6 @@ impl RigidBody {
             implicit::add_diagonal(&mut block, parts);
             block
         })
-    }
-
-    /// Power of what is added to its inertia, as work of the half kick that is about to be made \[J\].
-    pub(crate) fn added_work(&self, moved: &BoundaryState, step: f64) -> f64 {
-        let [x, y, z, a, b, c] = self.kicked(moved, step).added;
-        let [drift, turn] = self.mean_motion(moved, step);
-        drift.dot(Vector::new(x, y, z)) + turn.dot(Vector::new(a, b, c))
-    }
-
-    /// Mean of the motion of the free axes before and after half a kick with the present load.
-    pub(crate) fn mean_motion(&self, moved: &BoundaryState, step: f64) -> Motion {
-        let after = self.kicked(moved, step).motion;
-        let before = self.kicked(moved, 0.0).motion;
-        [0, 1].map(|part| (before[part] + after[part]) * 0.5)
-    }
-
-    /// Largest speed that one of its spheres can have after half a kick with the present load \[m/s\].
-    pub(crate) fn coming_speed(&self, moved: &BoundaryState, step: f64) -> f64 {
-        let [velocity, spin] = self.kicked(moved, step).motion;
-        velocity.length() + spin.length() * self.farthest
-    }
-
-    /// Kinetic energy of the free axes \[J\].
-    pub(crate) fn kinetic(&self, moved: &BoundaryState) -> f64 {
-        let [velocity, spin] = self.kicked(moved, 0.0).motion;
-        0.5 * self.mass * velocity.dot(velocity) + 0.5 * spin.dot(moved.inertial.angular_momentum.into())
     }
 
     /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].
@@ -405,88 +291,5 @@ fn turning(boundary: &Boundary) -> Turning {
         [] => Turning::Led,
         [axis] => Turning::About(axis),
         _ => Turning::Freely,
-    }
-}
-
-/// Puts the particles of groups where their boundary stands, with the motion that it has.
-pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State) {
-    let State { boundaries, particles, .. } = state;
-    for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(boundaries) {
-        moved.pivot = (Vector::from(boundary.reference) + moved.displacement.into()).to_array();
-        let members = boundary.shape.members();
-        if body.as_ref().is_some_and(|body| body.turning != Turning::Still) {
-            place_turned(scene, boundary, moved, members, particles);
-            continue;
-        }
-        for &member in members {
-            let slot = particles.slot[member as usize] as usize;
-            let home = scene.particles[member as usize].position;
-            for axis in 0..3 {
-                particles.position[slot][axis] = home[axis] + moved.displacement[axis];
-                particles.velocity[slot][axis] = moved.velocity[axis];
-            }
-        }
-    }
-}
-
-/// Puts the particles of a group that turns where it stands.
-fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
-    let orientation = Quaternion::from(moved.orientation);
-    for &member in members {
-        let slot = particles.slot[member as usize] as usize;
-        let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
-        let place = Vector::from(moved.pivot) + orientation.turn(home);
-        particles.position[slot][..3].copy_from_slice(&place.to_array());
-        if let Some(row) = particles.orientation.get_mut(slot) {
-            *row = moved.orientation.0;
-        }
-    }
-    give_motion(moved, members, particles);
-}
-
-/// Gives the particles of a group the motion of their body.
-fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
-    let (velocity, spin) = (Vector::from(moved.velocity), Vector::from(moved.angular_velocity));
-    for &member in members {
-        let slot = particles.slot[member as usize] as usize;
-        let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
-        particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(arm)).to_array());
-        particles.angular_velocity[slot][..3].copy_from_slice(&spin.to_array());
-    }
-}
-
-/// The second half of the kick to all free axes. Returns the largest speed of a sphere of theirs at the middle of the
-/// next step \[m/s\]; not a number where a load is none.
-pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &mut State, step: f64) -> f64 {
-    let mut fastest = 0.0;
-    for (index, body) in bodies.iter().enumerate() {
-        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
-        let moved = &mut state.boundaries[index];
-        body.kick(moved, step);
-        fastest = larger(fastest, body.coming_speed(moved, step));
-        give_free_motion(body, moved, &mut state.particles);
-    }
-    fastest
-}
-
-/// Largest speed of a sphere of a free group at the middle of a step of this length \[m/s\].
-pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f64) -> f64 {
-    let free = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some((body.as_ref()?, moved)));
-    free.fold(0.0, |most, (body, moved)| larger(most, body.coming_speed(moved, step)))
-}
-
-/// The larger of two numbers, or the second where it is none.
-fn larger(most: f64, one: f64) -> f64 {
-    if one > most || one.is_nan() { one } else { most }
-}
-
-/// Gives the spheres of a group the motion that it has after a kick.
-fn give_free_motion(body: &RigidBody, moved: &BoundaryState, particles: &mut Particles) {
-    if body.turning != Turning::Still {
-        return give_motion(moved, &body.members, particles);
-    }
-    for &member in &body.members {
-        let slot = particles.slot[member as usize] as usize;
-        particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
     }
 }
