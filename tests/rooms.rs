@@ -11,7 +11,7 @@ const ROOM: usize = 3000;
 const FILE: usize = 300;
 
 /// Files above that, each with its reason.
-const LONG: [(&str, &str); 27] = [
+const LONG: [(&str, &str); 26] = [
     ("command/src/main.rs", "one command after another; each is a few lines"),
     ("fmu/src/instance.rs", "the life of an instance: every call that FMI allows in each of its states"),
     ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
@@ -33,7 +33,6 @@ const LONG: [(&str, &str); 27] = [
     ("src/neighbours/mod.rs", "when lists are made, and what they are made of"),
     ("src/stability/blocks.rs", "one proof: the bound of a network without bonds, term by term"),
     ("src/stability/lanczos.rs", "one proof: iteration and certificate share their vectors"),
-    ("src/stability/mod.rs", "how the parts of the network and of its bound are put together"),
     ("src/state/check.rs", "each part of the state looks through itself: one function a part"),
     ("src/step/mod.rs", "the order of one time step"),
     ("src/surface/mesh/mod.rs", "one shape: feet on faces, edges and vertices"),
