@@ -241,6 +241,9 @@ const MOTIONS: Rule = Rule {
         "AxisMotion::Scheduled",
         "AxisMotion::Free",
         "AxisMotion::Loaded",
+        "AxisMotion::Steered",
+        "AxisMotion::Tabulated",
+        "AxisMotion::Servo",
     ],
     why: "which motion an axis has is asked in its room alone; others ask what it can do",
 };

@@ -118,7 +118,7 @@ fn boundaries_move_along_the_axes_named() {
     assert_eq!(floor.input, InputCourse::Smooth);
     assert_eq!(floor.shape.plane().unwrap().normal, [0.0, 0.0, 1.0]);
     assert_eq!(grip.shape.members(), [3, 4]);
-    assert_eq!(grip.axes, [Fixed; 6]);
+    assert_eq!(grip.axes, [const { Fixed }; 6]);
     assert_eq!(grip.reference, [0.0, 0.109, 0.02]);
 }
 

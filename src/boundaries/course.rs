@@ -27,7 +27,12 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
             if boundary.axes[axis].takes_force() {
                 moved.start[axis] = moved.target[axis];
             }
+            moved.end[axis] = end_of(boundary, moved, axis, interval);
             moved.target[axis] += moved.target_rate[axis] * interval;
+        }
+        if boundary.axes[3..].iter().filter(|motion| motion.takes_velocity()).count() > 1 {
+            let there = rotation::orientation(turn.into()) * Quaternion::from(moved.orientation);
+            moved.end[3..].copy_from_slice(&rotation::vector_near(there, moved.rotation.into()).to_array());
         }
         moved.target_rate = [0.0; 6];
         moved.start_orientation = moved.orientation;
@@ -39,9 +44,22 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
     Ok(())
 }
 
+/// Where an axis is to be at the end of a communication step of `interval` \[s\] \[m, rad\], or what is laid on it then \[N, N m\].
+fn end_of(boundary: &Boundary, moved: &BoundaryState, axis: usize, interval: f64) -> f64 {
+    match boundary.axes[axis].takes_velocity() {
+        true => moved.start[axis] + mean_velocity(moved, axis, interval) * interval,
+        false => moved.target[axis] + moved.target_rate[axis] * interval,
+    }
+}
+
+/// The mean of a velocity that is given, over a communication step of `interval` \[s\] \[m/s, rad/s\].
+fn mean_velocity(moved: &BoundaryState, axis: usize, interval: f64) -> f64 {
+    moved.target[axis] + 0.5 * moved.target_rate[axis] * interval
+}
+
 /// Puts the loads that the outside gives, as they are to be from now on, on a boundary.
 pub(crate) fn apply_inputs(boundary: &Boundary, moved: &mut BoundaryState) {
-    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
+    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_load()) {
         let Inertial { load, couple, applied, .. } = &mut moved.inertial;
         let change = moved.target[axis] - applied[axis];
         *(if axis < 3 { &mut load[axis] } else { &mut couple[axis - 3] }) += change;
@@ -49,7 +67,7 @@ pub(crate) fn apply_inputs(boundary: &Boundary, moved: &mut BoundaryState) {
     }
 }
 
-/// Largest speed of each driven axis on its way through a communication step of `interval` \[s\]: along it \[m/s\] and
+/// Largest speed of each axis that the outside moves on its way through a communication step of `interval` \[s\]: along it \[m/s\] and
 /// about it \[rad/s\].
 fn fastest(boundary: &Boundary, moved: &BoundaryState, interval: f64) -> [f64; 6] {
     let steepest = match boundary.input {
@@ -60,8 +78,10 @@ fn fastest(boundary: &Boundary, moved: &BoundaryState, interval: f64) -> [f64; 6
         InputCourse::Smooth => 1.5,
     };
     std::array::from_fn(|axis| {
-        let way = if axis < 3 { moved.target[axis] - moved.start[axis] } else { moved.turn[axis - 3] };
-        if boundary.axes[axis].is_driven() { steepest * way / interval } else { 0.0 }
+        let way = if axis < 3 { moved.end[axis] - moved.start[axis] } else { moved.turn[axis - 3] };
+        let motion = &boundary.axes[axis];
+        let limit = motion.servo().map_or(0.0, motion::Servo::limit);
+        if motion.is_driven() { steepest * way / interval } else { limit }
     })
 }
 
@@ -76,7 +96,11 @@ fn turn_ahead(boundary: &Boundary, moved: &BoundaryState, interval: f64, time: f
     let driven = || (0..3_usize).filter(|axis| boundary.axes[3 + axis].is_driven());
     let target = |axis: usize| moved.target[3 + axis] + moved.target_rate[3 + axis] * interval;
     let mut turn = [0.0; 3];
-    if let (Some(axis), 1) = (driven().next(), driven().count()) {
+    if boundary.axes[3..].iter().any(AxisMotion::takes_velocity) {
+        for axis in driven() {
+            turn[axis] = mean_velocity(moved, 3 + axis, interval) * interval;
+        }
+    } else if let (Some(axis), 1) = (driven().next(), driven().count()) {
         turn[axis] = target(axis) - moved.rotation[axis];
     } else if driven().next().is_some() {
         let mut rotation = [0.0; 3];
@@ -166,7 +190,11 @@ pub(crate) fn advance(
                 moved.displacement[axis] += progress.step * moved.velocity[axis];
                 continue;
             }
-            let (start, target, course) = (moved.start[axis], moved.target[axis], boundary.input);
+            if let Some(gone) = serve(boundary, moved, axis, &progress) {
+                way.led[axis] = gone;
+                continue;
+            }
+            let (start, target, course) = (moved.start[axis], moved.end[axis], boundary.input);
             let whole = motion::Way { start, target, before: before[axis], course };
             if let Some([displacement, velocity]) = boundary.axes[axis].lead(&whole, &progress) {
                 (moved.displacement[axis], moved.velocity[axis]) = (displacement, velocity);
@@ -188,12 +216,27 @@ pub(crate) fn advance(
     }
 }
 
+/// The force that is given after a share of a communication step \[N, N m\].
+fn input_at(moved: &BoundaryState, axis: usize, share: f64) -> f64 {
+    let (start, end) = (moved.start[axis], moved.end[axis]);
+    if share < 1.0 { start + (end - start) * share } else { end }
+}
+
+/// Moves an axis towards the force that is given, and returns its way \[m\].
+fn serve(boundary: &Boundary, moved: &mut BoundaryState, axis: usize, progress: &Progress) -> Option<f64> {
+    let servo = boundary.axes[axis].servo()?;
+    let missing = input_at(moved, axis, progress.share(InputCourse::Ramp)) - moved.force[axis];
+    moved.velocity[axis] = servo.velocity(missing, moved.impedance[axis]);
+    let way = progress.step * moved.velocity[axis];
+    moved.displacement[axis] += way;
+    Some(way)
+}
+
 /// Brings the loads that the outside gives to the end of the present time step.
 fn follow_inputs(boundary: &Boundary, moved: &mut BoundaryState, progress: &Progress) {
     let share = if progress.is_last() { 1.0 } else { progress.share(InputCourse::Ramp) };
-    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
-        let (start, target) = (moved.start[axis], moved.target[axis]);
-        moved.inertial.applied[axis] = if share < 1.0 { start + (target - start) * share } else { target };
+    for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_load()) {
+        moved.inertial.applied[axis] = input_at(moved, axis, share);
     }
 }
 
@@ -230,7 +273,7 @@ fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress
     let whole = Vector::from(moved.turn);
     let (before, share) = (progress.share_before(course), progress.share(course));
     if progress.is_last() {
-        let [.., a, b, c] = moved.target;
+        let [.., a, b, c] = moved.end;
         moved.rotation = [a, b, c];
         moved.orientation = Orientation::from(rotation::orientation(moved.rotation.into()));
     } else {

@@ -4,7 +4,7 @@ use super::mistake::Mistake;
 use toml::de::Error;
 
 /// What people look for under these names and this program does not have.
-const ABSENT: [(&[&str], &str, &str); 6] = [
+const ABSENT: [(&[&str], &str, &str); 5] = [
     (
         &["periodic", "periodicity", "periodic_cell", "cell"],
         "periodic cells",
@@ -17,7 +17,6 @@ const ABSENT: [(&[&str], &str, &str); 6] = [
         "spheres are",
     ),
     (&["nodes"], "deforming meshes", "rigid ones are"),
-    (&["servo"], "boundaries that follow a given force", "fixed, driven, prescribed, free and loaded axes are"),
     (&["region", "regions"], "averaging regions", "outputs of boundaries are"),
 ];
 

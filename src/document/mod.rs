@@ -209,7 +209,12 @@ impl<'a> Document<'a> {
 
 /// The names in a dotted path.
 fn segments(path: &str) -> impl Iterator<Item = &str> {
-    path.split('.').filter(|segment| !segment.is_empty())
+    let mut quoted = false;
+    let ends = move |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    };
+    path.split(ends).map(|segment| segment.trim_matches('"')).filter(|segment| !segment.is_empty())
 }
 
 /// Where a key or entry stands, and its value. Entries of lists count from 1.

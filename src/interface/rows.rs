@@ -134,9 +134,9 @@ fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
     seen(scene, at, first) == Seen::Input
 }
 
-/// Whether it moves without the outside.
+/// Whether its displacement follows from something else than an input of that name.
 fn moves_by_itself(scene: &Scene, at: At, first: usize) -> bool {
-    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate | Seen::Load)
+    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate | Seen::Load | Seen::Rate | Seen::Servo)
 }
 
 /// Whether forces move it.
@@ -147,6 +147,16 @@ fn is_free(scene: &Scene, at: At, first: usize) -> bool {
 /// Whether the outside loads it.
 fn is_loaded(scene: &Scene, at: At, first: usize) -> bool {
     seen(scene, at, first) == Seen::Load
+}
+
+/// Whether the outside gives its velocity.
+fn is_steered(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Rate
+}
+
+/// Whether a servo moves it.
+fn is_served(scene: &Scene, at: At) -> bool {
+    seen(scene, at, 0) == Seen::Servo
 }
 
 /// A number of things as a value.
@@ -163,7 +173,7 @@ fn mass(scene: &Scene, at: At) -> f64 {
 }
 
 /// Variables of each boundary, inputs first.
-static OF_BOUNDARIES: [Row; 14] = [
+static OF_BOUNDARIES: [Row; 18] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
@@ -182,6 +192,35 @@ static OF_BOUNDARIES: [Row; 14] = [
         exists: |scene, at| is_driven(scene, at, 3),
         write: given::<3>(),
         read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "velocity",
+        description: "velocity of {boundary} along {axis}; held in a communication step, or the mean of what changes at its rate",
+        quantity: Quantity::Velocity,
+        exists: |scene, at| is_steered(scene, at, 0),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "angular_velocity",
+        description: "angular velocity of {boundary} about {axis}; held in a communication step, or the mean of what changes \
+                      at its rate",
+        quantity: Quantity::AngularVelocity,
+        exists: |scene, at| is_steered(scene, at, 3),
+        write: given::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "target_force",
+        description: "force of the particles on {boundary} along {axis} that its servo is to reach; held in a communication \
+                      step, or changing at its rate",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_served(scene, at),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
         ..OF_AXIS
     },
     Row {
@@ -252,6 +291,14 @@ static OF_BOUNDARIES: [Row; 14] = [
         description: "moment of the particles on {boundary} about {axis} through its moved reference point",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).moment[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "servo_error",
+        description: "what the force of the particles on {boundary} along {axis} lacks of its target",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_served(scene, at),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis] - now.boundary(at).force[at.axis]),
         ..OF_AXIS
     },
     Row {

@@ -37,7 +37,7 @@ fn scene() -> Scene {
         boundaries: vec![
             boundary("floor", &plane, [Fixed, Fixed, Driven, Fixed, Fixed, Fixed]),
             boundary("lid", &plane, [Prescribed(0.1), Fixed, Fixed, Fixed, Fixed, Fixed]),
-            boundary("grip", &Shape::of(Group { members: vec![0] }), [Fixed; 6]),
+            boundary("grip", &Shape::of(Group { members: vec![0] }), [const { Fixed }; 6]),
         ],
         ..Scene::default()
     }

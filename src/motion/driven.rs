@@ -1,4 +1,4 @@
-//! `driven`: the axis follows an input.
+//! `driven`: the axis follows an input, by displacement or by velocity.
 
 use super::{InputCourse, Motion, Progress, Seen, Way};
 
@@ -23,5 +23,23 @@ impl Motion for Driven {
             InputCourse::Hold => 0.0,
         };
         Some([displacement, velocity])
+    }
+}
+
+/// An axis that moves at the input `<boundary>.velocity.<axis>` or `<boundary>.angular_velocity.<axis>`, in a communication step at
+/// its mean.
+pub(super) struct Steered;
+
+impl Motion for Steered {
+    fn words(&self, _unit: &str) -> Option<String> {
+        Some("driven by velocity".to_owned())
+    }
+
+    fn seen(&self) -> Seen {
+        Seen::Rate
+    }
+
+    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
+        Driven.lead(way, progress)
     }
 }

@@ -11,28 +11,41 @@ mod keys;
 mod loaded;
 mod prescribed;
 mod schedule;
+mod servo;
+mod table;
 
 pub use course::InputCourse;
 pub(crate) use course::Progress;
 pub(crate) use keys::{Axis, Keys};
 pub use schedule::{Schedule, Sine, Trapezoid};
+pub use servo::Servo;
+pub use table::Table;
+pub(crate) use table::{FileKeys, TableKeys};
+
+use std::sync::Arc;
 
 /// What an axis of a boundary does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum AxisMotion {
     /// Stays.
     Fixed,
     /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
     Driven,
+    /// Follows the input `<boundary>.velocity.<axis>` or `<boundary>.angular_velocity.<axis>`.
+    Steered,
     /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
     Prescribed(f64),
     /// Is where a schedule has it.
     Scheduled(Schedule),
+    /// Is where a table has it.
+    Tabulated(Arc<Table>),
     /// Moves by the forces on it.
     Free,
     /// Moves by the forces on it, an input among them: `<boundary>.applied_force.<axis>` or
     /// `<boundary>.applied_moment.<axis>`, which starts with this value \[N, N m\].
     Loaded(f64),
+    /// Moves so that the particles press on it with the force of the input `<boundary>.target_force.<axis>`.
+    Servo(Servo),
 }
 
 /// What is asked of every motion.
@@ -90,6 +103,10 @@ pub(crate) enum Seen {
     PlaceAndRate,
     /// So they are, and a load on it is an input.
     Load,
+    /// Its displacement is an output, its velocity an input.
+    Rate,
+    /// Its displacement and what it misses are outputs, the force of the particles that it is to reach is an input.
+    Servo,
 }
 
 impl AxisMotion {
@@ -101,9 +118,12 @@ impl AxisMotion {
         match self {
             Self::Fixed => question(&fixed::Fixed),
             Self::Driven => question(&driven::Driven),
+            Self::Steered => question(&driven::Steered),
             Self::Prescribed(velocity) => question(velocity),
             Self::Scheduled(schedule) => question(schedule),
+            Self::Tabulated(table) => question(&**table),
             Self::Free => question(&free::Free),
+            Self::Servo(servo) => question(servo),
             Self::Loaded(start) => question(&loaded::Loaded { start: *start }),
         }
     }
@@ -118,9 +138,32 @@ impl AxisMotion {
         self.ask(|row| row.seen())
     }
 
-    /// Whether an input of it is a force or moment.
+    /// Whether its input is a force or moment.
     pub(crate) fn takes_force(&self) -> bool {
+        matches!(self.seen(), Seen::Load | Seen::Servo)
+    }
+
+    /// Whether its input is a load on the boundary.
+    pub(crate) fn takes_load(&self) -> bool {
         self.seen() == Seen::Load
+    }
+
+    /// Whether its input is its velocity.
+    pub(crate) fn takes_velocity(&self) -> bool {
+        self.seen() == Seen::Rate
+    }
+
+    /// Whether its input is its displacement.
+    pub(crate) fn takes_place(&self) -> bool {
+        self.seen() == Seen::Input
+    }
+
+    /// The servo that moves it.
+    pub(crate) fn servo(&self) -> Option<&Servo> {
+        match self {
+            Self::Servo(servo) => Some(servo),
+            _ => None,
+        }
     }
 
     /// What its input starts with; 0 where it has none.
@@ -133,9 +176,9 @@ impl AxisMotion {
         self.seen() == Seen::Nothing
     }
 
-    /// Whether it follows an input.
+    /// Whether it goes where an input says.
     pub fn is_driven(&self) -> bool {
-        self.seen() == Seen::Input
+        self.takes_place() || self.takes_velocity()
     }
 
     /// Whether the scene alone says where it is.
@@ -145,7 +188,7 @@ impl AxisMotion {
 
     /// Whether its velocity is always the same.
     pub(crate) fn is_steady(&self) -> bool {
-        !matches!(self, Self::Scheduled(_))
+        !matches!(self, Self::Scheduled(_) | Self::Tabulated(_))
     }
 
     /// Whether forces move it.

@@ -6,8 +6,7 @@ use serde::Deserialize;
 use std::f64::consts::TAU;
 
 /// A displacement as a function of time.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Schedule {
     /// To and fro.
     Sine(Sine),

@@ -1,6 +1,6 @@
 //! Inputs of a run over time, from a table such as a master leaves.
 
-use crate::interface::{Interface, Value};
+use crate::interface::{Interface, Quantity, Value};
 use crate::results::InputsError;
 use crate::step::Simulation;
 use std::path::{Path, PathBuf};
@@ -8,13 +8,25 @@ use std::path::{Path, PathBuf};
 /// Two times closer than this part of the later one are one.
 const SAME: f64 = 1e-9;
 
-/// What the driven boundaries do: piecewise linear in time, from displacement 0 at time 0 on.
+/// What the outside gives: piecewise linear in time, displacements from 0 at time 0 on, velocities and forces from their start
+/// values on or from those in a row for time 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
     /// Times, ascending, from 0 \[s\].
     times: Vec<f64>,
-    /// Index in the interface and values at the times, of each input that the table has.
-    columns: Vec<(usize, Vec<f64>)>,
+    /// What the table has.
+    columns: Vec<Column>,
+}
+
+/// An input in a table.
+#[derive(Clone, Debug)]
+struct Column {
+    /// Index in the interface.
+    index: usize,
+    /// Whether it says where a boundary is to be: at the end of a communication step, and 0 at time 0.
+    is_place: bool,
+    /// Values at the times.
+    values: Vec<f64>,
 }
 
 impl Inputs {
@@ -36,7 +48,7 @@ impl Inputs {
             return Err(missing(right));
         }
         let mut table =
-            Self { times: vec![0.0], columns: chosen.iter().map(|(_, index)| (*index, vec![0.0])).collect() };
+            Self { times: vec![0.0], columns: chosen.iter().map(|(_, index)| Column::of(interface, *index)).collect() };
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
             let line = record.position().map_or(0, csv::Position::line);
@@ -56,14 +68,20 @@ impl Inputs {
     /// Takes a row; otherwise what would be right.
     fn add(&mut self, time: f64, row: &[f64]) -> Result<(), &'static str> {
         if time == 0.0 && self.times.len() == 1 {
-            return if row.iter().all(|value| *value == 0.0) { Ok(()) } else { Err("displacement 0 at time 0") };
+            for (column, value) in self.columns.iter_mut().zip(row) {
+                if column.is_place && *value != 0.0 {
+                    return Err("displacement 0 at time 0");
+                }
+                column.values[0] = *value;
+            }
+            return Ok(());
         }
         if self.times.last().is_some_and(|last| time <= *last) {
             return Err("a time after that of the line before, or 0 in the first");
         }
         self.times.push(time);
-        for ((_, values), value) in self.columns.iter_mut().zip(row) {
-            values.push(*value);
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.values.push(*value);
         }
         Ok(())
     }
@@ -73,19 +91,37 @@ impl Inputs {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    /// Sets every input to where it is to be at this time.
-    pub(crate) fn set(&self, interface: &Interface, simulation: &mut Simulation, time: f64) {
-        let next = self.times.partition_point(|row| *row < time * (1.0 - SAME)).min(self.times.len() - 1);
-        for (index, values) in &self.columns {
-            let value = if next == 0 || (self.times[next] - time).abs() <= SAME * time || time > self.times[next] {
-                values[next]
-            } else {
-                let share = (time - self.times[next - 1]) / (self.times[next] - self.times[next - 1]);
-                values[next - 1] + share * (values[next] - values[next - 1])
-            };
-            // The index is that of an input, and the value is finite: there is nothing to refuse.
-            let _ = interface.set(simulation, *index, Value::Real(value));
+    /// Gives every input for the communication step that ends at this time.
+    pub(super) fn set(&self, interface: &Interface, simulation: &mut Simulation, time: f64) {
+        for column in &self.columns {
+            let (now, end) = (simulation.time(), self.at(column, time));
+            let value = if column.is_place { end } else { self.at(column, now) };
+            // The index is that of an input, and values are finite: there is nothing to refuse.
+            let _ = interface.set(simulation, column.index, Value::Real(value));
+            if !column.is_place && time > now {
+                let _ = interface.set_rate(simulation, column.index, (end - value) / (time - now));
+            }
         }
+    }
+
+    /// The value of an input at a time.
+    fn at(&self, column: &Column, time: f64) -> f64 {
+        let (times, values) = (&self.times, &column.values);
+        let next = times.partition_point(|row| *row < time * (1.0 - SAME)).min(times.len() - 1);
+        if next == 0 || (times[next] - time).abs() <= SAME * time || time > times[next] {
+            return values[next];
+        }
+        let share = (time - times[next - 1]) / (times[next] - times[next - 1]);
+        values[next - 1] + share * (values[next] - values[next - 1])
+    }
+}
+
+impl Column {
+    /// The column of an input, before its rows are read.
+    fn of(interface: &Interface, index: usize) -> Self {
+        let variable = &interface.variables()[index];
+        let is_place = matches!(variable.quantity, Quantity::Length | Quantity::Angle);
+        Self { index, is_place, values: vec![if is_place { 0.0 } else { variable.start.unwrap_or(0.0) }] }
     }
 }
 

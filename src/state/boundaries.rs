@@ -19,9 +19,12 @@ pub struct BoundaryState {
     pub orientation: Orientation,
     /// The reference point where it stands now \[m\].
     pub pivot: [f64; 3],
-    /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\].
+    /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\]; of axes that take a force, the force
+    /// that was given then \[N, N m\].
     pub start: [f64; 6],
-    /// Where it is to end, in the same order: the last values given; of prescribed axes where they stood at time 0.
+    /// Where it is to end, in the same order.
+    pub end: [f64; 6],
+    /// The last values given, in the unit of the input; of prescribed axes where they stood at time 0.
     pub target: [f64; 6],
     /// Rates of the inputs at the start of the communication step; 0 where none was given.
     pub target_rate: [f64; 6],
@@ -31,6 +34,8 @@ pub struct BoundaryState {
     pub turn: [f64; 3],
     /// Largest speed of each driven axis on the way to it, signed \[m/s, rad/s\].
     pub fastest: [f64; 6],
+    /// Mechanical impedance of what touches a boundary with a servo, along x, y, z \[kg/s\]; 0 for others.
+    pub impedance: [f64; 3],
     /// What free axes need.
     pub inertial: Inertial,
     /// Force at the present time \[N\].

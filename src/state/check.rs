@@ -445,6 +445,7 @@ impl BoundaryState {
         ];
         let sixes = [
             start,
+            &self.end,
             target,
             target_rate,
             fastest,
@@ -459,7 +460,7 @@ impl BoundaryState {
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
             && blocks.clone().all(|number| number.is_finite())
-            && work.is_finite()
+            && [*work].iter().chain(&self.impedance).all(|number| number.is_finite())
     }
 }
 

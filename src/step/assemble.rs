@@ -73,7 +73,8 @@ fn particles(scene: &Scene) -> Particles {
 
 /// A boundary at time 0.
 fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
-    let prescribed = boundary.axes.map(|axis| axis.at(0.0).map_or(0.0, |[_, velocity]| velocity));
+    let prescribed: [f64; 6] =
+        std::array::from_fn(|axis| boundary.axes[axis].at(0.0).map_or(0.0, |[_, velocity]| velocity));
     let [x, y, z, about_x, about_y, about_z] = prescribed;
     let mut moved = BoundaryState {
         velocity: [x, y, z],

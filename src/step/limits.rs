@@ -15,6 +15,9 @@ const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
 
+/// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
+const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
+
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
 const CERTAIN: f64 = 0.05;
 
@@ -155,14 +158,28 @@ impl Simulation {
         self.check_contacts()
     }
 
-    /// Finds anew what contacts offer to surfaces that forces move, where one has come to more contacts than it had.
+    /// Finds anew what contacts offer to surfaces that forces move, where one has come to more contacts than it had, and now and
+    /// then the impedance of what servos press on.
     pub(super) fn follow_contacts(&mut self, step: f64) {
-        let light = |(_, body): &(usize, &Option<RigidBody>)| body.as_ref().is_some_and(RigidBody::is_implicit);
-        let bodies = self.bodies.iter().enumerate().filter(light);
-        if bodies.map(|(index, _)| index).any(|index| stability::has_more_contacts(&self.state, index)) {
+        let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
+        let mut light = (0..self.bodies.len()).filter(light);
+        if light.any(|index| stability::has_more_contacts(&self.state, index)) {
             let sight = self.sight(step);
             let blocks = self.system().blocks(&sight.ahead);
             stability::put_blocks(&mut self.state, blocks);
+        }
+        if self.serves && self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_IMPEDANCES) {
+            self.find_impedances();
+        }
+    }
+
+    /// Finds the impedance of what servos press on.
+    pub(super) fn find_impedances(&mut self) {
+        if self.serves {
+            let impedances = self.system().impedances();
+            for (moved, impedance) in self.state.boundaries.iter_mut().zip(impedances) {
+                moved.impedance = impedance;
+            }
         }
     }
 

@@ -64,6 +64,8 @@ pub struct Simulation {
     suppression: Suppression,
     /// Whether anything turns the particles.
     turning: bool,
+    /// Whether a servo moves a boundary.
+    serves: bool,
     /// Lane width.
     width: Width,
     /// Threads.
@@ -121,6 +123,7 @@ impl Simulation {
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
+            serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
@@ -263,7 +266,8 @@ impl Simulation {
     }
 
     /// What the outside gives for an axis in the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven
-    /// one is to be at its end \[m, rad\], the load on one that forces move \[N, N m\].
+    /// one is to be at its end \[m, rad\] or how fast it moves \[m/s, rad/s\], the load on one that forces move \[N, N m\], the force
+    /// that a servo is to reach \[N\].
     pub fn set_input(&mut self, boundary: BoundaryIndex, axis: usize, value: f64) {
         let boundary = &mut self.state.boundaries[boundary.index()];
         boundary.target[axis] = value;
@@ -437,6 +441,7 @@ impl Simulation {
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();
         self.first_step(&context)?;
+        self.find_impedances();
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);

@@ -43,13 +43,14 @@ impl Simulation {
         let (mut moves, mut loads) = (false, false);
         let boundaries = self.scene.boundaries.iter().zip(&mut self.state.boundaries);
         for ((boundary, moved), given) in boundaries.zip(inputs) {
-            for axis in (0..6).filter(|&axis| boundary.axes[axis].is_driven()) {
+            for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_place()) {
                 let place = if axis < 3 { moved.displacement[axis] } else { moved.rotation[axis - 3] };
                 moves |= place != given.target[axis];
                 course::put(moved, axis, given.target[axis]);
                 moved.target_rate[axis] = given.target_rate[axis];
             }
-            for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_force()) {
+            let others = |motion: &AxisMotion| motion.takes_force() || motion.takes_velocity();
+            for axis in (0..6).filter(|&axis| others(&boundary.axes[axis])) {
                 loads |= moved.target[axis] != given.target[axis];
                 (moved.target[axis], moved.target_rate[axis]) = (given.target[axis], given.target_rate[axis]);
             }

@@ -74,7 +74,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
     Boundary {
         name: "plane".into(),
         shape: Shape::of(Plane { material: MaterialIndex(material), point, normal }),
-        axes: [AxisMotion::Fixed; 6],
+        axes: [const { AxisMotion::Fixed }; 6],
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),

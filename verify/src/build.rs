@@ -166,7 +166,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
             return Err(Mistake::new(place("kind"), format!("\"{other}\" found; plane, mesh or cylinder is right")));
         }
     };
-    let (mut axes, mut reference) = ([AxisMotion::Fixed; 6], [0.0; 3]);
+    let (mut axes, mut reference) = ([const { AxisMotion::Fixed }; 6], [0.0; 3]);
     let moves = |speed: f64| if speed == 0.0 { AxisMotion::Fixed } else { AxisMotion::Prescribed(speed) };
     match &wall.motion {
         None => {}
@@ -216,7 +216,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
             point,
             normal: normal.map(|component| component / length),
         }),
-        axes: [AxisMotion::Fixed; 6],
+        axes: [const { AxisMotion::Fixed }; 6],
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),

@@ -3,6 +3,7 @@
 use super::case::Case;
 use super::linked::LinkErrors;
 use super::samples::Samples;
+use super::surfaces::SurfaceErrors;
 use super::trajectory::Sample;
 use std::fmt;
 
@@ -68,6 +69,8 @@ pub struct Report {
     pub errors: Option<Errors>,
     /// How far its bonds are from theirs; `None` for a case without a record of bonds.
     pub links: Option<LinkErrors>,
+    /// How far the loads on its surfaces are from another program's; `None` for a case without a record of them.
+    pub surfaces: Option<SurfaceErrors>,
     /// Why the run stopped before its end.
     pub stopped: Option<String>,
 }
@@ -100,7 +103,8 @@ impl Report {
     /// Whether the case ran to its end and holds its samples, if it has any.
     pub fn passed(&self) -> bool {
         let links = self.links.is_none_or(|links| links.passed());
-        self.stopped.is_none() && links && self.errors.is_none_or(|errors| errors.passed())
+        let surfaces = self.surfaces.is_none_or(|surfaces| surfaces.passed());
+        self.stopped.is_none() && links && surfaces && self.errors.is_none_or(|errors| errors.passed())
     }
 }
 
@@ -115,6 +119,9 @@ impl fmt::Display for Report {
         }
         if let Some(links) = &self.links {
             write!(formatter, " {links}")?;
+        }
+        if let Some(surfaces) = &self.surfaces {
+            write!(formatter, " {surfaces}")?;
         }
         write!(formatter, " {}", if self.passed() { "ok" } else { "FAIL" })?;
         match &self.stopped {

@@ -15,11 +15,13 @@ mod history;
 mod law;
 mod linked;
 mod samples;
+mod surfaces;
 mod trajectory;
 
 pub use compare::{Errors, Report};
 pub use error::VerifyError;
 pub use linked::LinkErrors;
+pub use surfaces::SurfaceErrors;
 
 use case::Case;
 use cograin::bond::keys::FormulationChoice;
@@ -29,6 +31,7 @@ use samples::Samples;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use surfaces::Surfaces;
 
 /// How cases are replayed.
 #[derive(Clone, Debug)]
@@ -103,7 +106,11 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let errors = theirs.as_ref().map(|theirs| Errors::between(&case, theirs, &run.samples, &measure));
     let links = theirs.as_ref().zip(history.as_ref());
     let links = links.map(|(theirs, history)| LinkErrors::between(&case, theirs, history, &run.samples, &measure));
-    Ok(Report { name, errors, links, stopped: run.stopped })
+    let surfaces = Surfaces::read(&folder.join("boundary_rule.csv"))?.map(|theirs| {
+        let [.., force, torque] = measure.allowed;
+        SurfaceErrors::between(&case, &theirs, &run.samples, [force, torque])
+    });
+    Ok(Report { name, errors, links, surfaces, stopped: run.stopped })
 }
 
 /// The file that a case is compared with: where the other engine is wrong, an independent program's.

@@ -3,8 +3,10 @@
 use super::case::Case;
 use super::history::{History, PairRow};
 use super::samples::{Row, Samples};
+use super::surfaces::OnSurface;
 use cograin::quantity::SetIndex;
 use cograin::scene::Scene;
+use cograin::state::BoundaryState;
 use cograin::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
 use std::sync::Arc;
 
@@ -16,6 +18,8 @@ pub(super) struct Sample {
     pub(super) rows: Vec<Row>,
     /// Living bonds between particles.
     pub(super) bonds: Vec<BondRecord>,
+    /// Loads on the boundaries, in the order of the case's walls.
+    pub(super) surfaces: Vec<OnSurface>,
 }
 
 /// What a run left.
@@ -125,5 +129,10 @@ fn observe(case: &Case, simulation: &Simulation, step: u64) -> Sample {
         ];
     }
     let bonds = simulation.bonds().into_iter().filter(|bond| bond.second.is_some()).collect();
-    Sample { step, rows, bonds }
+    let about_origin = |moved: &BoundaryState| {
+        let ([x, y, z], [a, b, c], [u, v, w]) = (moved.pivot, moved.force, moved.moment);
+        [moved.force, [u + y * c - z * b, v + z * a - x * c, w + x * b - y * a]]
+    };
+    let surfaces = simulation.state().boundaries.iter().map(about_origin).collect();
+    Sample { step, rows, bonds, surfaces }
 }

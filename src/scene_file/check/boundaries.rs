@@ -30,10 +30,10 @@ pub(super) fn boundaries(
         let Some(shape) = shape((boundary, &table), source, materials, born, faults) else { continue };
         owners.claim(shape.members(), &table, born, faults);
         let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
-        let axes = motion::axes(&boundary.motion, &table, faults);
+        let axes = motion::axes(&boundary.motion, source, &table, faults);
         motion::check(&axes, &*shape, boundary.reference.is_some(), &table, faults);
-        if boundary.input.is_some() && !axes.iter().any(|axis| axis.is_driven()) {
-            let (what, right) = ("no axis is driven".to_owned(), "leave input out".to_owned());
+        if boundary.input.is_some() && !axes.iter().any(|axis| axis.takes_place()) {
+            let (what, right) = ("no axis is driven by displacement".to_owned(), "leave input out".to_owned());
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
         let input = boundary.input.unwrap_or_default();

@@ -14,6 +14,7 @@ mod place;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
+mod tables;
 
 use super::parameters;
 use super::tables::{OutputTable, RunTable, StepKey};

@@ -1,17 +1,22 @@
 //! What the axes of boundaries do, and what they can do together.
 
+use super::tables;
 use crate::document::Faults;
 use crate::document::Mistake;
 use crate::motion::Keys;
-use crate::scene::{AxisMotion, Boundary, Damping};
+use crate::scene::{AxisMotion, Boundary, Damping, Source};
 use crate::surface::Surface;
 
 /// What each axis does; an axis may be named once.
-pub(super) fn axes(motion: &Keys, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
-    let (axes, twice) = motion.axes();
+pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
+    let (axes, twice) = motion.axes(|axis, keys| tables::read(keys, axis, source, table, faults));
+    if motion.drives_nothing_by_velocity() {
+        let (what, right) = ("by = \"velocity\", and no axis is driven".to_owned(), "leave by out".to_owned());
+        faults.add(table, "motion", Mistake::Senseless { what, right });
+    }
     for axis in twice {
         let what = format!("axis {} is named twice", AxisMotion::WORDS[axis]);
-        let right = "an axis is fixed, driven, prescribed, free or loaded".to_owned();
+        let right = "an axis is fixed, driven, prescribed, free, loaded or servo".to_owned();
         faults.add(table, "motion", Mistake::Senseless { what, right });
     }
     axes
@@ -26,6 +31,10 @@ pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool,
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
         let what = format!("{}: {}s that turn are not there", AxisMotion::WORDS[axis], shape.key());
         return refuse(what, "a group of particles turns");
+    }
+    if let Some(axis) = (3..6).find(|&axis| axes[axis].servo().is_some()) {
+        let what = format!("{} is a servo, which reaches forces only", AxisMotion::WORDS[axis]);
+        return refuse(what, "servos along x, y or z are right");
     }
     rotations(axes, table, faults);
     reference(axes, referred, table, faults);

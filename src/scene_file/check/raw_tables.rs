@@ -9,6 +9,7 @@ use crate::contact::tangential::TangentialChoice;
 use crate::document::Mistake;
 use crate::document::messages;
 use crate::document::{Document, Faults};
+use crate::scene::AxisMotion;
 use crate::scene_file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, OutputTable, ParticlesTable,
     RunTable, TABLES, Triple,
@@ -82,6 +83,14 @@ pub(in crate::scene_file) fn files(document: &Document) -> Vec<FileName> {
         let table = format!("boundary.{name}");
         for file in document.texts(&format!("{table}.mesh.joined")) {
             files.push((table.clone(), "mesh.joined", file.to_owned()));
+        }
+        for axis in AxisMotion::WORDS {
+            // A rotation is a quoted key.
+            let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
+            let law = format!("{table}.motion.prescribed.{quoted}.table");
+            if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
+                files.push((table.clone(), "motion.prescribed", file.to_owned()));
+            }
         }
     }
     files

@@ -53,8 +53,7 @@ macro_rules! boundary_table {
 
             /// Whether it is a plane that does not turn.
             pub(in crate::scene_file) fn is_shifting_plane(&self) -> bool {
-                let (axes, _) = self.motion.axes();
-                self.shapes().contains(&"plane") && axes[3..].iter().all(motion::AxisMotion::is_fixed)
+                self.shapes().contains(&"plane") && !self.motion.turns()
             }
 
             /// The first shape that is written; what is wrong with it is reported.

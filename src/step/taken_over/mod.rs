@@ -105,7 +105,8 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
         let [x, y, z] = other.displacement;
         let [a, b, c] = other.rotation;
         for (axis, place) in [x, y, z, a, b, c].into_iter().enumerate() {
-            if !boundary.axes[axis].takes_force() {
+            let motion = &boundary.axes[axis];
+            if !(motion.takes_force() || motion.takes_velocity()) {
                 moved.target[axis] = place;
             }
         }
