@@ -66,6 +66,8 @@ COURSES = {
     "loaded_beam": Course(interval=2e-4, steps=6),
     "cantilever": Course(interval=1e-4, steps=20, amplitude=4e-7),
     "rock_core": Course(interval=1e-5, steps=4, amplitude=-2e-6),
+    "piston_load": Course(interval=1e-4, steps=20),
+    "triaxial": Course(interval=2e-5, steps=20),
     "brazilian": Course(interval=1e-5, steps=8, amplitude=-2e-6),
 }
 
