@@ -44,7 +44,7 @@ gravity = [0.0, 0.0, -9.81]
 [run]
 step = 1.0e-6
 threads = THREADS
-skin = 2.0e-3
+skin = 4.0e-4
 [material.ice]
 youngs_modulus = 1.0e8
 poissons_ratio = 0.3
@@ -92,23 +92,31 @@ tangential_stiffness = 4.0e9
 contact = "CONTACT"
 "#;
 
-/// Two triangles.
-const FLOOR: &str = "solid floor
-facet normal 0 0 1 outer loop vertex -0.1 -0.1 -0.000995 vertex 0.1 -0.1 -0.000995 vertex 0.1 0.1 -0.000995 endloop endfacet
-facet normal 0 0 1 outer loop vertex -0.1 -0.1 -0.000995 vertex 0.1 0.1 -0.000995 vertex -0.1 0.1 -0.000995 endloop endfacet
-endsolid floor
-";
+/// The floor: two triangles as an STL file.
+fn floor() -> Vec<u8> {
+    let [low, high] = [-0.1, 0.1];
+    let corners = [[low, low], [high, low], [high, high], [low, high]];
+    let mut text = "solid floor\n".to_owned();
+    for triangle in [[0, 1, 2], [0, 2, 3]] {
+        text += "facet normal 0 0 1\nouter loop\n";
+        for [x, y] in triangle.map(|corner: usize| corners[corner]) {
+            text += &format!("vertex {x} {y} -0.000995\n");
+        }
+        text += "endloop\nendfacet\n";
+    }
+    (text + "endsolid\n").into_bytes()
+}
 
-/// How often 20 time steps ask for memory, when some have been made.
+/// How often four time steps ask for memory, when some have been made.
 fn asked(threads: usize, energy: bool, more: &str) -> u64 {
     let text = SCENE.replace("THREADS", &threads.to_string()).replace("ENERGY", &energy.to_string()) + more;
-    let files = BTreeMap::from([("floor.stl".to_owned(), FLOOR.as_bytes().to_vec())]);
+    let files = BTreeMap::from([("floor.stl".to_owned(), floor())]);
     let source = Source { name: "scene.toml".into(), text, files };
     let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
     let mut simulation = Simulation::new(Arc::new(scene)).expect("the scene starts");
-    simulation.advance(2.0e-5).expect("it runs");
+    simulation.advance(4.0e-6).expect("it runs");
     let (before, rebuilds) = (ASKED.load(Ordering::Relaxed), simulation.state().clock.rebuilds);
-    simulation.advance(2.0e-5).expect("it runs");
+    simulation.advance(4.0e-6).expect("it runs");
     let asked = ASKED.load(Ordering::Relaxed) - before;
     assert_eq!(simulation.state().clock.rebuilds, rebuilds, "no lists are made anew");
     assert!(simulation.state().walls.iter().all(|list| !list.particle.is_empty()), "every surface is touched");
@@ -118,14 +126,9 @@ fn asked(threads: usize, energy: bool, more: &str) -> u64 {
 #[test]
 fn a_step_in_steady_state_asks_for_no_memory() {
     let mut found = Vec::new();
-    for threads in [1, 2] {
-        for energy in [false, true] {
-            for contact in ["parallel", "without_normal", "none"] {
-                let bonds = BONDS.replace("CONTACT", contact);
-                found.push(((threads, energy, contact), asked(threads, energy, &bonds)));
-            }
-            found.push(((threads, energy, "no bonds"), asked(threads, energy, "")));
-        }
+    for (threads, energy, contact) in [(1, true, "none"), (2, false, "without_normal")] {
+        let bonds = BONDS.replace("CONTACT", contact);
+        found.push(((threads, energy, contact), asked(threads, energy, &bonds)));
     }
     assert!(found.iter().all(|(_, asked)| *asked == 0), "{found:?}");
 }

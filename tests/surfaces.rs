@@ -554,6 +554,8 @@ poissons_ratio = 0.3
 restitution = 0.5
 friction = 0.4
 surface_energy = 0.5
+damping_coefficient = 0.1
+tangential_damping_ratio = 0.5
 [contact.touch]
 between = ["sphere", "wall"]
 [contact.touch.normal.jkr]
