@@ -2,7 +2,7 @@
 
 use super::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::batches::sphere_geometry::SpherePair;
-use crate::contact::{Contact, Needs, NormalForce, NormalForm, Response, Roots};
+use crate::contact::{Carry, Contact, Needs, NormalForce, NormalForm, Response, Roots};
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;
@@ -61,8 +61,16 @@ mod column {
     pub(super) const PRESSING: usize = 28;
     /// The offset.
     pub(super) const OFFSET: usize = 29;
+    /// Angular velocities times arms; then how far the bodies slipped.
+    pub(super) const TURNING: [usize; 3] = [30, 31, 32];
+    /// 1/distance; then half the turn about the normal.
+    pub(super) const PER_DISTANCE: usize = 33;
+    /// What the normal gained.
+    pub(super) const TILT: [usize; 3] = [34, 35, 36];
+    /// Part of the step in which the bodies touched.
+    pub(super) const SHARE: usize = 37;
     /// How many there are.
-    pub(super) const COUNT: usize = 30;
+    pub(super) const COUNT: usize = 38;
 }
 use column as at;
 
@@ -247,8 +255,15 @@ impl Buffer {
             if TORQUE || needs.section {
                 self.store(at::SECOND_ARM, place, *second_arm);
             }
-            if TORQUE {
+            if TORQUE || needs.carry {
                 self.store_vector(at::SLIP, place, contact.slip);
+            }
+            if needs.carry {
+                self.store_vector(at::TURNING, place, contact.turning);
+                self.store(at::PER_DISTANCE, place, contact.per_distance);
+                self.store_vector(at::SPIN_SUM, place, contact.spin_sum);
+            }
+            if TORQUE {
                 if needs.spin {
                     self.store_vector(at::SPIN, place, contact.relative_spin);
                 }
@@ -257,7 +272,7 @@ impl Buffer {
                 self.store(at::PER_REACH, place, contact.per_reach);
                 self.store(at::ROLLING_INERTIA, place, contact.rolling_inertia);
             }
-            if TORQUE && needs.spin_sum {
+            if TORQUE && needs.spin_sum && !needs.carry {
                 self.store_vector(at::SPIN_SUM, place, contact.spin_sum);
             }
             if needs.section {
@@ -284,6 +299,8 @@ impl Buffer {
                 slip: self.load_vector(at::SLIP, place),
                 relative_spin: self.load_vector(at::SPIN, place),
                 spin_sum: self.load_vector(at::SPIN_SUM, place),
+                turning: self.load_vector(at::TURNING, place),
+                per_distance: self.load(at::PER_DISTANCE, place),
                 per_reach: self.load(at::PER_REACH, place),
                 rolling_inertia: self.load(at::ROLLING_INERTIA, place),
                 section_area: self.load(at::SECTION_AREA, place),
@@ -303,9 +320,45 @@ impl Buffer {
         unsafe {
             let contact = self.contact(place, N::zero()).with_undeformed_arms();
             self.store_vector(at::SLIP, place, contact.slip);
+            self.store_vector(at::TURNING, place, contact.turning);
             let arm: N = self.load(at::FIRST_ARM, place);
             let between_bodies = contact.per_reach.greater(N::zero());
             self.store(at::FIRST_ARM, place, N::select(between_bodies, arm, contact.radius));
+        }
+    }
+
+    /// Writes how a register's worth of contacts was carried, over what that was found from, and the velocities that
+    /// dashpots see.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put_carry<N: Lane>(&mut self, place: usize, carry: &Carry<N>, contact: &Contact<N>) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store_vector(at::TURNING, place, carry.stretch);
+            self.store(at::PER_DISTANCE, place, carry.twist);
+            self.store_vector(at::TILT, place, carry.tilt);
+            self.store(at::SHARE, place, carry.share);
+            self.store(at::NORMAL_VELOCITY, place, contact.normal_velocity);
+            self.store_vector(at::SLIP, place, contact.slip);
+        }
+    }
+
+    /// Reads how a register's worth of contacts was carried.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn carry<N: Lane>(&self, place: usize) -> Carry<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            Carry {
+                stretch: self.load_vector(at::TURNING, place),
+                twist: self.load(at::PER_DISTANCE, place),
+                tilt: self.load_vector(at::TILT, place),
+                share: self.load(at::SHARE, place),
+            }
         }
     }
 

@@ -156,6 +156,8 @@ fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Respons
         slip: Vector::zero(),
         relative_spin: Vector::zero(),
         spin_sum: Vector::zero(),
+        turning: Vector::zero(),
+        per_distance: 0.0,
         per_reach: 0.0,
         rolling_inertia: mass * radius * radius,
         pair_constant: law.pair_constant(row, radius, mass),

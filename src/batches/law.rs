@@ -14,8 +14,8 @@ use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::Ho
 use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
 use crate::contact::tangential::{self, TakeTangential, history::History};
 use crate::contact::{
-    CoefficientPlaces, Coefficients, Cohesion, CohesionForm, Contact, HistoryPlaces, Law, LawChoice, Needs, Normal,
-    NormalForce, NormalForm, Rolling, Switches, Tangential,
+    Carry, CoefficientPlaces, Coefficients, Cohesion, CohesionForm, Contact, HistoryPlaces, Law, LawChoice, Needs,
+    Normal, NormalForce, NormalForm, Onset, Rolling, Switches, Tangential,
 };
 use crate::lanes::{self, Kernel, Lane, Width, columns};
 use crate::state::contacts::SLIDING;
@@ -47,7 +47,9 @@ impl BatchLaw {
             choice.rolling.visit(FormOf),
             choice.cohesion.visit(FormOf),
         ];
-        if let Some(fused) = FUSED.iter().map(|fused| fused()).find(|fused| fused.forms == forms) {
+        if let Some(fused) = FUSED.iter().map(|fused| fused()).find(|fused| fused.forms == forms)
+            && !choice.scheme.carries()
+        {
             law.runs = vec![fused.run];
         }
         law
@@ -58,17 +60,20 @@ impl BatchLaw {
         let law = Law::of(choice);
         assert!(law.places().count <= MOST_COEFFICIENTS, "a law has at most {MOST_COEFFICIENTS} coefficients");
         let needs = law.needs();
-        let mut runs: Vec<Run> = Vec::new();
+        let (mut runs, run_of): (Vec<Run>, _) = (Vec::new(), RunOf { carries: choice.scheme.carries() });
         if law.undeformed_arms() {
             runs.push(|width, stage| lanes::run(width, ArmsRun(stage)));
         }
-        runs.push(choice.normal.visit(RunOf));
-        if law.has_cohesion() {
-            runs.push(choice.cohesion.visit(RunOf));
+        if choice.scheme.carries() {
+            runs.push(|width, stage| lanes::run(width, CarryRun(stage)));
         }
-        runs.push(choice.tangential.visit(RunOf));
+        runs.push(choice.normal.visit(run_of));
+        if law.has_cohesion() {
+            runs.push(choice.cohesion.visit(run_of));
+        }
+        runs.push(choice.tangential.visit(run_of));
         if law.has_rolling() {
-            runs.push(choice.rolling.visit(RunOf));
+            runs.push(choice.rolling.visit(run_of));
         }
         Self { suppressed: Suppressed::of(choice, &law), law, needs, runs }
     }
@@ -91,7 +96,11 @@ impl BatchLaw {
 }
 
 /// Goes from the name of a sub-model to what it does to a batch.
-pub(super) struct RunOf;
+#[derive(Clone, Copy)]
+pub(super) struct RunOf {
+    /// Whether springs are carried at mid-step.
+    pub(super) carries: bool,
+}
 
 impl TakeNormal for RunOf {
     type Output = Run;
@@ -110,14 +119,20 @@ impl TakeCohesion for RunOf {
 impl TakeTangential for RunOf {
     type Output = Run;
     fn take<M: Tangential>(self, _keys: &M::Keys) -> Run {
-        |width, stage| lanes::run(width, TangentialRun::<M>(stage, PhantomData))
+        match self.carries && M::HAS_SPRING {
+            false => |width, stage| lanes::run(width, TangentialRun::<M, false>(stage, PhantomData)),
+            true => |width, stage| lanes::run(width, TangentialRun::<M, true>(stage, PhantomData)),
+        }
     }
 }
 
 impl TakeRolling for RunOf {
     type Output = Run;
     fn take<M: Rolling>(self, _keys: &M::Keys) -> Run {
-        |width, stage| lanes::run(width, RollingRun::<M>(stage, PhantomData))
+        match self.carries && M::HISTORY.is_some() {
+            false => |width, stage| lanes::run(width, RollingRun::<M, false>(stage, PhantomData)),
+            true => |width, stage| lanes::run(width, RollingRun::<M, true>(stage, PhantomData)),
+        }
     }
 }
 
@@ -196,6 +211,10 @@ pub(super) struct Stage<'a> {
     pub(super) offset: usize,
     /// Time since the history was last advanced \[s\].
     pub(super) step: f64,
+    /// Whether bodies touch where they overlap and nowhere else.
+    pub(super) touches: bool,
+    /// How dashpots begin.
+    pub(super) onset: Onset,
     /// The batch.
     pub(super) buffer: &'a mut Buffer,
 }
@@ -326,7 +345,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::press`].
     #[inline(always)]
-    unsafe fn rub<N: Lane, B: Tangential>(
+    unsafe fn rub<N: Lane, B: Tangential, const CARRIES: bool>(
         &mut self,
         place: usize,
         row: &[N],
@@ -339,8 +358,11 @@ impl Stage<'_> {
         unsafe {
             if B::ACTIVE {
                 let entries = self.buffer.entry.as_ptr().add(place);
-                let history = self.remembered(remembers, own, entries);
-                let friction = B::force(B::lanes(row), contact, normal, history, N::splat(self.step));
+                let (mut history, mut step) = (self.remembered(remembers, own, entries), N::splat(self.step));
+                if CARRIES {
+                    (history, step) = (self.buffer.carry(place).spring(contact.normal, history), N::zero());
+                }
+                let friction = B::force(B::lanes(row), contact, normal, history, step);
                 force += friction.force;
                 let couple = contact.normal.cross(friction.force);
                 N::store_block(columns(couple), self.buffer.couple.as_mut_ptr().add(place));
@@ -361,7 +383,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::press`].
     #[inline(always)]
-    unsafe fn roll<N: Lane, C: Rolling>(
+    unsafe fn roll<N: Lane, C: Rolling, const CARRIES: bool>(
         &mut self,
         place: usize,
         row: &[N],
@@ -372,8 +394,19 @@ impl Stage<'_> {
         // SAFETY: the caller's promise.
         unsafe {
             let entries = self.buffer.entry.as_ptr().add(place);
-            let history = self.remembered(remembers, own, entries);
-            let (torque, history) = C::torque(C::lanes(row), contact, normal, history, N::splat(self.step));
+            let (mut history, mut step) = (self.remembered(remembers, own, entries), N::splat(self.step));
+            let (mut contact, mut pressed) = (*contact, *normal);
+            if CARRIES {
+                let carry: Carry<N> = self.buffer.carry(place);
+                pressed = carry.mean_stiffness(normal, history[3]);
+                history = carry.torque(contact.normal, history);
+                (contact.relative_spin, step) =
+                    (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
+            }
+            let (torque, mut history) = C::torque(C::lanes(row), &contact, &pressed, history, step);
+            if CARRIES {
+                history[3] = normal.response.normal_stiffness;
+            }
             N::store_block(columns(torque), self.buffer.rolling.as_mut_ptr().add(place));
             self.remember(remembers, own, history, entries);
         }
@@ -400,6 +433,35 @@ impl Kernel for ArmsRun<'_, '_> {
         while done < self.0.buffer.ready {
             // SAFETY: there is room for a register behind the batch.
             unsafe { self.0.buffer.undeform_arms::<N>(done) };
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// What a scheme does before the sub-models: how contacts were carried, and the velocities that dashpots see.
+pub(super) struct CarryRun<'a, 'b>(pub(super) &'a mut Stage<'b>);
+
+impl Kernel for CarryRun<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let stage = self.0;
+        let (step, rates) = (N::splat(stage.step), stage.history.rates);
+        let mut done = 0;
+        while done < stage.buffer.ready {
+            // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
+            // piece of the list.
+            unsafe {
+                let mut contact = stage.contact(done, false);
+                let carry = Carry::of(&contact, step, stage.touches);
+                if rates.is_some() {
+                    let entries = stage.buffer.entry.as_ptr().add(done);
+                    let row = stage.remembered(true, rates, entries);
+                    let row = carry.foresee(&mut contact, row, step);
+                    stage.remember(true, rates, row, entries);
+                }
+                carry.weigh(&mut contact, stage.onset, step);
+                stage.buffer.put_carry(done, &carry, &contact);
+            }
             done += N::WIDTH;
         }
     }
@@ -453,9 +515,9 @@ impl<D: CohesionForm> Kernel for CohesionRun<'_, '_, D> {
 }
 
 /// A tangential model over a batch; it writes the whole force.
-struct TangentialRun<'a, 'b, B>(&'a mut Stage<'b>, PhantomData<fn() -> B>);
+struct TangentialRun<'a, 'b, B, const CARRIES: bool>(&'a mut Stage<'b>, PhantomData<fn() -> B>);
 
-impl<B: Tangential> Kernel for TangentialRun<'_, '_, B> {
+impl<B: Tangential, const CARRIES: bool> Kernel for TangentialRun<'_, '_, B, CARRIES> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
@@ -466,7 +528,7 @@ impl<B: Tangential> Kernel for TangentialRun<'_, '_, B> {
             unsafe {
                 let row = coefficients.at(stage, done);
                 let (contact, normal) = (stage.contact(done, false), stage.buffer.normal(done));
-                stage.rub::<N, B>(done, row, &contact, &normal);
+                stage.rub::<N, B, CARRIES>(done, row, &contact, &normal);
                 if !B::ACTIVE {
                     stage.leave_couple::<N>(done);
                 }
@@ -477,9 +539,9 @@ impl<B: Tangential> Kernel for TangentialRun<'_, '_, B> {
 }
 
 /// A rolling model over a batch.
-struct RollingRun<'a, 'b, C>(&'a mut Stage<'b>, PhantomData<fn() -> C>);
+struct RollingRun<'a, 'b, C, const CARRIES: bool>(&'a mut Stage<'b>, PhantomData<fn() -> C>);
 
-impl<C: Rolling> Kernel for RollingRun<'_, '_, C> {
+impl<C: Rolling, const CARRIES: bool> Kernel for RollingRun<'_, '_, C, CARRIES> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
@@ -490,7 +552,7 @@ impl<C: Rolling> Kernel for RollingRun<'_, '_, C> {
             unsafe {
                 let row = coefficients.at(stage, done);
                 let (contact, normal) = (stage.contact(done, false), stage.buffer.normal(done));
-                stage.roll::<N, C>(done, row, &contact, &normal);
+                stage.roll::<N, C, CARRIES>(done, row, &contact, &normal);
             }
             done += N::WIDTH;
         }
@@ -527,12 +589,12 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
                     let law = D::lanes(&row[after_normal + B::COUNT + C::COUNT..]);
                     D::add(law, D::force(law, &contact), &mut normal);
                 }
-                stage.rub::<N, B>(done, &row[after_normal..], &contact, &normal);
+                stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal);
                 if C::ACTIVE && !B::ACTIVE {
                     stage.leave_couple::<N>(done);
                 }
                 if C::ACTIVE {
-                    stage.roll::<N, C>(done, &row[after_normal + B::COUNT..], &contact, &normal);
+                    stage.roll::<N, C, false>(done, &row[after_normal + B::COUNT..], &contact, &normal);
                 }
             }
             done += N::WIDTH;

@@ -291,7 +291,8 @@ impl<B: Bodies> Batches<'_, B> {
     fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
         let Self { entries, table, uniform, step, law: BatchLaw { law, .. }, .. } = self;
         let (places, history, offset) = (law.places(), law.history_places(), law.history().len());
-        Stage { entries, table, uniform: *uniform, places, history, offset, step: *step, buffer }
+        let (touches, onset) = (!law.holds_beyond_touch(), law.onset());
+        Stage { entries, table, uniform: *uniform, places, history, offset, step: *step, touches, onset, buffer }
     }
 
     /// Phase 2, and the rows of the table where they differ.

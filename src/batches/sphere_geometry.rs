@@ -98,6 +98,8 @@ impl<N: Number> SpherePair<N> {
             slip,
             relative_spin: vector(spin_i) - vector(spin_j),
             spin_sum: vector(spin_i) + vector(spin_j),
+            turning,
+            per_distance,
             per_reach: mass * shared,
             rolling_inertia: first_inertia * second_inertia / (first_inertia + second_inertia),
             pair_constant,

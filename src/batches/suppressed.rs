@@ -5,7 +5,7 @@
 //! the overlap: nothing jumps when a bond breaks.
 
 use super::buffer::Buffer;
-use super::law::{Gathered, Run, RunOf, Stage};
+use super::law::{CarryRun, Gathered, Run, RunOf, Stage};
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::{
@@ -31,16 +31,20 @@ impl Suppressed {
         if !law.takes_offset() {
             return Self::default();
         }
-        let mut begin: Vec<Run> = vec![choice.normal.visit(RunBeyond)];
+        let (mut begin, run_of): (Vec<Run>, _) = (Vec::new(), RunOf { carries: choice.scheme.carries() });
+        if choice.scheme.carries() {
+            begin.push(|width, stage| lanes::run(width, CarryRun(stage)));
+        }
+        begin.push(choice.normal.visit(RunBeyond));
         if law.has_cohesion() {
             begin.push(choice.cohesion.visit(RunBeyond));
         }
-        let friction = choice.tangential.visit(RunOf);
+        let friction = choice.tangential.visit(run_of);
         let bonded = [&begin[..], &[|_, stage| stage.buffer.mute(), friction, |_, stage| keep(stage, true)]].concat();
         let mut released = [&begin[..], &[friction]].concat();
         if law.has_rolling() {
             released.push(|_, stage| stage.buffer.press());
-            released.push(choice.rolling.visit(RunOf));
+            released.push(choice.rolling.visit(run_of));
         }
         released.push(|_, stage| keep(stage, false));
         Self { bonded, released, followed: vec![|_, stage| follow(stage)] }

@@ -25,7 +25,7 @@ fn before(entry: usize, row: usize) -> Row {
 fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Option<Manner>) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
-    let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true };
+    let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true, carry: true };
     for entry in 0..COUNT {
         let geometry = ContactGeometry { contact: corners()[entry % 5], first_arm: 0.5, second_arm: 0.25 };
         // SAFETY: the buffer has room for more.
@@ -59,6 +59,8 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         history: own,
         offset,
         step: 0.5,
+        touches: !law.law.holds_beyond_touch(),
+        onset: law.law.onset(),
         buffer: &mut buffer,
     };
     let (needs, runs) = law.runs(manner);

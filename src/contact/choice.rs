@@ -5,8 +5,8 @@ use super::normal::{NormalChoice, TakeNormal};
 use super::rolling::{RollingChoice, TakeRolling};
 use super::tangential::{TakeTangential, TangentialChoice};
 use super::{
-    Adhesion, Coefficients, Cohesion, CohesionForm, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm,
-    Objection, Rolling, Switches, Tangential,
+    Adhesion, Coefficients, Cohesion, CohesionForm, FrictionNeeds, HistoryRow, MaterialPair, Missing, Normal,
+    NormalForm, Objection, Rolling, Scheme, Switches, Tangential,
 };
 
 /// The sub-models and switches of one law, as the scene names them.
@@ -22,13 +22,18 @@ pub struct LawChoice {
     pub cohesion: CohesionChoice,
     /// Switches of every law.
     pub switches: Switches,
+    /// How springs and dashpots go on in time.
+    pub scheme: Scheme,
 }
 
-/// What each sub-model of the program remembers of a contact, as text: name and signs of its row.
+/// What each sub-model and scheme of the program remembers of a contact, as text: name and signs of its row.
 pub fn remembered() -> String {
     let kinds = [NormalChoice::MEMORIES, TangentialChoice::MEMORIES, RollingChoice::MEMORIES, CohesionChoice::MEMORIES];
     let rows = kinds.into_iter().flatten().filter_map(|(model, row)| Some((model, row.as_ref()?)));
-    rows.map(|(model, row)| format!("{model}: {} {:?}\n", row.name, row.odd)).collect()
+    let schemes = [Scheme::Engine, Scheme::Midway, Scheme::Predicted];
+    let own = schemes.iter().filter_map(|scheme| Some((scheme.name(), scheme.history()?)));
+    let line = |model: &str, row: &HistoryRow| format!("{model}: {} {:?}\n", row.name, row.odd);
+    rows.map(|(model, row)| line(model, row)).chain(own.map(|(scheme, row)| line(scheme, &row))).collect()
 }
 
 impl LawChoice {
@@ -76,6 +81,17 @@ impl LawChoice {
                 reason: "a torque by the overlap found, which is below 0 while the normal model pulls beyond touch; \
                          epsd, epsd2 or none is right",
             });
+        }
+        if self.scheme.carries() {
+            let found = [("normal", self.normal.visit(OfEngine)), ("rolling", self.rolling.visit(OfEngine))];
+            if let Some((table, _)) = found.into_iter().find(|(_, of_engine)| *of_engine) {
+                return Some(Objection {
+                    table,
+                    key: "engine_exact",
+                    reason: "true found, which is the engine's in its own scheme; false, or [run] scheme = \"engine\", is \
+                             right",
+                });
+            }
         }
         if self.normal.visit(Sticks) && self.switches.limits_force() {
             return Some(Objection {
@@ -160,6 +176,23 @@ impl TakeNormal for OfKeys {
     type Output = Option<Objection>;
     fn take<M: Normal>(self, keys: &M::Keys) -> Option<Objection> {
         M::objection(keys)
+    }
+}
+
+/// Asks a sub-model whether its keys follow an engine where schemes differ.
+struct OfEngine;
+
+impl TakeNormal for OfEngine {
+    type Output = bool;
+    fn take<M: Normal>(self, keys: &M::Keys) -> bool {
+        M::has_undeformed_arms(keys)
+    }
+}
+
+impl TakeRolling for OfEngine {
+    type Output = bool;
+    fn take<M: Rolling>(self, keys: &M::Keys) -> bool {
+        M::is_engine_exact(keys)
     }
 }
 

@@ -5,7 +5,8 @@ use super::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
 use super::rolling::{RollingChoice, rocking};
 use super::tangential::{TangentialChoice, turned_history};
 use super::{
-    Contact, FrictionNeeds, LawChoice, Material, MaterialPair, NoKeys, NormalForce, PairProperties, Response, Switches,
+    Contact, FrictionNeeds, LawChoice, Material, MaterialPair, NoKeys, NormalForce, PairProperties, Response, Scheme,
+    Switches,
 };
 use crate::number::Vector;
 use crate::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
@@ -29,6 +30,8 @@ pub(super) fn contact() -> Contact {
         slip: Vector::new(3.0, 4.0, 0.0),
         relative_spin: Vector::new(0.0, 5.0, 0.0),
         spin_sum: Vector::new(0.0, 7.0, 0.0),
+        turning: Vector::new(0.0, 1.5, 0.25),
+        per_distance: 1.0,
         per_reach: 1.0,
         rolling_inertia: 0.5,
         pair_constant: 0.0,
@@ -45,7 +48,7 @@ pub(super) fn normal_force() -> NormalForce {
     NormalForce { response: response(), force: 0.0, seen: 0.0 }
 }
 
-/// Every combination of sub-models.
+/// Every combination of sub-models and schemes.
 pub(crate) fn every_law() -> Vec<LawChoice> {
     let speed = hooke::Keys { characteristic_velocity: Positive::new(2.0).unwrap() };
     let reduce = cohesion::sjkr::Keys { tangential_reduce: true };
@@ -66,6 +69,7 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
             TangentialChoice::None(NoKeys {}),
             TangentialChoice::History(NoKeys {}),
             TangentialChoice::NoHistory(NoKeys {}),
+            TangentialChoice::Rescaled(NoKeys {}),
             TangentialChoice::TurnedHistory(turned_history::Keys { rescale: true, given_stiffness: false }),
         ] {
             for rolling in [
@@ -80,9 +84,11 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
                     CohesionChoice::Sjkr2(cohesion::sjkr::Keys::default()),
                 ] {
                     let switches = Switches::of(false, true);
-                    let choice = LawChoice { normal, tangential, rolling, cohesion, switches };
-                    if choice.objection().is_none_or(|objection| objection.key == "tangential_reduce") {
-                        all.push(choice);
+                    for scheme in [Scheme::Engine, Scheme::Midway, Scheme::Predicted] {
+                        let choice = LawChoice { normal, tangential, rolling, cohesion, switches, scheme };
+                        if choice.objection().is_none_or(|objection| objection.key == "tangential_reduce") {
+                            all.push(choice);
+                        }
                     }
                 }
             }

@@ -5,8 +5,8 @@ use super::normal::TakeNormal;
 use super::rolling::TakeRolling;
 use super::tangential::TakeTangential;
 use super::{
-    Adhesion, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce, NormalForm, Response,
-    Rolling, RollingStiffness, Switches, Tangential,
+    Adhesion, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce, NormalForm, Onset,
+    Response, Rolling, RollingStiffness, Switches, Tangential,
 };
 use crate::number::{Row, Vector};
 
@@ -29,6 +29,8 @@ pub(super) struct NormalModel {
     pub(super) adhesion: Adhesion,
     /// Whether slip is that of the undeformed bodies.
     pub(super) undeformed_arms: bool,
+    /// How its dashpots begin.
+    pub(super) onset: Onset,
     /// Whether it keeps a number of each pair.
     pub(super) has_pair_constant: bool,
     /// [`NormalForm::force`].
@@ -47,13 +49,14 @@ pub(super) struct NormalModel {
 
 impl NormalModel {
     /// That of a form.
-    fn of<A: NormalForm>(undeformed_arms: bool) -> Self {
+    fn of<A: NormalForm>(undeformed_arms: bool, onset: Onset) -> Self {
         Self {
             count: A::COUNT,
             history: A::HISTORY,
             needs: A::NEEDS,
             adhesion: A::ADHESION,
             undeformed_arms,
+            onset,
             has_pair_constant: A::HAS_PAIR_CONSTANT,
             force: |row, switches, contact, history, step| {
                 let roots = A::roots(contact.overlap, contact.radius, contact.mass);
@@ -171,7 +174,7 @@ pub(super) struct Functions;
 impl TakeNormal for Functions {
     type Output = NormalModel;
     fn take<M: Normal>(self, keys: &M::Keys) -> NormalModel {
-        NormalModel::of::<M::Form>(M::has_undeformed_arms(keys))
+        NormalModel::of::<M::Form>(M::has_undeformed_arms(keys), M::ONSET)
     }
 }
 

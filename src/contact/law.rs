@@ -4,8 +4,8 @@ use super::functions::{CohesionModel, Functions, NormalModel, RollingModel, Tang
 #[cfg(test)]
 use super::pressing_force;
 use super::{
-    Adhesion, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Reaction, Response, RollingStiffness,
-    Switches,
+    Adhesion, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction, Response,
+    RollingStiffness, Scheme, Switches,
 };
 use crate::number::{Row, Vector};
 
@@ -34,6 +34,8 @@ pub struct HistoryPlaces {
     pub tangential: Option<usize>,
     /// The rolling model's.
     pub rolling: Option<usize>,
+    /// The scheme's: velocities before.
+    pub rates: Option<usize>,
 }
 
 /// Where the coefficients of each sub-model begin in a row of a law's; those of the normal model and the switches stand
@@ -67,6 +69,8 @@ pub struct Law {
     history_places: HistoryPlaces,
     /// Where coefficients stand.
     places: CoefficientPlaces,
+    /// How springs and dashpots go on in time.
+    scheme: Scheme,
 }
 
 impl Law {
@@ -85,6 +89,7 @@ impl Law {
             normal: place(normal.history),
             tangential: place(tangential.history),
             rolling: place(rolling.history),
+            rates: place(choice.scheme.history()),
         };
         let after_normal = normal.count + Switches::COUNT;
         let places = CoefficientPlaces {
@@ -93,7 +98,7 @@ impl Law {
             cohesion: after_normal + tangential.count + rolling.count,
             count: after_normal + tangential.count + rolling.count + cohesion.count,
         };
-        Self { normal, tangential, rolling, cohesion, history, history_places, places }
+        Self { normal, tangential, rolling, cohesion, history, history_places, places, scheme: choice.scheme }
     }
 
     /// Where the coefficients of each sub-model stand in a row of them.
@@ -141,7 +146,18 @@ impl Law {
         let friction = Needs { torque: self.tangential.active, ..Needs::NONE };
         let arms = self.undeformed_arms();
         let arms = Needs { bodies: arms, spin_sum: arms, ..Needs::NONE };
-        self.normal.needs.and(friction).and(self.rolling.needs).and(self.cohesion.needs).and(arms)
+        let carry = Needs { carry: self.scheme.carries(), ..Needs::NONE };
+        self.normal.needs.and(friction).and(self.rolling.needs).and(self.cohesion.needs).and(arms).and(carry)
+    }
+
+    /// How springs and dashpots go on in time.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// How dashpots begin.
+    pub(crate) fn onset(&self) -> Onset {
+        self.normal.onset
     }
 
     /// Whether slip is that of the undeformed bodies, and torques at walls have their arms.
@@ -177,7 +193,9 @@ impl Law {
 
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\].
     pub fn react(&self, row: &[f64], contact: &Contact, history: &mut [Row], step: f64) -> Reaction {
-        let contact = &if self.undeformed_arms() { contact.with_undeformed_arms() } else { *contact };
+        let mut contact = if self.undeformed_arms() { contact.with_undeformed_arms() } else { *contact };
+        let carry = self.carry(&mut contact, history, step);
+        let contact = &contact;
         let (mut normal, remembered) = match self.history_places.normal {
             Some(place) => (self.normal.force)(row, self.switches(row), contact, history[place], step),
             None => (self.normal.force)(row, self.switches(row), contact, [0.0; 4], step),
@@ -189,8 +207,8 @@ impl Law {
             let row = &row[self.places.cohesion..];
             (self.cohesion.add)(row, (self.cohesion.force)(row, contact), &mut normal);
         }
-        let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, step);
-        let rolling = self.roll(row, contact, &normal, history, step);
+        let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, (step, carry));
+        let rolling = self.roll(row, contact, &normal, history, (step, carry));
         Reaction { force, couple, rolling, sliding }
     }
 
@@ -207,6 +225,9 @@ impl Law {
         history: &mut [Row],
         step: f64,
     ) -> Reaction {
+        let mut contact = *contact;
+        let carry = self.carry(&mut contact, history, step);
+        let contact = &contact;
         let (response, switches) = ((self.normal.response)(row, contact), self.switches(row));
         let mut normal = pressing_force(response, switches, offset.pressing, contact.normal_velocity);
         if self.cohesion.active {
@@ -215,10 +236,24 @@ impl Law {
             (self.cohesion.add)(row, pull, &mut normal);
         }
         let along = if offset.acts { normal.force } else { 0.0 };
-        let (force, couple, sliding) = self.friction(row, contact, &normal, along, history, step);
+        let (force, couple, sliding) = self.friction(row, contact, &normal, along, history, (step, carry));
         let pressed = Contact { overlap: offset.pressing, ..*contact };
-        let rolling = if offset.acts { self.roll(row, &pressed, &normal, history, step) } else { Vector::zero() };
+        let rolling =
+            if offset.acts { self.roll(row, &pressed, &normal, history, (step, carry)) } else { Vector::zero() };
         Reaction { force, couple, rolling, sliding }
+    }
+
+    /// How a contact was carried, where the scheme asks for it; it gets the velocities that dashpots see.
+    fn carry(&self, contact: &mut Contact, history: &mut [Row], step: f64) -> Option<Carry> {
+        if !self.scheme.carries() {
+            return None;
+        }
+        let carry = Carry::of(contact, step, !self.holds_beyond_touch());
+        if let Some(place) = self.history_places.rates {
+            history[place] = carry.foresee(contact, history[place], step);
+        }
+        carry.weigh(contact, self.normal.onset, step);
+        Some(carry)
     }
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
@@ -229,14 +264,17 @@ impl Law {
         normal: &NormalForce,
         along: f64,
         history: &mut [Row],
-        step: f64,
+        (mut step, carry): (f64, Option<Carry>),
     ) -> (Vector, Vector, bool) {
         let force = contact.normal * along;
         if !self.tangential.active {
             return (force, Vector::zero(), false);
         }
         let place = self.history_places.tangential;
-        let before = place.map_or([0.0; 4], |place| history[place]);
+        let mut before = place.map_or([0.0; 4], |place| history[place]);
+        if let Some(carry) = carry.filter(|_| self.tangential.has_spring) {
+            (before, step) = (carry.spring(contact.normal, before), 0.0);
+        }
         let friction = (self.tangential.force)(&row[self.places.tangential..], contact, normal, before, step);
         if let Some(place) = place {
             history[place] = friction.history;
@@ -245,13 +283,29 @@ impl Law {
     }
 
     /// Rolling torque from i to j.
-    fn roll(&self, row: &[f64], contact: &Contact, normal: &NormalForce, history: &mut [Row], step: f64) -> Vector {
+    fn roll(
+        &self,
+        row: &[f64],
+        contact: &Contact,
+        normal: &NormalForce,
+        history: &mut [Row],
+        (mut step, carry): (f64, Option<Carry>),
+    ) -> Vector {
         if !self.rolling.active {
             return Vector::zero();
         }
         let place = self.history_places.rolling;
-        let before = place.map_or([0.0; 4], |place| history[place]);
-        let (torque, after) = (self.rolling.torque)(&row[self.places.rolling..], contact, normal, before, step);
+        let (mut before, mut contact) = (place.map_or([0.0; 4], |place| history[place]), *contact);
+        let (mut pressed, carry) = (*normal, carry.filter(|_| place.is_some()));
+        if let Some(carry) = carry {
+            pressed = carry.mean_stiffness(normal, before[3]);
+            before = carry.torque(contact.normal, before);
+            (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
+        }
+        let (torque, mut after) = (self.rolling.torque)(&row[self.places.rolling..], &contact, &pressed, before, step);
+        if carry.is_some() {
+            after[3] = normal.response.normal_stiffness;
+        }
         if let Some(place) = place {
             history[place] = after;
         }
@@ -281,7 +335,8 @@ impl Law {
         (self.rolling.stiffness)(&row[self.places.rolling..], contact, &response)
     }
 
-    /// Tangent normal stiffness, tangential stiffness \[N/m\] and damping coefficients \[kg/s\].
+    /// Tangent normal stiffness, tangential stiffness \[N/m\] and damping coefficients \[kg/s\], for the stable time step:
+    /// the coefficients as the scheme makes them count.
     pub fn stiffness(&self, row: &[f64], contact: &Contact) -> Response {
         let mut response = (self.normal.response)(row, contact);
         response.normal_stiffness = (self.normal.tangent_stiffness)(row, contact);
@@ -292,6 +347,8 @@ impl Law {
         if !self.tangential.has_dashpot || !self.switches(row).damps_slip() {
             response.tangential_damping = 0.0;
         }
+        response.normal_damping *= self.scheme.damping_factor();
+        response.tangential_damping *= self.scheme.damping_factor();
         response
     }
 }

@@ -18,6 +18,7 @@ mod law;
 mod material;
 pub mod normal;
 pub mod rolling;
+mod scheme;
 mod sub_model;
 pub mod tangential;
 
@@ -28,6 +29,7 @@ pub(crate) use coefficients::coefficients;
 pub use law::Offset;
 pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
+pub use scheme::{Carry, Scheme};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
 
@@ -57,6 +59,10 @@ pub struct Contact<N = f64> {
     pub relative_spin: Vector<N>,
     /// Angular velocity of i and that of j together \[rad/s\].
     pub spin_sum: Vector<N>,
+    /// Angular velocities times the arms, of i and j together \[m/s\].
+    pub turning: Vector<N>,
+    /// 1/distance of the centres of two spheres, 0 at a wall \[1/m\].
+    pub per_distance: N,
     /// 1/(R_i + R_j) of two spheres, 0 at a wall \[1/m\].
     pub per_reach: N,
     /// p q/(p + q), p = m_i R_i², q = m_j R_j², of two spheres; m_i R_i² at a wall \[kg m²\].
@@ -70,8 +76,8 @@ impl<N: Number> Contact<N> {
     /// The contact with the slip that arms R instead of R − δ/2 give.
     #[inline(always)]
     pub fn with_undeformed_arms(&self) -> Self {
-        let missing = (self.spin_sum * (N::splat(0.5) * self.overlap)).cross(self.normal);
-        Self { slip: self.slip - missing, ..*self }
+        let missing = self.spin_sum * (N::splat(0.5) * self.overlap);
+        Self { slip: self.slip - missing.cross(self.normal), turning: self.turning + missing, ..*self }
     }
 }
 
@@ -89,11 +95,14 @@ pub struct Needs {
     pub bodies: bool,
     /// [`Contact::spin_sum`].
     pub spin_sum: bool,
+    /// [`Contact::turning`] and [`Contact::per_distance`]; slip even without torques.
+    pub carry: bool,
 }
 
 impl Needs {
     /// Nothing.
-    pub const NONE: Self = Self { torque: false, spin: false, section: false, bodies: false, spin_sum: false };
+    pub const NONE: Self =
+        Self { torque: false, spin: false, section: false, bodies: false, spin_sum: false, carry: false };
 
     /// What either of two looks at.
     pub fn and(self, other: Self) -> Self {
@@ -103,8 +112,22 @@ impl Needs {
             section: self.section || other.section,
             bodies: self.bodies || other.bodies,
             spin_sum: self.spin_sum || other.spin_sum,
+            carry: self.carry || other.carry,
         }
     }
+}
+
+/// How the damping coefficient of a contact begins, as a power of the overlap: what the first force of a dashpot stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Onset {
+    /// Nothing is weighed: the contact may begin and end away from touch.
+    Unweighed,
+    /// A constant.
+    Constant,
+    /// The fourth root.
+    FourthRoot,
+    /// The square root.
+    SquareRoot,
 }
 
 /// Whether a normal model pulls.
@@ -156,8 +179,9 @@ pub struct Friction<N: Number = f64> {
     pub sliding: N::Mask,
 }
 
-/// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model.
-pub const MOST_HISTORY: usize = 3;
+/// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model and of the
+/// scheme.
+pub const MOST_HISTORY: usize = 4;
 
 /// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
 pub const MOST_KEPT: usize = MOST_HISTORY + 1;

@@ -1,7 +1,7 @@
 //! What a sub-model of each kind has to say.
 
 use super::{
-    Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Objection,
+    Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Objection, Onset,
     Response, Roots, Switches,
 };
 use crate::number::{Number, Row, Vector};
@@ -30,6 +30,8 @@ pub trait Normal: Copy + Send + Sync + 'static {
     fn objection(_keys: &Self::Keys) -> Option<Objection> {
         None
     }
+    /// How γ_n and γ_t begin as the bodies touch.
+    const ONSET: Onset = Onset::Unweighed;
     /// Whether slip is that of the undeformed bodies, and torques at walls have their arms, as in the engine.
     fn has_undeformed_arms(_keys: &Self::Keys) -> bool {
         false
@@ -163,6 +165,10 @@ pub trait Rolling: Coefficients {
     const TAKES_OVERLAP: bool = false;
     /// Whether it takes k_t of the normal model, whatever the tangential model does.
     const TAKES_TANGENTIAL_STIFFNESS: bool = false;
+    /// Whether these keys keep the direction of the torque as the engine does.
+    fn is_engine_exact(_keys: &Self::Keys) -> bool {
+        false
+    }
     /// Stiffness of its spring against bending and against twisting, that of its dashpot included, for the stable time
     /// step \[N m\].
     fn stiffness(&self, _contact: &Contact, _response: &Response) -> RollingStiffness {

@@ -88,6 +88,12 @@ pub(crate) enum Motion {
 }
 
 impl Motion {
+    /// That which the records of a law show, after a step of this length \[s\]: of the last evaluation; where dashpots are predicted, of
+    /// now, which they saw to the second order of the step.
+    pub(crate) fn shown(law: &Law, step: f64) -> Self {
+        if law.scheme().predicts() { Self::Present } else { Self::HalfStepBack(step) }
+    }
+
     /// Velocity with mass and angular velocity with moment of inertia of a particle then.
     pub(crate) fn of(self, state: &State, slot: u32) -> (Row, Row) {
         let (particles, slot) = (&state.particles, slot as usize);

@@ -178,6 +178,7 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> String {
         Step::Given(_) => "given".to_owned(),
         Step::Automatic { safety } => format!("automatic, safety {safety}"),
     };
+    let chosen = format!("{chosen}, accuracy {}, scheme {}", scene.run.accuracy.name(), scene.run.scheme.name());
     let limit = simulation.limit();
     if !limit.safe.is_finite() {
         return format!("{step:.4e} s ({chosen}); nothing is stiff, no bound");

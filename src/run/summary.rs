@@ -52,6 +52,10 @@ pub struct TimeSteps {
     pub stable: Option<f64>,
     /// What limits the stable one at the end: the pair and how it moves.
     pub limited_by: Option<String>,
+    /// What scheme and time step were chosen for.
+    pub accuracy: &'static str,
+    /// How springs and dashpots of contacts went on in time.
+    pub scheme: &'static str,
     /// Whether a given step above the stable one was let run.
     pub allow_unstable: bool,
 }
@@ -158,6 +162,8 @@ impl Summary {
                 current: state.clock.step,
                 stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
                 limited_by: simulation.limit().by.map(|by| simulation.words(&by)),
+                accuracy: order.scene.run.accuracy.name(),
+                scheme: order.scene.run.scheme.name(),
                 allow_unstable: order.scene.run.allow_unstable,
             },
             threads: simulation.threads(),

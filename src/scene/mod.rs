@@ -3,6 +3,7 @@
 //! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
 //! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
 
+mod accuracy;
 mod body;
 mod governing;
 mod parameters;
@@ -12,6 +13,7 @@ pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingErro
 pub use crate::motion::{AxisMotion, InputCourse};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
+pub use accuracy::Accuracy;
 pub use body::Body;
 pub use governing::GoverningLaws;
 pub(crate) use parameters::range_of;
@@ -22,7 +24,7 @@ use crate::contact::cohesion::CohesionChoice;
 use crate::contact::normal::NormalChoice;
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
-use crate::contact::{LawChoice, Material, PairProperties, Switches};
+use crate::contact::{LawChoice, Material, PairProperties, Scheme, Switches};
 use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
 /// A scene that can be run: everything the file says, checked, in SI units.
@@ -69,6 +71,10 @@ pub struct Run {
     pub end: Option<f64>,
     /// The time step.
     pub step: Step,
+    /// What scheme and time step are chosen for, where the scene names neither.
+    pub accuracy: Accuracy,
+    /// How springs and dashpots of contacts go on in time.
+    pub scheme: Scheme,
     /// Whether a given step above the stable one may run on.
     pub allow_unstable: bool,
     /// Threads; `None`: as many as the machine offers.
@@ -90,6 +96,8 @@ impl Default for Run {
         Self {
             end: None,
             step: Step::Automatic { safety: Self::SAFETY },
+            accuracy: Accuracy::Standard,
+            scheme: Scheme::Engine,
             allow_unstable: false,
             threads: None,
             seed: 1,
@@ -103,7 +111,7 @@ impl Default for Run {
 
 impl Run {
     /// Fraction of the stable step that an automatic time step takes if the scene names none.
-    pub const SAFETY: f64 = 0.2;
+    pub const SAFETY: f64 = accuracy::SAFETY;
 }
 
 /// The time step.
@@ -135,13 +143,15 @@ pub struct ContactLaw {
     pub cohesion: CohesionChoice,
     /// Switches of every law.
     pub switches: Switches,
+    /// How springs and dashpots go on in time.
+    pub scheme: Scheme,
 }
 
 impl ContactLaw {
     /// What the law is composed of.
     pub fn choice(&self) -> LawChoice {
-        let Self { normal, tangential, rolling, cohesion, switches, .. } = *self;
-        LawChoice { normal, tangential, rolling, cohesion, switches }
+        let Self { normal, tangential, rolling, cohesion, switches, scheme, .. } = *self;
+        LawChoice { normal, tangential, rolling, cohesion, switches, scheme }
     }
 }
 

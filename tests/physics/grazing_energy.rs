@@ -4,8 +4,8 @@
 //! more under a large one (D. Elata & J. G. Berryman, *Mech. Mater.* 24 (1996) 229–240). The test shows how much.
 
 use crate::stage::{HERTZ, hertz_duration, hit, material, properties, rigid, sphere};
-use cograin::contact::LawChoice;
 use cograin::contact::tangential::{TangentialChoice, turned_history};
+use cograin::contact::{LawChoice, NoKeys, Scheme};
 
 /// Kinetic energy after over before, of an elastic sphere that meets a rigid plane at this angle \[°\] from the normal.
 fn energy_ratio(law: LawChoice, friction: f64, angle: f64) -> f64 {
@@ -44,4 +44,15 @@ fn a_spring_that_shrinks_with_its_stiffness_gains_none() {
 fn sliding_impacts_lose_energy() {
     let found = energy_ratio(HERTZ, 0.1, 60.0);
     assert!(found < 0.95, "{found:.4}");
+}
+
+#[test]
+fn a_force_that_is_kept_while_the_contact_grows_and_shrinks_with_it_gains_nothing() {
+    for scheme in [Scheme::Engine, Scheme::Midway] {
+        let law = LawChoice { tangential: TangentialChoice::Rescaled(NoKeys {}), scheme, ..HERTZ };
+        for (friction, angle) in [(0.3, 30.0), (1.0, 30.0), (1.0, 60.0), (5.0, 15.0), (5.0, 75.0)] {
+            let found = energy_ratio(law, friction, angle);
+            assert!(found < 1.0, "{}, µ = {friction}, {angle}°: {found:.6}", scheme.name());
+        }
+    }
 }

@@ -4,7 +4,7 @@ use cograin::contact::cohesion::CohesionChoice;
 use cograin::contact::normal::{NormalChoice, hooke_stiffness};
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{AxisMotion, Body, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
 use cograin::step::Simulation;
@@ -22,6 +22,7 @@ pub(crate) const HERTZ: LawChoice = LawChoice {
         tangential_damping_factor: 1.0,
         marker: std::marker::PhantomData,
     },
+    scheme: Scheme::Engine,
 };
 
 /// Hertz without friction.
@@ -101,6 +102,7 @@ pub(crate) fn scene(
             rolling: law.rolling,
             cohesion: law.cohesion,
             switches: law.switches,
+            scheme: law.scheme,
         }],
         pairs: vec![properties; pairs],
         materials,

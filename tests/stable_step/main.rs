@@ -106,6 +106,23 @@ fn of_contact_dashpots() {
 }
 
 #[test]
+fn of_predicted_contact_dashpots() {
+    let spheres = cubic(5, 1.998e-3);
+    let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
+    for ratio in [0.05, 0.3] {
+        let damping = 2.0 * ratio * (1e5 * 0.5 * mass).sqrt() / (0.5 * mass);
+        let pair = format!(
+            "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = {damping:?}\ntangential_damping = {damping:?}"
+        );
+        let text = block(&spheres, near_faces(&spheres, 1.1e-3), &contacts("hooke_stiffness", &pair));
+        let text = text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n");
+        let scene = scene(&text);
+        let tried = ratio_on_the_engine(&scene, stated(&scene));
+        assert!((0.88..=1.005).contains(&tried), "predicted contact dashpots, ratio {ratio}: {tried:.3}");
+    }
+}
+
+#[test]
 fn of_bonded_blocks() {
     holds_on_the_engine("bonded simple cubic", &block(&cubic(4, 2e-3), free, &bonds("")));
     holds_on_the_engine("bonded face-centred", &block(&face_centred(2, 2e-3), free, &bonds("")));

@@ -40,6 +40,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         rolling: law.rolling,
         cohesion: law.cohesion,
         switches: law.switches,
+        scheme: law.scheme,
     };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();

@@ -8,7 +8,7 @@ use cograin::contact::cohesion::{CohesionChoice, sjkr};
 use cograin::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
 use cograin::contact::rolling::{RollingChoice, rocking};
 use cograin::contact::tangential::{TangentialChoice, turned_history};
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Switches};
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
 /// The other engine's name of each pair property, with ours.
@@ -92,8 +92,7 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
     Ok(pairs)
 }
 
-/// Gives unlike materials what the engine makes of the properties of like ones: geometric means, and a tangential
-/// stiffness from the effective Young's modulus and the mean of Poisson's ratios.
+/// Gives unlike materials geometric means, and a tangential stiffness from E* and the mean of Poisson's ratios.
 fn mixed(case: &Case, pairs: &mut [PairProperties]) {
     let count = case.materials.len();
     for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
@@ -244,6 +243,7 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
             "sjkr2" => CohesionChoice::Sjkr2(keys),
             other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
         },
+        scheme: Scheme::Engine,
         switches: Switches::of(model.limit_force, model.tangential_damping),
     })
 }

@@ -24,6 +24,7 @@ fn whole(tangential: TangentialChoice, switches: Switches, tangential_reduce: bo
         rolling: RollingChoice::Cdt(NoKeys {}),
         cohesion: CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce }),
         switches,
+        scheme: Scheme::Engine,
     }
 }
 

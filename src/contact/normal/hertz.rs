@@ -1,7 +1,7 @@
 //! Elastic spheres with viscous loss.
 
 use super::hertzian::Hertzian;
-use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal};
+use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset};
 
 /// Hertz's force with the damping of a constant coefficient of restitution.
 ///
@@ -30,6 +30,7 @@ pub struct Hertz;
 impl Normal for Hertz {
     type Keys = NoKeys;
     type Form = Hertzian;
+    const ONSET: Onset = Onset::FourthRoot;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         let log = libm::log(pair.restitution()?);

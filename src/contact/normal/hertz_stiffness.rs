@@ -1,7 +1,7 @@
 //! Hertz's force with a given stiffness.
 
 use super::hertzian::Hertzian;
-use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal};
+use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset};
 
 /// A spring and dashpot that grow with the radius of the contact, scaled as the scene gives them.
 ///
@@ -27,6 +27,7 @@ pub struct HertzStiffness;
 impl Normal for HertzStiffness {
     type Keys = NoKeys;
     type Form = Hertzian;
+    const ONSET: Onset = Onset::SquareRoot;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         Ok(Hertzian::new(

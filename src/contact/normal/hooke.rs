@@ -1,7 +1,7 @@
 //! A linear spring as stiff as a Hertz contact at one chosen speed.
 
 use crate::contact::{
-    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients,
 };
 use crate::number::{Number, Row};
 use crate::quantity::Positive;
@@ -55,6 +55,7 @@ pub(super) fn stiffness(youngs_modulus: f64, squared_velocity: f64, radius: f64,
 impl Normal for Hooke {
     type Keys = Keys;
     type Form = Self;
+    const ONSET: Onset = Onset::Constant;
 
     fn between(pair: &MaterialPair, keys: &Keys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let velocity = keys.characteristic_velocity.get();

@@ -1,7 +1,7 @@
 //! A linear spring of given stiffness.
 
 use crate::contact::{
-    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients,
 };
 use crate::number::{Number, Row};
 use serde::Deserialize;
@@ -53,6 +53,7 @@ pub struct Keys {
 impl Normal for HookeStiffness {
     type Keys = Keys;
     type Form = Self;
+    const ONSET: Onset = Onset::Constant;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let normal_stiffness = pair.normal_stiffness()?;

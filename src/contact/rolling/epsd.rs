@@ -66,6 +66,10 @@ impl Rolling for Epsd {
     const HISTORY: Option<HistoryRow> = Some(rocking::HISTORY);
     const NEEDS: Needs = rocking::NEEDS;
 
+    fn is_engine_exact(keys: &Keys) -> bool {
+        keys.engine_exact
+    }
+
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let [torsion, engine, set_up] = keys.numbers();
         Ok(Self::new(pair.rolling_friction()?, pair.rolling_viscous_damping()?, torsion, engine, set_up))

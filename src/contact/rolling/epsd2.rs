@@ -48,6 +48,10 @@ impl Rolling for Epsd2 {
     const NEEDS: Needs = rocking::NEEDS;
     const TAKES_TANGENTIAL_STIFFNESS: bool = true;
 
+    fn is_engine_exact(keys: &Keys) -> bool {
+        keys.engine_exact
+    }
+
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let [torsion, engine, set_up] = keys.numbers();
         Ok(Self::new(pair.rolling_friction()?, torsion, engine, set_up))

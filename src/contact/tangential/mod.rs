@@ -3,6 +3,7 @@
 pub mod history;
 pub mod no_history;
 pub mod none;
+pub mod rescaled;
 pub mod turned_history;
 
 use super::Tangential;
@@ -14,5 +15,6 @@ choices! {
     none::None,
     history::History,
     no_history::NoHistory,
+    rescaled::Rescaled,
     turned_history::TurnedHistory,
 }

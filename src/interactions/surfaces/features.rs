@@ -342,7 +342,7 @@ impl AtSurface {
     /// Tells the contacts with features as they were in the last evaluation, after a time step of this length \[s\].
     pub(super) fn records_at_features(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         let (list, law, particles) = (self.list(state), &self.law.law, &state.particles);
-        self.each(state, Motion::HalfStepBack(step), |entry, foot, share, geometry| {
+        self.each(state, Motion::shown(law, step), |entry, foot, share, geometry| {
             let (slot, contact) = (list.particle[entry], &geometry.contact);
             let (row, flags) = (self.row(state, slot), list.flags[entry]);
             let (reaction, sliding) = records::react(law, row, contact, &list.history, entry, flags);

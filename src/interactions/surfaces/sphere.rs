@@ -40,6 +40,7 @@ impl<N: Number> SphereAt<N> {
         let arm = self.arm();
         let relative = vector(velocity) - surface_velocity;
         let normal_velocity = relative.dot(normal);
+        let turning = vector(spin) * arm;
         let contact = Contact {
             overlap,
             radius,
@@ -48,9 +49,11 @@ impl<N: Number> SphereAt<N> {
             section_radius: radius,
             normal,
             normal_velocity,
-            slip: relative - normal * normal_velocity - (vector(spin) * arm).cross(normal),
+            slip: relative - normal * normal_velocity - turning.cross(normal),
             relative_spin,
             spin_sum: vector(spin),
+            turning,
+            per_distance: N::zero(),
             per_reach: N::zero(),
             rolling_inertia: velocity[3] * radius * radius,
             pair_constant,

@@ -1,7 +1,7 @@
 //! Materials, what two of them have in common, and which law governs them.
 
 use super::raw_tables::{Law, Named, RawTables};
-use crate::contact::{Material, PairProperties, Switches};
+use crate::contact::{Material, PairProperties, Scheme, Switches};
 use crate::document::Faults;
 use crate::document::Mistake;
 use crate::quantity::MaterialIndex;
@@ -57,7 +57,12 @@ pub(super) fn pairs(written: &RawTables, materials: &[Material], faults: &mut Fa
 }
 
 /// The laws, each with the pairs it governs.
-pub(super) fn laws(written: &Named<Law>, materials: &[Material], faults: &mut Faults) -> Vec<ContactLaw> {
+pub(super) fn laws(
+    written: &Named<Law>,
+    materials: &[Material],
+    scheme: Scheme,
+    faults: &mut Faults,
+) -> Vec<ContactLaw> {
     let mut owner: Vec<Option<usize>> = vec![None; materials.len() * materials.len()];
     let mut laws = Vec::new();
     for (index, (name, law)) in written.iter().enumerate() {
@@ -71,7 +76,7 @@ pub(super) fn laws(written: &Named<Law>, materials: &[Material], faults: &mut Fa
             }
             *owner = Some(index);
         }
-        laws.push(composed(name, law, between));
+        laws.push(composed(name, law, between, scheme));
     }
     laws
 }
@@ -93,7 +98,7 @@ fn governed(law: &Law, materials: &[Material], table: &str, faults: &mut Faults)
 }
 
 /// The law as the program keeps it.
-fn composed(name: &str, law: &Law, between: Vec<bool>) -> ContactLaw {
+fn composed(name: &str, law: &Law, between: Vec<bool>, scheme: Scheme) -> ContactLaw {
     ContactLaw {
         name: name.to_owned(),
         between,
@@ -102,5 +107,6 @@ fn composed(name: &str, law: &Law, between: Vec<bool>) -> ContactLaw {
         rolling: law.rolling,
         cohesion: law.cohesion,
         switches: Switches::of(law.table.limit_force, law.table.tangential_damping.unwrap_or(true)),
+        scheme,
     }
 }

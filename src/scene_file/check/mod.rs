@@ -38,7 +38,7 @@ pub(super) fn scene(
     let run = run(&written.run, &mut faults);
     let output = output(&written.output, &mut faults);
     let pairs = contacts::pairs(&written, &materials, &mut faults);
-    let laws = contacts::laws(&written.contacts, &materials, &mut faults);
+    let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
     let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
@@ -88,6 +88,7 @@ fn report(finding: Finding, document: &Document, faults: &mut Faults) {
 /// `[run]`
 fn run(table: &RunTable, faults: &mut Faults) -> Run {
     let defaults = Run::default();
+    let accuracy = table.accuracy.unwrap_or(defaults.accuracy);
     if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
         let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
         faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
@@ -102,9 +103,11 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         step: match table.step {
             Some(StepKey::Given(step)) => Step::Given(step),
             Some(StepKey::Automatic) | None => {
-                Step::Automatic { safety: table.safety.as_ref().map_or(Run::SAFETY, |safety| safety.0) }
+                Step::Automatic { safety: table.safety.as_ref().map_or(accuracy.safety(), |safety| safety.0) }
             }
         },
+        accuracy,
+        scheme: table.scheme.unwrap_or(accuracy.scheme()),
         allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),

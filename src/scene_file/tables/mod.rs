@@ -12,7 +12,9 @@ pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{Between, Safety, StepKey};
 
+use crate::contact::Scheme;
 use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive};
+use crate::scene::Accuracy;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
@@ -44,6 +46,10 @@ pub(in crate::scene_file) struct RunTable {
     pub(in crate::scene_file) step: Option<StepKey>,
     /// Fraction of the stable step.
     pub(in crate::scene_file) safety: Option<Safety>,
+    /// How accurate.
+    pub(in crate::scene_file) accuracy: Option<Accuracy>,
+    /// How springs and dashpots of contacts go on in time.
+    pub(in crate::scene_file) scheme: Option<Scheme>,
     /// Whether a given step above the stable one may run on.
     pub(in crate::scene_file) allow_unstable: Option<bool>,
     /// Threads.
