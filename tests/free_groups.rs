@@ -3,7 +3,7 @@
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{AxisMotion, InputCourse, Scene, Source};
 use cograin::state::{BoundaryState, State};
-use cograin::step::{RunError, Simulation};
+use cograin::step::{LimiterKind, RunError, Simulation};
 use std::sync::Arc;
 
 /// The first boundary.
@@ -469,11 +469,14 @@ fn a_light_group_on_a_stiff_contact_shortens_the_stable_step() {
             .replace("radius = 0.006 }", "radius = 0.006, density = 0.25 }")
             .replace("step = 2.0e-5", "");
         let text = text.replace("0.0249], radius = 0.005 }", "0.0249], radius = 0.005, density = 0.25 }");
-        start(&text).limit().safe
+        start(&text).limit()
     };
     let (fixed, free) = (run("\"fixed\""), run(FREE));
-    // A mass 1e4 times smaller on the same springs: about 100 times shorter.
-    assert!(free < 0.05 * fixed && free > 0.002 * fixed, "{free:e} s free, {fixed:e} s fixed");
+    // The mass is 1e4 times smaller on the same springs. What limits the scene with the fixed group are impacts to come, at a step
+    // shorter than that of its contacts: the ratio is not the whole factor of 100.
+    assert_eq!(free.by.expect("something limits it").kind, LimiterKind::Contact);
+    let (fixed, free) = (fixed.safe, free.safe);
+    assert!(free < 0.1 * fixed && free > 0.002 * fixed, "{free:e} s free, {fixed:e} s fixed");
 }
 
 #[test]

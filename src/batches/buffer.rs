@@ -263,10 +263,8 @@ impl Buffer {
                 self.store(at::PER_DISTANCE, place, contact.per_distance);
                 self.store_vector(at::SPIN_SUM, place, contact.spin_sum);
             }
-            if TORQUE {
-                if needs.spin {
-                    self.store_vector(at::SPIN, place, contact.relative_spin);
-                }
+            if TORQUE && needs.spin {
+                self.store_vector(at::SPIN, place, contact.relative_spin);
             }
             if needs.bodies {
                 self.store(at::PER_REACH, place, contact.per_reach);

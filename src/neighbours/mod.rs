@@ -129,12 +129,15 @@ impl Search {
     /// Whether every two bodies that may touch once they have come nearer to each other by `way` \[m\] are in a list that
     /// tells of it beforehand. Lists of surfaces other than planes tell of what touches, only.
     pub(crate) fn holds_all_within(&self, state: &State, way: f64) -> bool {
+        if !self.touching {
+            return false; // there are no lists
+        }
         let tells = |(shape, _, turns): &(Shape, Vector, bool)| {
             shape.material().is_none() || (shape.plane().is_some() && !turns)
         };
         let walls = (0..self.boundaries.len()).map(|boundary| self.way_of(state, boundary)).fold(0.0, f64::max);
         let used = state.neighbours.travel + walls.max(state.neighbours.travel);
-        self.touching && self.boundaries.iter().all(tells) && used + way < state.neighbours.skin
+        self.boundaries.iter().all(tells) && used + way < state.neighbours.skin
     }
 
     /// Whether a state from outside, which has been looked through otherwise, has the lists that the search makes.

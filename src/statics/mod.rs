@@ -139,7 +139,7 @@ fn way(simulation: &Simulation, state: &State) -> f64 {
 /// Refuses what depends on the speed or the time, however slow.
 fn refuse(scene: &Scene) -> Result<(), StaticsError> {
     let refused = |what: String, right| Err(StaticsError::Refused { what, right });
-    for law in scene.contacts.iter().filter(|law| law.rolling.name() == "cdt") {
+    if let Some(law) = scene.contacts.iter().find(|law| law.rolling.name() == "cdt") {
         return refused(format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none,");
     }
     for bond in &scene.bonds {
@@ -156,7 +156,7 @@ fn refuse(scene: &Scene) -> Result<(), StaticsError> {
             );
         }
     }
-    for boundary in scene.boundaries.iter().filter(|it| it.axes.iter().any(|axis| axis.is_free())) {
+    if let Some(boundary) = scene.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free())) {
         return refused(format!("[boundary.{}] moved by forces", boundary.name), "a boundary that is led or fixed");
     }
     Ok(())

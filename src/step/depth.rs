@@ -17,12 +17,13 @@ const BETWEEN_LOOKS: f64 = 0.25;
 const FAST: f64 = 0.1;
 
 impl Simulation {
-    /// Whether it is time to look how deep contacts are, in a step in which nothing moves further than by `way` \[m\]: where that
-    /// is much, and when the neighbour lists are outdated, every time or, where they reach less far, less often.
-    pub(super) fn is_depth_due(&self, way: f64, outdated: bool) -> bool {
+    /// Whether it is time to look how deep contacts are, in a step in which nothing moves further than by `way` \[m\] and what
+    /// moves farthest has moved from `before` to `after` \[m\] since the neighbour lists were made: where that is much, or
+    /// passes the next quarter of the smallest radius.
+    pub(super) fn is_depth_due(&self, way: f64, [before, after]: [f64; 2]) -> bool {
         let smallest = self.search.smallest_radius();
-        let lists = (BETWEEN_LOOKS * smallest / self.state.neighbours.skin) as u64;
-        let due = way > FAST * smallest || (outdated && self.state.clock.rebuilds.is_multiple_of(lists.max(1)));
+        let looks = |travel: f64| (travel / (BETWEEN_LOOKS * smallest)).floor();
+        let due = way > FAST * smallest || looks(after) > looks(before);
         due && !self.scene.run.allow_unstable
     }
 

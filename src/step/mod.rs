@@ -360,13 +360,15 @@ impl Simulation {
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let ways = &self.room.ways;
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
-        self.state.neighbours.travel += (speed * step).max(carried);
+        let before = self.state.neighbours.travel;
+        let travelled = [before, before + (speed * step).max(carried)];
+        self.state.neighbours.travel = travelled[1];
         let extents = self.state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
         let ways = ways.iter().zip(extents).map(|(way, extent)| way.farthest(extent));
         let farthest = ways.fold(speed * step, f64::max);
         self.state.foresight.travel += farthest;
         let outdated = self.search.outdated(&mut self.state, context);
-        let mut result = if self.is_depth_due(speed * step, outdated) { self.check_depth() } else { Ok(()) };
+        let mut result = if self.is_depth_due(speed * step, travelled) { self.check_depth() } else { Ok(()) };
         if outdated {
             result = result.and_then(|()| self.check_domain());
             self.rebuild(context);

@@ -60,7 +60,7 @@ impl<'a> Standing<'a> {
         let (mut velocity, mut relative_spin) = (lanes(self.velocity), vector(motion[1]));
         if self.turning {
             let (spin, point) = (lanes(self.spin), vector(position) - sphere.normal * sphere.arm());
-            velocity = velocity + spin.cross(point - lanes(self.pivot));
+            velocity += spin.cross(point - lanes(self.pivot));
             relative_spin = relative_spin - spin;
         }
         sphere.meet(motion, velocity, relative_spin, pair_constant)

@@ -200,6 +200,11 @@ fn course(scene: &Scene) -> u64 {
     let mut rest = Scene { particles: Vec::new(), fingerprint: 0, ..scene.clone() };
     rest.run.end = None;
     rest.run.threads = None;
+    // Their numbers stand in the laws; what may be tuned is part of the state.
+    for parameter in scene.tunables() {
+        hashed.0.update(parameter.name.as_bytes());
+    }
+    rest.parameters = Vec::new();
     let defaults = crate::scene::Run::default();
     rest.run.settle_tolerance = defaults.settle_tolerance;
     rest.run.settle_damping = defaults.settle_damping;
