@@ -102,7 +102,8 @@ impl Simulation {
         loop {
             let sight = self.sight(step);
             let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
-            if !self.may_strangers_meet(&sight, &found, step) {
+            // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
+            if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
                 found.impacts = 0.0;
             }
             let next = self.automatic_step(found.safe()).unwrap_or(step);

@@ -13,10 +13,12 @@ from conftest import ROOT
 
 
 def boundaries(slave):
-    """The driven boundaries of a unit, each with its driven axes."""
+    """The boundaries of a unit that are led by displacements, each with its driven axes."""
     axes = {}
     for name in slave.inputs:
         boundary, quantity, axis = name.split(".")
+        if quantity in ("applied_force", "applied_moment", "target_force"):
+            continue
         assert quantity == "displacement", f"{name} is an input that this test does not know"
         axes.setdefault(boundary, []).append(axis)
     return axes
@@ -25,7 +27,9 @@ def boundaries(slave):
 def test_change_of_work_is_minus_mean_force_times_displacement(unit, model, course, slave):
     subject = slave(unit(model))
     driven = boundaries(subject)
-    assert driven, f"{model} has no driven boundary"
+    if not driven:
+        pytest.skip(f"{model} is led by forces alone: tests/loaded.rs and tests/servo.rs hold the books of such boundaries")
+    assert len(subject.inputs) == sum(map(len, driven.values())), f"{model} is led by forces, too"
     work, exchanged, before = dict.fromkeys(driven, 0.0), dict.fromkeys(driven, 0.0), 0.0
     for step in range(1, course.steps + 1):
         displacement = course.displacement(step)
@@ -43,10 +47,13 @@ def test_change_of_work_is_minus_mean_force_times_displacement(unit, model, cour
 
 def test_setting_an_input_changes_no_output_until_the_next_step(unit, model, course, slave):
     subject = slave(unit(model))
-    before = subject.step(course.displacement(1), course.interval)
+    subject.step(course.displacement(1), course.interval)
+    # The error of a servo is that of the target which is set.
+    outputs = [name for name in subject.reals if ".servo_error." not in name]
+    before = subject.get(*outputs)
     for name in subject.inputs:
         subject.set(name, 0.5 * course.amplitude)
-    assert subject.get(*subject.reals) == before
+    assert subject.get(*outputs) == before
 
 
 def test_mean_values_are_the_present_ones_before_the_first_step(unit, model, slave):
