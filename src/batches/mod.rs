@@ -20,7 +20,10 @@ pub(crate) mod coefficients;
 mod law;
 mod phases;
 mod sphere_geometry;
+mod stage;
+mod sub_models;
 mod suppressed;
+mod whole_laws;
 
 use crate::contact::{Contact, MOST_KEPT, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
@@ -29,9 +32,9 @@ use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
 pub(crate) use coefficients::{CoefficientTable, Partners, overlap_of};
 pub(crate) use law::BatchLaw;
-use law::Stage;
 use phases::{Meet, Spread, Touch};
 pub(crate) use sphere_geometry::SpherePair;
+use stage::Stage;
 use std::ops::Range;
 
 /// A contact and the arms of its bodies.

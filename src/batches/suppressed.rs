@@ -5,7 +5,8 @@
 //! the overlap: nothing jumps when a bond breaks.
 
 use super::buffer::Buffer;
-use super::law::{CarryRun, Gathered, Run, RunOf, Stage};
+use super::stage::{Gathered, Stage};
+use super::sub_models::{CarryRun, Run, RunOf};
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::{

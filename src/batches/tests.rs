@@ -2,7 +2,8 @@
 //! or as one.
 
 use super::buffer::Buffer;
-use super::law::{BatchLaw, Stage};
+use super::law::BatchLaw;
+use super::stage::Stage;
 use super::{ContactGeometry, Entries, Manner};
 use crate::batches::coefficients::CoefficientTable;
 use crate::batches::sphere_geometry::SpherePair;
