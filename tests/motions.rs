@@ -123,3 +123,89 @@ fn a_table_moves_a_boundary_as_the_file_says() {
     let moved = simulation.state().boundaries[0];
     assert_eq!((moved.displacement[0], moved.velocity[0], moved.rotation[2]), (0.0, 0.0, 0.0), "it stays at its end");
 }
+
+/// A belt's speed \[m/s\].
+const BELT: f64 = 0.2;
+
+/// Place and velocity of the spheres, and what the floor did to them \[J\], after a time \[s\].
+fn carried(motion: &str, shape: &str, time: f64) -> (Vec<[f64; 4]>, f64) {
+    let mut simulation = start(&lying(&format!("{shape}motion = {{ {motion} }}")));
+    simulation.advance(time).expect("it runs");
+    let state = simulation.state();
+    let particles = &state.particles;
+    let rows = [&particles.position, &particles.velocity, &particles.angular_velocity];
+    (rows.into_iter().flatten().copied().collect(), state.boundaries[0].work)
+}
+
+#[test]
+fn a_belt_carries_as_a_plane_does_that_moves_along_itself() {
+    let (moving, work) = carried("prescribed = { x = 0.2, y = -0.1 }", PLANE, 0.01);
+    for shape in [PLANE, DISC] {
+        // What lies across the surface counts for nothing.
+        for belt in ["conveying = { x = 0.2, y = -0.1 }", "conveying = { x = 0.2, y = -0.1, z = 0.7 }"] {
+            let (carried, given) = carried(belt, shape, 0.01);
+            assert_eq!(carried, moving, "{belt} on {shape}");
+            assert_near(given, work, 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_tilted_belt_of_features_is_the_belt_of_a_plane() {
+    let at = |shape: &str, where_is: &str, more: &str, motion: &str| {
+        let shape = format!("{shape} = {{ {where_is} = [0.0, 0.0, 0.0], normal = [-0.6, 0.0, 0.8]{more} }}\n");
+        let text = lying(&format!("{shape}motion = {{ {motion} }}"));
+        let list =
+            "{ position = [0.0, 0.0, 0.0062], radius = 0.005 }, { position = [0.02, 0.0, 0.0212], radius = 0.005 }";
+        let (before, after) = (text.find("list = [").expect("a list"), text.find("\n[boundary").expect("a boundary"));
+        let mut simulation = start(&format!("{}list = [{list}]{}", &text[..before], &text[after..]));
+        simulation.advance(0.02).expect("it runs");
+        (simulation.state().particles.velocity.clone(), simulation.state().boundaries[0].work)
+    };
+    // The belt's direction is that of the surface: (0.3, 0.2, 0.1) less its part along the normal, −0.1 n.
+    let (moving, expected) = at("plane", "point", "", "prescribed = { x = 0.24, y = 0.2, z = 0.18 }");
+    for (shape, place, more) in [("plane", "point", ""), ("disc", "centre", ", radius = 0.5")] {
+        let (carried, work) = at(shape, place, more, "conveying = { x = 0.3, y = 0.2, z = 0.1 }");
+        for (one, other) in carried.iter().zip(&moving) {
+            assert!((0..3).all(|axis| (one[axis] - other[axis]).abs() < 1e-10), "{shape}: {carried:?}, not {moving:?}");
+        }
+        assert_near(work, expected, 1e-9);
+    }
+}
+
+#[test]
+fn a_block_on_a_belt_slides_under_its_friction_until_it_has_the_speed_of_the_belt() {
+    let block = "[boundary.block]\nparticles = { set = \"two\" }\nmotion = { free = [\"x\", \"z\"] }\n";
+    let mut simulation = start(&lying(&format!("{PLANE}motion = {{ conveying = {{ x = {BELT} }} }}\n{block}")));
+    let mass = simulation.state().particles.velocity.iter().map(|row| row[3]).sum::<f64>();
+    let (friction, weight) = (0.5, 9.81 * mass);
+    for _ in 0..3 {
+        simulation.advance(0.01).expect("it runs");
+        let [[along, _, up], time] = [simulation.state().boundaries[1].velocity, [simulation.time(); 3]];
+        // The floor gave the impulse m (g t + v_z) upwards, and µ times that along the belt but for the first step.
+        let expected = friction * (9.81 * time[0] + up);
+        assert!((along - expected).abs() < friction * 9.81 * 1e-5, "{along} m/s, not {expected} m/s");
+    }
+    simulation.advance(0.27).expect("it runs");
+    assert_near(simulation.state().boundaries[1].velocity[0], BELT, 1e-6);
+    // Power: the motor gives force times speed, m v² in all, and half of it is lost in sliding.
+    let work = simulation.state().boundaries[0].work;
+    assert_near(work, mass * BELT * simulation.state().boundaries[1].velocity[0], 1e-12);
+    // Each sphere fell by its overlap, and Hertz's spring holds two fifths of what its weight did.
+    let modulus = 1.0e7 / (1.0 - 0.3 * 0.3) / 2.0;
+    let overlap = (0.5 * weight / (4.0 / 3.0 * modulus * 0.005_f64.sqrt())).powf(2.0 / 3.0);
+    let lost = 0.5 * mass * BELT * BELT + weight * overlap * 3.0 / 5.0;
+    assert_near(simulation.dissipated_energy().expect("a book"), lost, 1e-6);
+    let residual = simulation.energy_residual().expect("a book");
+    assert!(residual.abs() <= 1e-12 * work, "{residual:e} J of {work:e} J");
+}
+
+#[test]
+fn a_ball_on_a_belt_rolls_backwards_with_two_sevenths_of_its_speed() {
+    // m v = J, 2/5 m R² ω = J a with the arm a = R − δ/2, and no slip once v + ω a is the belt's speed; δ/R = 1.70e-3.
+    let (balls, _) = carried(&format!("conveying = {{ x = {BELT} }}"), PLANE, 0.2);
+    let arm = 1.0 - 0.5 * 1.70e-3;
+    let parts = [1.0, 2.5 * arm * arm].map(|part| part / (1.0 + 2.5 * arm * arm));
+    assert_near(balls[2][0], BELT * parts[0], 1e-4);
+    assert_near(-balls[4][1] * 0.005 * arm, BELT * parts[1], 1e-4);
+}

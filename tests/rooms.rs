@@ -11,7 +11,7 @@ const ROOM: usize = 3000;
 const FILE: usize = 300;
 
 /// Files above that, each with its reason.
-const LONG: [(&str, &str); 26] = [
+const LONG: [(&str, &str); 25] = [
     ("command/src/main.rs", "one command after another; each is a few lines"),
     ("fmu/src/instance.rs", "the life of an instance: every call that FMI allows in each of its states"),
     ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
@@ -21,7 +21,6 @@ const LONG: [(&str, &str); 26] = [
     ("src/bond_passes/mod.rs", "the pass over bonds: what it begins with, asks for and leaves"),
     ("src/bond_passes/pipeline_buffer.rs", "one buffer: its columns, and how each is written and read"),
     ("src/bond_passes/walls.rs", "bonds to planes: the pass, its books and its records"),
-    ("src/boundaries/course.rs", "to be divided: courses of axes, and the books of boundaries"),
     ("src/contact/law.rs", "what a law says of one contact, sub-model by sub-model"),
     ("src/contact/normal/eepa.rs", "one sub-model, with the tests that its branches are held to"),
     ("src/export/tests.rs", "tests"),

@@ -86,7 +86,7 @@ fn fastest(boundary: &Boundary, moved: &BoundaryState, interval: f64) -> [f64; 6
 }
 
 /// Three numbers of x, y, z and three about them.
-fn six([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 6] {
+pub(super) fn six([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 6] {
     [x, y, z, a, b, c]
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn end(state: &mut State, elapsed: f64) {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Way {
     /// Along the axes that the outside or the scene moves, then about them \[m, rad\].
-    led: [f64; 6],
+    pub(super) led: [f64; 6],
     /// No particle of it went further \[m\]; 0 where it carries none.
     pub carried: f64,
 }
@@ -289,85 +289,4 @@ fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress
     }
     .to_array();
     turned
-}
-
-/// Puts driven axes where they are to start: axis (0 to 5) and value \[m, rad\].
-pub(crate) fn put(moved: &mut BoundaryState, axis: usize, value: f64) {
-    moved.target[axis] = value;
-    match axis {
-        0..3 => moved.displacement[axis] = value,
-        _ => {
-            moved.rotation[axis - 3] = value;
-            moved.orientation = Orientation::from(rotation::orientation(moved.rotation.into()));
-        }
-    }
-}
-
-/// Lets prescribed axes go on from where they stand at this time \[s\]: their target is where they would have stood at time 0.
-pub(crate) fn begin_prescribed(boundary: &Boundary, moved: &mut BoundaryState, time: f64) {
-    for (axis, motion) in boundary.axes.iter().enumerate() {
-        if let Some([place, _]) = motion.at(time) {
-            moved.target[axis] = six(moved.displacement, moved.rotation)[axis] - place;
-        }
-    }
-}
-
-/// Puts prescribed axes where they are at this time \[s\].
-pub(crate) fn put_prescribed(scene: &Scene, state: &mut State, time: f64) {
-    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
-        for (axis, motion) in boundary.axes.iter().enumerate() {
-            if let Some([place, _]) = motion.at(time) {
-                put(moved, axis, place);
-                moved.target[axis] = 0.0;
-            }
-        }
-    }
-}
-
-/// Sets the loads of all boundaries to zero, and notes what they were: force and moment of each.
-pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<[[f64; 3]; 2]>) {
-    before.clear();
-    before.extend(state.boundaries.iter().map(|boundary| [boundary.force, boundary.moment]));
-    for boundary in &mut state.boundaries {
-        boundary.force = [0.0; 3];
-        boundary.moment = [0.0; 3];
-    }
-}
-
-/// Sums the loads of the particles in groups, as the passes left them, onto their boundary.
-pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
-    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
-        let members = boundary.shape.members();
-        if members.is_empty() {
-            continue;
-        }
-        let (mut force, mut moment) = (Vector::zero(), Vector::zero());
-        for &member in members {
-            let slot = state.particles.slot[member as usize] as usize;
-            let load = Vector::from(state.particles.force[slot]);
-            let arm = Vector::from(state.particles.position[slot]) - moved.pivot.into();
-            force += load;
-            moment += arm.cross(load) + Vector::from(state.particles.torque[slot]);
-        }
-        moved.force = force.to_array();
-        moved.moment = moment.to_array();
-    }
-}
-
-/// Books impulse and work of a time step: the kicks of both its halves, times the way. Free axes do no work, and what
-/// crosses them stays inside.
-pub(crate) fn book(scene: &Scene, state: &mut State, before: &[[[f64; 3]; 2]], ways: &[Way], step: f64) {
-    let moves = before.iter().zip(ways).zip(&scene.boundaries);
-    for (moved, (([force, moment], way), boundary)) in state.boundaries.iter_mut().zip(moves) {
-        for axis in 0..3 {
-            let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
-            moved.impulse[axis] += impulse;
-            if !boundary.axes[axis].is_free() {
-                moved.total_impulse[axis] += impulse;
-            }
-            moved.angular_impulse[axis] += 0.5 * step * (moment[axis] + moved.moment[axis]);
-            moved.work -= 0.5 * (force[axis] + moved.force[axis]) * way.led[axis];
-            moved.work -= 0.5 * (moment[axis] + moved.moment[axis]) * way.led[3 + axis];
-        }
-    }
 }

@@ -101,6 +101,9 @@ struct Names {
     /// Those that stay.
     #[serde(default)]
     fixed: Vec<Axis>,
+    /// Those along which the surface runs in itself, and how fast \[m/s\].
+    #[serde(default)]
+    conveying: BTreeMap<Axis, Finite>,
     /// Those that follow an input.
     #[serde(default)]
     driven: Vec<Axis>,
@@ -170,12 +173,13 @@ impl Keys {
         &self,
         mut read: impl FnMut(usize, &TableKeys) -> Option<Table>,
     ) -> ([AxisMotion; 6], Vec<usize>) {
-        let Names { fixed, driven, by, prescribed, free, loaded, servo } = &self.0;
+        let Names { fixed, conveying, driven, by, prescribed, free, loaded, servo } = &self.0;
         let leads = match by {
             By::Displacement => AxisMotion::Driven,
             By::Velocity => AxisMotion::Steered,
         };
         let named = (fixed.iter().map(|axis| (*axis, AxisMotion::Fixed)))
+            .chain(conveying.iter().map(|(axis, velocity)| (*axis, AxisMotion::Conveying(velocity.get()))))
             .chain(driven.iter().map(|axis| (*axis, leads.clone())))
             .chain(prescribed.iter().map(|(axis, motion)| {
                 let motion = match motion {
@@ -203,6 +207,11 @@ impl Keys {
         axes[3..].iter().any(|motion| !motion.is_fixed())
     }
 
+    /// Whether the surface runs in itself.
+    pub(crate) fn conveys(&self) -> bool {
+        !self.0.conveying.is_empty()
+    }
+
     /// Whether a way is said in which no axis is driven.
     pub(crate) fn drives_nothing_by_velocity(&self) -> bool {
         self.0.by == By::Velocity && self.0.driven.is_empty()
@@ -214,7 +223,7 @@ impl<'de> Deserialize<'de> for Keys {
         /// Takes `"fixed"` or a table.
         struct WordOrTable;
         /// What is right.
-        const RIGHT: &str = "\"fixed\" or a table of driven, prescribed, free, loaded and servo axes";
+        const RIGHT: &str = "\"fixed\" or a table of conveying, driven, prescribed, free, loaded and servo axes";
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = Keys;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -3,6 +3,7 @@
 //! A motion that the scene or the outside leads says where its axis stands at the end of a time step; one that is free is
 //! moved by the forces on the boundary ([`crate::boundaries`] does that).
 
+mod conveying;
 mod course;
 mod driven;
 mod fixed;
@@ -29,6 +30,8 @@ use std::sync::Arc;
 pub enum AxisMotion {
     /// Stays.
     Fixed,
+    /// Stays, and the surface runs along it in itself at this velocity \[m/s\].
+    Conveying(f64),
     /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
     Driven,
     /// Follows the input `<boundary>.velocity.<axis>` or `<boundary>.angular_velocity.<axis>`.
@@ -117,6 +120,7 @@ impl AxisMotion {
     fn ask<T>(&self, question: impl FnOnce(&dyn Motion) -> T) -> T {
         match self {
             Self::Fixed => question(&fixed::Fixed),
+            Self::Conveying(velocity) => question(&conveying::Conveying { velocity: *velocity }),
             Self::Driven => question(&driven::Driven),
             Self::Steered => question(&driven::Steered),
             Self::Prescribed(velocity) => question(velocity),
@@ -174,6 +178,14 @@ impl AxisMotion {
     /// Whether it stays.
     pub fn is_fixed(&self) -> bool {
         self.seen() == Seen::Nothing
+    }
+
+    /// How fast the surface runs along it in itself \[m/s\].
+    pub(crate) fn conveys(&self) -> f64 {
+        match self {
+            Self::Conveying(velocity) => *velocity,
+            _ => 0.0,
+        }
     }
 
     /// Whether it goes where an input says.

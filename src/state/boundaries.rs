@@ -42,6 +42,8 @@ pub struct BoundaryState {
     pub force: [f64; 3],
     /// Moment about the moved reference point at the present time \[N m\].
     pub moment: [f64; 3],
+    /// Power of a surface that runs in itself, on the particles, at the present time \[W\].
+    pub conveying_power: f64,
     /// Sum of the half-kick impulses of the present communication step \[N s\].
     pub impulse: [f64; 3],
     /// Sum of the half-kick angular impulses of the present communication step \[N m s\].

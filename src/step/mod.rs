@@ -26,6 +26,7 @@ pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
+use crate::boundaries::felt::{self, Felt};
 use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
@@ -85,8 +86,8 @@ pub struct Simulation {
 struct Room {
     /// Ways of the boundaries.
     ways: Vec<course::Way>,
-    /// Their loads in the last step: force and moment.
-    loads: Vec<[[f64; 3]; 2]>,
+    /// Their loads in the last step.
+    loads: Vec<Felt>,
     /// Loads that have been booked.
     seen: Loads,
     /// Bonds of each law before some were made.
@@ -378,7 +379,7 @@ impl Simulation {
             self.bond(&Moment { number, from: earlier, to: time }, context);
         }
         self.done("lists and boundaries");
-        course::clear_loads(&mut self.state, &mut self.room.loads);
+        felt::clear_loads(&mut self.state, &mut self.room.loads);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
         result = result.and(self.evaluate(gravity.is_none(), context));
@@ -389,7 +390,7 @@ impl Simulation {
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
         self.done("kick");
-        course::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, step);
+        felt::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
         }
@@ -417,7 +418,7 @@ impl Simulation {
         let state = &mut self.state;
         self.suppression.broken(state, told);
         self.suppression.settle(state);
-        course::sum_groups(&self.scene, state);
+        felt::sum_groups(&self.scene, state);
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         if self.fields.damps() {
             books::record(state, Source::Damping, &mut seen);
@@ -435,7 +436,7 @@ impl Simulation {
     /// The evaluation before the first step, and what follows from it.
     fn start(&mut self) -> Result<(), RunError> {
         self.state.begin_counting();
-        course::clear_loads(&mut self.state, &mut self.room.loads);
+        felt::clear_loads(&mut self.state, &mut self.room.loads);
         let context = self.standing();
         integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);

@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::bond::Carried;
 use crate::books;
-use crate::boundaries::course;
+use crate::boundaries::felt;
 use crate::integration;
 use crate::interactions::{BondRecord, ContactRecord};
 use crate::number::Vector;
@@ -113,7 +113,7 @@ impl Simulation {
     pub fn undamped_unbalanced_force(&mut self) -> f64 {
         let kept = self.state.clone();
         let damped = self.fields.without_damping();
-        course::clear_loads(&mut self.state, &mut self.room.loads);
+        felt::clear_loads(&mut self.state, &mut self.room.loads);
         integration::clear_loads(&mut self.state.particles);
         let context = self.standing();
         // What an evaluation finds wrong the next time step finds, too.

@@ -3,7 +3,7 @@
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
 use crate::bond_passes::begin_losses;
-use crate::boundaries::course;
+use crate::boundaries::placing;
 use crate::contact::Law;
 use crate::interactions::PlacedSpring;
 use crate::number::Vector;
@@ -68,7 +68,7 @@ impl Simulation {
         }
         state.clock.steps = placement.steps;
         let time = state.clock.time;
-        course::put_prescribed(&scene, &mut state, time);
+        placing::put_prescribed(&scene, &mut state, time);
         put_particles(&mut state, &placement.particles);
         for bond in &placement.bonds {
             put_bond(&scene, &mut state, bond);

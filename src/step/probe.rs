@@ -1,7 +1,7 @@
 //! A simulation at rest whose bodies are displaced a little: how forces answer, however slowly that is done.
 
 use super::{RunError, Simulation};
-use crate::boundaries::{course, rigid_body};
+use crate::boundaries::{felt, rigid_body};
 use crate::geometry::{Quaternion, rotation};
 use crate::integration;
 use crate::interactions::{Ahead, Link};
@@ -94,7 +94,7 @@ impl Probe {
         }
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
         rigid_body::place_groups(scene, bodies, state);
-        course::clear_loads(&mut simulation.state, &mut simulation.room.loads);
+        felt::clear_loads(&mut simulation.state, &mut simulation.room.loads);
         integration::clear_loads(&mut simulation.state.particles);
         let context = Context { step: SLOWLY, ..simulation.standing() };
         simulation.evaluate(false, &context)?;

@@ -1,7 +1,7 @@
 //! Where a simulation starts: as the scene was built, with driven axes moved, or in a state that another one reached.
 
 use super::{RunError, Simulation, assemble};
-use crate::boundaries::{course, rigid_body};
+use crate::boundaries::{course, placing, rigid_body};
 use crate::scene::{AxisMotion, Scene};
 use crate::state::{BoundaryState, State};
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl Simulation {
             for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_place()) {
                 let place = if axis < 3 { moved.displacement[axis] } else { moved.rotation[axis - 3] };
                 moves |= place != given.target[axis];
-                course::put(moved, axis, given.target[axis]);
+                placing::put(moved, axis, given.target[axis]);
                 moved.target_rate[axis] = given.target_rate[axis];
             }
             let others = |motion: &AxisMotion| motion.takes_force() || motion.takes_velocity();

@@ -7,7 +7,7 @@
 
 use super::AtSurface;
 use super::history::{Past, source, taken};
-use super::sphere::{Load, Loaded, SphereAt, lanes};
+use super::sphere::{Load, Loaded, SphereAt, along, lanes};
 use super::{Range, Work};
 use crate::batches::coefficients::CoefficientTable;
 use crate::batches::{Bodies, ContactGeometry, Entries, FOUND, Touching};
@@ -36,15 +36,20 @@ struct Standing<'a> {
     spin: Vector,
     /// Whether it turns.
     turning: bool,
+    /// How the surface runs in itself where it lies along this \[m/s\].
+    conveying: Vector,
+    /// Whether it does.
+    conveys: bool,
 }
 
 impl<'a> Standing<'a> {
     /// A surface of features where its boundary stands.
-    fn of(features: &'a dyn Features, reference: Vector, boundary: &BoundaryState) -> Self {
-        let frame = Frame::of(reference, boundary.displacement.into(), boundary.orientation.0);
+    fn of(features: &'a dyn Features, surface: &AtSurface, boundary: &BoundaryState) -> Self {
+        let frame = Frame::of(surface.reference, boundary.displacement.into(), boundary.orientation.0);
         let spin = boundary.angular_velocity.into();
         let (pivot, turning) = (frame.pivot(), spin != Vector::zero());
-        Self { features, frame, pivot, velocity: boundary.velocity.into(), spin, turning }
+        let (conveying, conveys) = (frame.outside(surface.conveying), surface.conveying != Vector::zero());
+        Self { features, frame, pivot, velocity: boundary.velocity.into(), spin, turning, conveying, conveys }
     }
 
     /// Geometry and relative motion of spheres. The surface moves as at the point of contact, half an overlap behind it, where
@@ -62,6 +67,9 @@ impl<'a> Standing<'a> {
             let (spin, point) = (lanes(self.spin), vector(position) - sphere.normal * sphere.arm());
             velocity += spin.cross(point - lanes(self.pivot));
             relative_spin = relative_spin - spin;
+        }
+        if self.conveys {
+            velocity += along(lanes(self.conveying), sphere.normal);
         }
         sphere.meet(motion, velocity, relative_spin, pair_constant)
     }
@@ -204,7 +212,7 @@ impl AtSurface {
         contacts: &mut FeatureContacts,
     ) -> Load {
         let list = &work.walls[self.index];
-        let at = Standing::of(features, self.reference, &work.boundaries[list.boundary as usize]);
+        let at = Standing::of(features, self, &work.boundaries[list.boundary as usize]);
         contacts.clear(self.kept_rows);
         let through = self.find(&at, list, &work.particles, slots, contacts);
         let count = contacts.particle.len();
@@ -296,7 +304,7 @@ impl AtSurface {
         let (list, law) = (self.list(state), &self.law.law);
         let super::Touched::Features(shape) = &self.touched else { return };
         let Some(features) = shape.features() else { return };
-        let at = Standing::of(features, self.reference, &state.boundaries[list.boundary as usize]);
+        let at = Standing::of(features, self, &state.boundaries[list.boundary as usize]);
         let (mut feet, mut entry) = (Feet::default(), 0);
         while entry < list.particle.len() {
             let slot = list.particle[entry];
@@ -463,6 +471,9 @@ impl Bodies for AtFeet<'_> {
                 loads[0] = (along * weight + (whole - along) * share).row_with(0.0);
                 loads[1] = loads[1].map(|part| part * share);
                 loads[2] = loads[2].map(|part| part * share);
+            }
+            if self.at.conveys {
+                load.conveying_power += along(self.at.conveying, normal).dot(loads[0].into());
             }
             // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
             unsafe {

@@ -53,6 +53,8 @@ pub(super) struct AtSurface {
     material: u32,
     /// Point about which the moment is taken, at time 0 \[m\].
     reference: Vector,
+    /// How its surface runs in itself where it lies along this, in its own axes \[m/s\].
+    conveying: Vector,
     /// Rows that are kept of each contact.
     kept_rows: usize,
     /// Coefficients of the law.
@@ -98,9 +100,11 @@ impl AtSurface {
     /// A boundary and a law that meet, whose list is this one.
     fn of(scene: &Scene, index: usize, (boundary, law): (&Boundary, usize)) -> Self {
         let choice = &scene.contacts[law];
+        let conveying = Vector::from([0, 1, 2].map(|axis| boundary.axes[axis].conveys()));
         let touched = match boundary.shifting_plane() {
             Some(surface::Plane { point, normal, .. }) => {
-                Touched::Plane(Plane { point: point.into(), normal: normal.into(), velocity: Vector::zero() })
+                let (point, normal, velocity) = (point.into(), normal.into(), Vector::zero());
+                Touched::Plane(Plane { point, normal, velocity, conveying: sphere::along(conveying, normal) })
             }
             None => Touched::Features(boundary.shape.clone()),
         };
@@ -110,6 +114,7 @@ impl AtSurface {
             touched,
             material: boundary.shape.material().map_or(0, |material| material.0),
             reference: boundary.reference.into(),
+            conveying,
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
             law: BatchLaw::of(&choice.choice()),
@@ -138,7 +143,8 @@ impl AtSurface {
                 let bodies = AtPlane { plane, pivot, particle, material, particles: work.particles };
                 let [from, to] =
                     [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
-                self.batches(bodies, work.entries[self.index], work.context).run(from, to, 0..0)
+                let load = self.batches(bodies, work.entries[self.index], work.context).run(from, to, 0..0);
+                Load { conveying_power: -plane.conveying.dot(load.force.into()), ..load }
             }
             Touched::Features(shape) => match shape.features() {
                 Some(features) => self.piece_at_features(features, work, slots, contacts),
@@ -169,6 +175,7 @@ impl AtSurface {
                 boundary.force[axis] += load.force[axis];
                 boundary.moment[axis] += load.moment[axis];
             }
+            boundary.conveying_power += load.conveying_power;
             behind = behind.or(load.behind);
         }
         match behind {

@@ -15,11 +15,13 @@ use crate::state::{BoundaryState, State, WallContacts};
 /// Where a plane stands and how it moves.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
+    /// How its surface runs in itself \[m/s\].
+    pub(super) conveying: Vector,
     /// A point on it \[m\].
     pub(super) point: Vector,
     /// Unit normal towards the particles.
     pub(super) normal: Vector,
-    /// Its velocity \[m/s\].
+    /// The velocity of its surface \[m/s\].
     pub(super) velocity: Vector,
 }
 
@@ -28,8 +30,8 @@ impl Plane {
     pub(super) fn at(self, boundary: &BoundaryState) -> Self {
         Self {
             point: self.point + boundary.displacement.into(),
-            normal: self.normal,
-            velocity: boundary.velocity.into(),
+            velocity: self.conveying + boundary.velocity.into(),
+            ..self
         }
     }
 
@@ -169,7 +171,7 @@ impl Listed for PlaneList<'_> {
     }
 
     fn deepest(&self, state: &State, ahead: &Ahead, _entry: usize, met: &Met) -> Option<Contact> {
-        let (speed, boundary) = (self.plane.velocity.length(), self.surface.list(state).boundary);
-        ahead.at_boundary(self.law(), met.row, &met.contact, speed, boundary)
+        let (speed, boundary) = (self.plane.velocity - self.plane.conveying, self.surface.list(state).boundary);
+        ahead.at_boundary(self.law(), met.row, &met.contact, speed.length(), boundary)
     }
 }

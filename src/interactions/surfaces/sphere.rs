@@ -62,6 +62,12 @@ impl<N: Number> SphereAt<N> {
     }
 }
 
+/// The part of a vector along a surface with this normal.
+#[inline(always)]
+pub(super) fn along<N: Number>(v: Vector<N>, normal: Vector<N>) -> Vector<N> {
+    v - normal * v.dot(normal)
+}
+
 /// A vector in lanes.
 #[inline(always)]
 pub(super) fn lanes<N: Number>(v: Vector) -> Vector<N> {
@@ -155,6 +161,8 @@ pub(super) struct Load {
     pub(super) force: [f64; 3],
     /// Moment about the moved reference point \[N m\].
     pub(super) moment: [f64; 3],
+    /// Power of the surface that runs in itself, on the particles \[W\].
+    pub(super) conveying_power: f64,
     /// A particle (slot) whose centre is behind the surface, or went through it.
     pub(super) behind: Option<u32>,
 }

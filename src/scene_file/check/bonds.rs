@@ -97,13 +97,13 @@ fn between(
         }
         let boundary = written.boundaries.iter().position(|(boundary, _)| boundary == name);
         let mistake = match boundary.map(|index| (index, &written.boundaries[index].1)) {
-            Some((index, boundary)) if boundary.is_shifting_plane() && plane.is_none() => {
+            Some((index, boundary)) if boundary.takes_bonds() && plane.is_none() => {
                 plane = Some(BoundaryIndex(index as u32));
                 continue;
             }
             Some(_) => Mistake::Wrong {
                 found: format!("\"{name}\""),
-                right: "two particle sets, or a particle set and a plane that does not turn,".to_owned(),
+                right: "two particle sets, or a particle set and a plane that neither turns nor conveys,".to_owned(),
             },
             None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
         };

@@ -4,8 +4,12 @@ use super::tables;
 use crate::document::Faults;
 use crate::document::Mistake;
 use crate::motion::Keys;
+use crate::number::Vector;
 use crate::scene::{AxisMotion, Boundary, Damping, Source};
 use crate::surface::Surface;
+
+/// Sine of an angle below which a direction is that of a normal.
+const ALONG: f64 = 1e-9;
 
 /// What each axis does; an axis may be named once.
 pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
@@ -16,7 +20,7 @@ pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Fau
     }
     for axis in twice {
         let what = format!("axis {} is named twice", AxisMotion::WORDS[axis]);
-        let right = "an axis is fixed, driven, prescribed, free, loaded or servo".to_owned();
+        let right = "an axis is fixed, conveying, driven, prescribed, free, loaded or servo".to_owned();
         faults.add(table, "motion", Mistake::Senseless { what, right });
     }
     axes
@@ -36,8 +40,30 @@ pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool,
         let what = format!("{} is a servo, which reaches forces only", AxisMotion::WORDS[axis]);
         return refuse(what, "servos along x, y or z are right");
     }
+    conveying(axes, shape, table, faults);
     rotations(axes, table, faults);
     reference(axes, referred, table, faults);
+}
+
+/// A surface that runs in itself has one, and runs along it.
+fn conveying(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
+    let Some(axis) = axes.iter().position(|motion| matches!(motion, AxisMotion::Conveying(_))) else { return };
+    let velocity = Vector::from([0, 1, 2].map(|axis| axes[axis].conveys()));
+    let (what, right) = if let Some(axis) = (3..6).find(|&axis| axes[axis].conveys() != 0.0) {
+        (format!("{} conveys", AxisMotion::WORDS[axis]), "velocities along x, y or z are right")
+    } else if !shape.members().is_empty() {
+        (format!("{} conveys, and a group has no surface of its own", AxisMotion::WORDS[axis]), "a surface conveys")
+    } else if velocity == Vector::zero() {
+        (format!("{} conveys at 0 m/s", AxisMotion::WORDS[axis]), "leave it out")
+    } else if shape
+        .plane()
+        .is_some_and(|plane| velocity.cross(plane.normal.into()).length() < ALONG * velocity.length())
+    {
+        ("it conveys along its normal".to_owned(), "a velocity along the plane is right")
+    } else {
+        return;
+    };
+    faults.add(table, "motion.conveying", Mistake::Senseless { what, right: right.to_owned() });
 }
 
 /// Rotations go together where the group has one law of turning.

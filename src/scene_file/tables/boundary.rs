@@ -51,9 +51,9 @@ macro_rules! boundary_table {
                 written.into_iter().filter(|(_, written)| *written).map(|(key, _)| key).collect()
             }
 
-            /// Whether it is a plane that does not turn.
-            pub(in crate::scene_file) fn is_shifting_plane(&self) -> bool {
-                self.shapes().contains(&"plane") && !self.motion.turns()
+            /// Whether particles can be bonded to it: a plane that neither turns nor runs in itself.
+            pub(in crate::scene_file) fn takes_bonds(&self) -> bool {
+                self.shapes().contains(&"plane") && !self.motion.turns() && !self.motion.conveys()
             }
 
             /// The first shape that is written; what is wrong with it is reported.

@@ -11,7 +11,7 @@ pub use description::Description;
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::creation::Moment;
-use crate::boundaries::{course, rigid_body};
+use crate::boundaries::{placing, rigid_body};
 use crate::geometry::Quaternion;
 use crate::scene::Scene;
 use crate::state::State;
@@ -95,7 +95,7 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
     let time = state.clock.time;
     for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
         let Some(other) = from.boundary(boundary).and_then(|index| reached.boundaries.get(index)) else {
-            course::begin_prescribed(boundary, moved, time);
+            placing::begin_prescribed(boundary, moved, time);
             continue;
         };
         moved.displacement = other.displacement;
@@ -110,7 +110,7 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
                 moved.target[axis] = place;
             }
         }
-        course::begin_prescribed(boundary, moved, time);
+        placing::begin_prescribed(boundary, moved, time);
         for axis in (0..3).filter(|&axis| boundary.axes[axis].is_free()) {
             moved.velocity[axis] = other.velocity[axis];
         }

@@ -1,0 +1,66 @@
+//! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
+
+use super::course::Way;
+use crate::number::Vector;
+use crate::scene::Scene;
+use crate::state::{BoundaryState, State};
+
+/// What a boundary felt at the beginning of a time step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Felt {
+    /// Force \[N\].
+    force: [f64; 3],
+    /// Moment \[N m\].
+    moment: [f64; 3],
+    /// Power of a surface that runs in itself \[W\].
+    conveying_power: f64,
+}
+
+/// Sets the loads of all boundaries to zero, and notes what they were.
+pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<Felt>) {
+    before.clear();
+    for BoundaryState { force, moment, conveying_power, .. } in &mut state.boundaries {
+        before.push(Felt { force: *force, moment: *moment, conveying_power: *conveying_power });
+        (*force, *moment, *conveying_power) = ([0.0; 3], [0.0; 3], 0.0);
+    }
+}
+
+/// Sums the loads of the particles in groups, as the passes left them, onto their boundary.
+pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
+    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
+        let members = boundary.shape.members();
+        if members.is_empty() {
+            continue;
+        }
+        let (mut force, mut moment) = (Vector::zero(), Vector::zero());
+        for &member in members {
+            let slot = state.particles.slot[member as usize] as usize;
+            let load = Vector::from(state.particles.force[slot]);
+            let arm = Vector::from(state.particles.position[slot]) - moved.pivot.into();
+            force += load;
+            moment += arm.cross(load) + Vector::from(state.particles.torque[slot]);
+        }
+        moved.force = force.to_array();
+        moved.moment = moment.to_array();
+    }
+}
+
+/// Books impulse and work of a time step: the kicks of both its halves, times the way. Free axes do no work, and what
+/// crosses them stays inside.
+pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Way], step: f64) {
+    let moves = before.iter().zip(ways).zip(&scene.boundaries);
+    for (moved, ((felt, way), boundary)) in state.boundaries.iter_mut().zip(moves) {
+        let Felt { force, moment, conveying_power } = felt;
+        moved.work += 0.5 * step * (conveying_power + moved.conveying_power);
+        for axis in 0..3 {
+            let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
+            moved.impulse[axis] += impulse;
+            if !boundary.axes[axis].is_free() {
+                moved.total_impulse[axis] += impulse;
+            }
+            moved.angular_impulse[axis] += 0.5 * step * (moment[axis] + moved.moment[axis]);
+            moved.work -= 0.5 * (force[axis] + moved.force[axis]) * way.led[axis];
+            moved.work -= 0.5 * (moment[axis] + moved.moment[axis]) * way.led[3 + axis];
+        }
+    }
+}
