@@ -8,6 +8,7 @@ mod mistake;
 mod nearest;
 mod phrases;
 mod setting;
+mod value;
 
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
@@ -19,7 +20,8 @@ use foreign::looks_like;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+use toml::de::{DeTable, DeValue};
+use value::Error;
 
 /// How often one table is read again at most, so that a text full of different mistakes costs no quadratic time.
 const READINGS: usize = 100;
@@ -153,7 +155,7 @@ impl<'a> Document<'a> {
         let mut wrong: Vec<String> = Vec::new();
         let mut readings = 0;
         loop {
-            let error = match T::deserialize(ValueDeserializer::from(value.clone())) {
+            let error = match value::read(&value) {
                 Ok(read) => return (faults.count() == before).then_some(read),
                 Err(error) => error,
             };

@@ -8,8 +8,8 @@ use crate::bond::Law;
 use crate::bond::keys::KeyError;
 use crate::contact::PairProperties;
 use crate::quantity::{MaterialIndex, Positive};
-use serde::de::value::{Error, F64Deserializer};
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::de::value::{Error, F64Deserializer, MapDeserializer};
+use serde::de::{Deserialize, DeserializeOwned, IntoDeserializer};
 
 /// A number of the text that is a parameter of the unit.
 #[derive(Clone, Debug)]
@@ -82,14 +82,15 @@ impl Scene {
 
     /// The properties of two materials with these values of the tunable parameters.
     pub(crate) fn tuned_pair(&self, pair: [MaterialIndex; 2], tuned: &[f64]) -> Option<PairProperties> {
-        let (mut tuned, mut properties) = (tuned.iter(), toml::Table::new());
+        let (mut tuned, mut properties) = (tuned.iter(), Vec::new());
         for parameter in &self.parameters {
             let value = if parameter.tunable { *tuned.next()? } else { parameter.value };
             if self.pair_of(&parameter.name) == Some(pair) {
-                properties.insert(parameter.name.rsplit('.').next()?.to_owned(), value.into());
+                properties.push((parameter.name.rsplit('.').next()?, value));
             }
         }
-        properties.try_into().ok()
+        let properties: MapDeserializer<_, Error> = MapDeserializer::new(properties.into_iter());
+        PairProperties::deserialize(properties).ok()
     }
 
     /// A bond law with these values of the tunable parameters, or what they contradict.
