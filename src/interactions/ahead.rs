@@ -156,11 +156,15 @@ impl Ahead {
         if farthest > certain {
             let speed = self.closing_speed(-contact.normal_velocity, -overlap, boundary);
             if speed > 0.0 && farthest > 0.0 {
-                let now = overlap.max(0.0);
-                let at = Contact { overlap: now, ..*contact };
-                let held = if now > 0.0 { law.elastic_energy(row, &at, 0.0, &NO_HISTORY) } else { 0.0 };
-                let energy = held + 0.5 * mass * speed * speed;
-                deep = deep.max(overlap_of(law, row, contact, energy, farthest));
+                let held = |overlap: f64| match overlap > 0.0 {
+                    true => law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &NO_HISTORY),
+                    false => 0.0,
+                };
+                let energy = held(overlap) + 0.5 * mass * speed * speed;
+                // At rest the margin is above what the energy reaches. Attraction beyond touch has energy that falls, too.
+                if energy > held(deep) || law.holds_beyond_touch() {
+                    deep = deep.max(overlap_of(law, row, contact, energy, farthest));
+                }
             }
         }
         (deep > 0.0).then_some(Contact { overlap: deep, normal_velocity: 0.0, ..*contact })

@@ -186,10 +186,10 @@ impl Blocks<'_> {
         let damped = damping != [0.0; 4];
         match mover.checked_sub(network.roots.len()) {
             None => {
-                let roots = network.roots[mover];
-                add_particle(&mut self.stiffness[mover], element, end, stiffness, roots, share);
+                let place = Place::of(element, end, network.roots[mover], share);
+                place.add(&mut self.stiffness[mover], stiffness);
                 if damped {
-                    add_particle(&mut self.damping[mover], element, end, damping, roots, share);
+                    place.add(&mut self.damping[mover], damping);
                 }
             }
             Some(group) => {
@@ -217,7 +217,12 @@ impl Blocks<'_> {
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
     fn is_below(&self, mover: usize, root: f64) -> bool {
         let square = root * root;
-        let mut rest = self.combined(mover, root).map(|part| -part);
+        let combined = self.combined(mover, root);
+        // No eigenvalue is above the norm of all entries: most bodies need no more.
+        if squares(&combined) < square * square {
+            return true;
+        }
+        let mut rest = combined.map(|part| -part);
         for k in 0..6 {
             rest[diagonal(k)] += square;
         }
@@ -323,37 +328,59 @@ const fn diagonal(row: usize) -> usize {
     row * (row + 3) / 2
 }
 
-/// Adds what a particle feels of an element alone. The arm lies along the normal n, so that with I the unit matrix, k along
-/// and q across the normal and s the arm, the blocks are q I + (k − q) n nᵀ, s q [n]× and s² q (I − n nᵀ) beside torsion and
-/// bending.
-fn add_particle(block: &mut Triangle, element: &Element, end: usize, parts: [f32; 4], [v, w]: [f64; 2], share: f64) {
-    let [along, across, twisting, bending] = parts.map(|part| share * f64::from(part));
-    let [x, y, z] = element.normal.map(f64::from);
-    let arm = f64::from(element.arms[end]);
-    let products = [x * x, y * x, y * y, z * x, z * y, z * z];
-    let (shift, shift_more) = (v * v * across, v * v * (along - across));
-    let turning = arm * arm * across + bending;
-    let (turn, turn_more) = (w * w * turning, w * w * (twisting - turning));
-    let mixed = v * w * arm * across;
-    let mut add = |place: usize, part: f64| block[place] += part as f32;
-    add(0, shift + shift_more * products[0]);
-    add(1, shift_more * products[1]);
-    add(2, shift + shift_more * products[2]);
-    add(3, shift_more * products[3]);
-    add(4, shift_more * products[4]);
-    add(5, shift + shift_more * products[5]);
-    add(7, -mixed * z);
-    add(8, mixed * y);
-    add(9, turn + turn_more * products[0]);
-    add(10, mixed * z);
-    add(12, -mixed * x);
-    add(13, turn_more * products[1]);
-    add(14, turn + turn_more * products[2]);
-    add(15, -mixed * y);
-    add(16, mixed * x);
-    add(18, turn_more * products[3]);
-    add(19, turn_more * products[4]);
-    add(20, turn + turn_more * products[5]);
+/// How a particle stands to an element: what its springs and its dashpots are weighed with.
+struct Place {
+    /// Unit normal.
+    normal: [f64; 3],
+    /// n nᵀ, its lower triangle row by row.
+    products: [f64; 6],
+    /// What a stiffness gives to shifts, to turns by its arm, between the two and to turns by itself.
+    weights: [f64; 4],
+}
+
+impl Place {
+    /// Of the particle at one end of an element, which bears this share of it.
+    #[inline(always)]
+    fn of(element: &Element, end: usize, [v, w]: [f64; 2], share: f64) -> Self {
+        let normal = element.normal.map(f64::from);
+        let [x, y, z] = normal;
+        let arm = f64::from(element.arms[end]);
+        let (shift, mixed, turn) = (share * v * v, share * v * w * arm, share * w * w);
+        let products = [x * x, y * x, y * y, z * x, z * y, z * z];
+        Self { normal, products, weights: [shift, turn * arm * arm, mixed, turn] }
+    }
+
+    /// Adds what the particle feels of the element alone. The arm lies along the normal n, so that with I the unit matrix, k
+    /// along and q across the normal and s the arm, the blocks are q I + (k − q) n nᵀ, s q [n]× and s² q (I − n nᵀ) beside
+    /// torsion and bending.
+    #[inline(always)]
+    fn add(&self, block: &mut Triangle, parts: [f32; 4]) {
+        let [along, across, twisting, bending] = parts.map(f64::from);
+        let ([x, y, z], products, [shifting, armed, between, turning]) = (self.normal, self.products, self.weights);
+        let (shift, shift_more) = (shifting * across, shifting * (along - across));
+        let turn = armed * across + turning * bending;
+        let turn_more = turning * twisting - turn;
+        let mixed = between * across;
+        let mut add = |place: usize, part: f64| block[place] += part as f32;
+        add(0, shift + shift_more * products[0]);
+        add(1, shift_more * products[1]);
+        add(2, shift + shift_more * products[2]);
+        add(3, shift_more * products[3]);
+        add(4, shift_more * products[4]);
+        add(5, shift + shift_more * products[5]);
+        add(7, -mixed * z);
+        add(8, mixed * y);
+        add(9, turn + turn_more * products[0]);
+        add(10, mixed * z);
+        add(12, -mixed * x);
+        add(13, turn_more * products[1]);
+        add(14, turn + turn_more * products[2]);
+        add(15, -mixed * y);
+        add(16, mixed * x);
+        add(18, turn_more * products[3]);
+        add(19, turn_more * products[4]);
+        add(20, turn + turn_more * products[5]);
+    }
 }
 
 /// Adds what a group feels of an element alone, whose arm has any direction.
@@ -381,6 +408,13 @@ fn add_group(block: &mut Triangle, normal: [f32; 3], arm: [f64; 3], parts: [f32;
             block[row * (row + 1) / 2 + column] += (shift + turn) as f32;
         }
     }
+}
+
+/// Sum of the squares of all entries of a symmetric matrix, given by its triangle.
+fn squares(triangle: &[f64; 21]) -> f64 {
+    let all: f64 = triangle.iter().map(|part| part * part).sum();
+    let on_diagonal: f64 = (0..6).map(|k| triangle[diagonal(k)] * triangle[diagonal(k)]).sum();
+    2.0 * all - on_diagonal
 }
 
 /// Sum of the squares of a row.
