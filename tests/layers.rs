@@ -133,7 +133,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("threads", 5),
     ("neighbours", 14),
     ("integration", 6),
-    ("batches", 53),
+    ("batches", 63),
     ("interactions", 13),
     ("bond_passes", 28),
     ("stability", 2),

@@ -1,5 +1,6 @@
 //! The batch that goes through the phases.
 
+use super::lost::Sums;
 use super::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::batches::sphere_geometry::SpherePair;
 use crate::contact::{Carry, Contact, Needs, NormalForce, NormalForm, Response, Roots};
@@ -69,8 +70,12 @@ mod column {
     pub(super) const TILT: [usize; 3] = [34, 35, 36];
     /// Part of the step in which the bodies touched.
     pub(super) const SHARE: usize = 37;
+    /// Of a book of losses: the tangential spring before.
+    pub(super) const SPRING: [usize; 3] = [38, 39, 40];
+    /// Of a book of losses: velocity along the normal at mid-step.
+    pub(super) const VELOCITY: usize = 41;
     /// How many there are.
-    pub(super) const COUNT: usize = 38;
+    pub(super) const COUNT: usize = 42;
 }
 use column as at;
 
@@ -97,6 +102,8 @@ pub(crate) struct Buffer {
     pub(crate) second: [u32; ROOM],
     /// Their rows of the table, where they differ.
     pub(crate) row: [u32; ROOM],
+    /// What is lost.
+    pub(super) losses: Sums,
     /// How many were found.
     pub(crate) count: usize,
     /// How many are worked on now.
@@ -139,6 +146,7 @@ impl Buffer {
             first: slots,
             second: slots,
             row: slots,
+            losses: Sums::default(),
             count: 0,
             ready: 0,
         }
@@ -409,6 +417,40 @@ impl Buffer {
                 seen: self.load(at::SEEN, place),
             }
         }
+    }
+
+    /// Writes what a book of losses wants to know of a register's worth of contacts before sub-models change it: spring, and
+    /// velocity along the normal at mid-step.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn put_before<N: Lane>(&mut self, place: usize, spring: Vector<N>, velocity: N) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store_vector(at::SPRING, place, spring);
+            self.store(at::VELOCITY, place, velocity);
+        }
+    }
+
+    /// Reads it.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn before<N: Lane>(&self, place: usize) -> (Vector<N>, N) {
+        // SAFETY: the caller's promise.
+        unsafe { (self.load_vector(at::SPRING, place), self.load(at::VELOCITY, place)) }
+    }
+
+    /// Overlap of a register's worth of suppressed contacts beyond their offsets.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn pressing<N: Lane>(&self, place: usize) -> N {
+        // SAFETY: the caller's promise.
+        unsafe { self.load(at::PRESSING, place) }
     }
 
     /// Writes offsets of a register's worth of contacts, and how much of the overlap is beyond them.

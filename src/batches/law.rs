@@ -4,8 +4,8 @@ use super::Manner;
 use super::coefficients::MOST_COEFFICIENTS;
 use super::sub_models::{ArmsRun, CarryRun, Run, RunOf};
 use super::suppressed::Suppressed;
-use super::whole_laws;
-use crate::contact::{Law, LawChoice, Needs};
+use super::{losses, whole_laws};
+use crate::contact::{Booked, Law, LawChoice, Needs};
 use crate::lanes;
 
 /// A contact law and its functions over batches.
@@ -18,6 +18,8 @@ pub(crate) struct BatchLaw {
     runs: Vec<Run>,
     /// The same where bonds suppress contacts.
     suppressed: Suppressed,
+    /// What a book of losses has to know of it.
+    pub(super) booked: Booked,
 }
 
 impl BatchLaw {
@@ -28,6 +30,27 @@ impl BatchLaw {
             law.runs = vec![run];
         }
         law
+    }
+
+    /// The law that a scene composed; where asked, its losses are booked.
+    pub(crate) fn booked_where(choice: &LawChoice, losses: bool) -> Self {
+        if !losses {
+            return Self::of(choice);
+        }
+        let Self { law, needs, mut runs, mut suppressed, .. } = Self::sub_models(choice);
+        let law = law.booked();
+        let booked = law.booking();
+        if booked.spring || booked.carries {
+            runs.insert(0, losses::keep_before);
+        }
+        runs.push(losses::book_open);
+        suppressed.book(&booked);
+        Self { law, needs, runs, suppressed, booked }
+    }
+
+    /// Whether its losses are booked.
+    pub(crate) fn books(&self) -> bool {
+        self.law.history_places().loads.is_some()
     }
 
     /// The same, sub-model by sub-model even where the law is compiled whole.
@@ -50,7 +73,7 @@ impl BatchLaw {
         if law.has_rolling() {
             runs.push(choice.rolling.visit(run_of));
         }
-        Self { suppressed: Suppressed::of(choice, &law), law, needs, runs }
+        Self { suppressed: Suppressed::of(choice, &law), booked: law.booking(), law, needs, runs }
     }
 
     /// Whether it is compiled whole.

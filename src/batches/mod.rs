@@ -18,6 +18,9 @@
 mod buffer;
 pub(crate) mod coefficients;
 mod law;
+mod losses;
+mod lost;
+mod parting;
 mod phases;
 mod sphere_geometry;
 mod stage;
@@ -32,6 +35,7 @@ use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
 pub(crate) use coefficients::{CoefficientTable, Partners, overlap_of};
 pub(crate) use law::BatchLaw;
+pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};
 pub(crate) use sphere_geometry::SpherePair;
 use stage::Stage;
@@ -92,6 +96,11 @@ pub(crate) trait Bodies: Copy {
         found: [N; FOUND],
         roots: [N; 2],
     ) -> ContactGeometry<N>;
+
+    /// How often the normal force of each entry counts, and its share of friction, where it is not 1.
+    fn weights(&self) -> Option<&[[f64; 2]]> {
+        None
+    }
 
     /// The row of the law's table for two bodies.
     fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32;
@@ -233,6 +242,15 @@ impl<B: Bodies> Batches<'_, B> {
         Buffer::with(|buffer| self.run_in(buffer, from..to, ahead))
     }
 
+    /// The same, and what was lost, for a law whose losses are booked.
+    pub(crate) fn run_booked(&self, from: usize, to: usize, ahead: Range<usize>) -> (B::Sum, Lost) {
+        Buffer::with(|buffer| {
+            buffer.losses.begin();
+            let sum = self.run_in(buffer, from..to, ahead);
+            (sum, buffer.losses.end())
+        })
+    }
+
     /// The same, in this room. Where bonds suppress contacts, those of each manner are done one after the other.
     fn run_in(&self, buffer: &mut Buffer, entries: Range<usize>, ahead: Range<usize>) -> B::Sum {
         let mut sum = B::Sum::default();
@@ -292,10 +310,24 @@ impl<B: Bodies> Batches<'_, B> {
 
     /// What the sub-models work on.
     fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
-        let Self { entries, table, uniform, step, law: BatchLaw { law, .. }, .. } = self;
+        let Self { entries, table, uniform, step, law: BatchLaw { law, booked, .. }, .. } = self;
         let (places, history, offset) = (law.places(), law.history_places(), law.history().len());
         let (touches, onset) = (!law.holds_beyond_touch(), law.onset());
-        Stage { entries, table, uniform: *uniform, places, history, offset, step: *step, touches, onset, buffer }
+        let weights = self.bodies.weights();
+        Stage {
+            entries,
+            table,
+            uniform: *uniform,
+            places,
+            history,
+            offset,
+            step: *step,
+            touches,
+            onset,
+            weights,
+            booked,
+            buffer,
+        }
     }
 
     /// Phase 2, and the rows of the table where they differ.

@@ -1,6 +1,7 @@
 //! The phases of a batch.
 
 use super::buffer::{BATCH, Buffer};
+use super::parting::Parting;
 use super::{Batches, Bodies, Chosen, Entries};
 use crate::contact::Needs;
 use crate::lanes::{Kernel, Lane, prefetch};
@@ -67,12 +68,13 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                 let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
                 let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
                 let bits = touching & wanted & ((1 << here) - 1);
+                let parting = Parting { work, losses: &mut buffer.losses };
                 if CHOSEN {
-                    end_chosen(entries, entry, here, [wanted, bits]);
+                    end_chosen(parting, entry, here, [wanted, bits]);
                 } else if here == N::WIDTH {
-                    end(entries, entry, N::WIDTH, bits);
+                    end(parting, entry, N::WIDTH, bits);
                 } else {
-                    end(entries, entry, here, bits);
+                    end(parting, entry, here, bits);
                 }
                 for history in entries.history() {
                     let rows = history.pointer().wrapping_add(entry);
@@ -142,7 +144,8 @@ unsafe fn find_chosen(entries: &Entries, entry: usize, count: usize, chosen: Cho
 /// # Safety
 /// As for [`flags_of`].
 #[inline(always)]
-unsafe fn end_chosen(entries: &Entries, entry: usize, count: usize, [chosen, bits]: [u32; 2]) {
+unsafe fn end_chosen<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, [chosen, bits]: [u32; 2]) {
+    let entries = &parting.work.entries;
     // SAFETY: the caller's promise.
     let before = unsafe { flags_of(entries, entry, count) };
     let (mine, now) = (bytes(chosen), bytes(bits));
@@ -156,7 +159,10 @@ unsafe fn end_chosen(entries: &Entries, entry: usize, count: usize, [chosen, bit
     while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
         // SAFETY: the caller's promise; there is a row for each entry.
-        unsafe { end_one(entries, entry + lane) };
+        unsafe {
+            parting.book(entry + lane);
+            end_one(entries, entry + lane);
+        }
         ended &= ended - 1;
     }
 }
@@ -186,7 +192,8 @@ unsafe fn end_one(entries: &Entries, entry: usize) {
 /// # Safety
 /// The entries, at most 8, belong to this piece of the list.
 #[inline(always)]
-unsafe fn end(entries: &Entries, entry: usize, count: usize, bits: u32) {
+unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bits: u32) {
+    let entries = &parting.work.entries;
     let now = bytes(bits);
     let mut before = [0; 8];
     // SAFETY: the caller's promise.
@@ -198,6 +205,8 @@ unsafe fn end(entries: &Entries, entry: usize, count: usize, bits: u32) {
     let mut ended = u64::from_le_bytes(before) & (u64::from(TOUCHING) * ONES) & !now;
     while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
+        // SAFETY: the caller's promise.
+        unsafe { parting.book(entry + lane) };
         for history in entries.history() {
             // SAFETY: the caller's promise; there is a row for each entry.
             unsafe { *history.at(entry + lane) = [0.0; 4] };

@@ -4,8 +4,8 @@ use super::Entries;
 use super::buffer::Buffer;
 use super::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
 use crate::contact::{
-    Carry, CoefficientPlaces, Coefficients, Contact, HistoryPlaces, NormalForce, NormalForm, Onset, Rolling, Switches,
-    Tangential,
+    Booked, Carry, CoefficientPlaces, Coefficients, Contact, HistoryPlaces, NormalForce, NormalForm, Onset, Rolling,
+    Switches, Tangential,
 };
 use crate::lanes::{Lane, columns};
 use crate::state::contacts::SLIDING;
@@ -30,6 +30,10 @@ pub(super) struct Stage<'a> {
     pub(super) touches: bool,
     /// How dashpots begin.
     pub(super) onset: Onset,
+    /// How often the normal force of each entry counts, and its share of friction, where it is not 1.
+    pub(super) weights: Option<&'a [[f64; 2]]>,
+    /// What a book of losses has to know of the law.
+    pub(super) booked: &'a Booked,
     /// The batch.
     pub(super) buffer: &'a mut Buffer,
 }

@@ -5,12 +5,13 @@
 //! the overlap: nothing jumps when a bond breaks.
 
 use super::buffer::Buffer;
+use super::losses;
 use super::stage::{Gathered, Stage};
 use super::sub_models::{CarryRun, Run, RunOf};
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::{
-    Coefficients, Cohesion, CohesionForm, Law, LawChoice, Normal, NormalForm, Switches, pressing_force,
+    Booked, Coefficients, Cohesion, CohesionForm, Law, LawChoice, Normal, NormalForm, Switches, pressing_force,
 };
 use crate::lanes::{self, Kernel, Lane};
 use std::marker::PhantomData;
@@ -49,6 +50,21 @@ impl Suppressed {
         }
         released.push(|_, stage| keep(stage, false));
         Self { bonded, released, followed: vec![|_, stage| follow(stage)] }
+    }
+}
+
+impl Suppressed {
+    /// Books what contacts lose, too.
+    pub(super) fn book(&mut self, booked: &Booked) {
+        let keep = (booked.spring || booked.carries).then_some(losses::keep_before as Run);
+        for (runs, book) in
+            [(&mut self.bonded, losses::book_bonded as Run), (&mut self.released, losses::book_released)]
+        {
+            if !runs.is_empty() {
+                runs.splice(0..0, keep);
+                runs.push(book);
+            }
+        }
     }
 }
 

@@ -62,6 +62,8 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         step: 0.5,
         touches: !law.law.holds_beyond_touch(),
         onset: law.law.onset(),
+        weights: None,
+        booked: &law.booked,
         buffer: &mut buffer,
     };
     let (needs, runs) = law.runs(manner);

@@ -1,5 +1,7 @@
 //! Kinetic energy, and the algorithmic energy book for the scenes that ask for it.
 
+pub(crate) mod losses;
+
 use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::number::Vector;
@@ -123,7 +125,7 @@ fn of_body(
             }
         }
     }
-    if body.members.is_empty() {
+    if body.members.is_empty() && !loads.is_empty() {
         // What touches a surface has not been booked particle by particle: bonds to it stand here, too.
         sum[Source::Walls as usize] = power(moved.force.into(), moved.moment.into());
     }

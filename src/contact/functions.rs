@@ -84,6 +84,12 @@ pub(super) struct TangentialModel {
     pub(super) has_spring: bool,
     /// Whether there is a dashpot.
     pub(super) has_dashpot: bool,
+    /// [`Tangential::KEEPS_STIFFNESS`].
+    pub(super) keeps_stiffness: bool,
+    /// [`Tangential::LIMITS_DASHPOT`].
+    pub(super) limits_dashpot: bool,
+    /// [`Tangential::PROJECTS`].
+    pub(super) projects: bool,
     /// [`Tangential::stiffness`].
     pub(super) stiffness: fn(&[f64], f64) -> f64,
     /// [`Tangential::force`].
@@ -99,6 +105,9 @@ impl TangentialModel {
             history: B::HISTORY,
             has_spring: B::HAS_SPRING,
             has_dashpot: B::HAS_DASHPOT,
+            keeps_stiffness: B::KEEPS_STIFFNESS,
+            limits_dashpot: B::LIMITS_DASHPOT,
+            projects: B::PROJECTS,
             stiffness: |row, from_normal_model| B::read(row).stiffness(from_normal_model),
             force: |row, contact, normal, history, step| B::force(B::lanes(row), contact, normal, history, step),
         }

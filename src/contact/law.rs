@@ -4,8 +4,8 @@ use super::functions::{CohesionModel, Functions, NormalModel, RollingModel, Tang
 #[cfg(test)]
 use super::pressing_force;
 use super::{
-    Adhesion, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction, Response,
-    RollingStiffness, Scheme, Switches,
+    Adhesion, Booked, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction,
+    Response, RollingStiffness, Scheme, Switches,
 };
 use crate::number::{Row, Vector};
 
@@ -36,7 +36,18 @@ pub struct HistoryPlaces {
     pub rolling: Option<usize>,
     /// The scheme's: velocities before.
     pub rates: Option<usize>,
+    /// Of a book of losses: [`LOADS`].
+    pub loads: Option<usize>,
+    /// Of a book of losses: [`OTHER_LOADS`].
+    pub other_loads: Option<usize>,
 }
+
+/// What a book of losses remembers of a contact: k_t \[N/m\] and the force of both dashpots on the first body \[N\] in the last
+/// evaluation.
+const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, true, true, true] };
+
+/// What it remembers where there is more: the normal force that is neither spring nor dashpot \[N\] and the rolling torque \[N m\].
+const OTHER_LOADS: HistoryRow = HistoryRow { name: "other loads before", odd: [false, true, true, true] };
 
 /// Where the coefficients of each sub-model begin in a row of a law's; those of the normal model and the switches stand
 /// first.
@@ -74,6 +85,43 @@ pub struct Law {
 }
 
 impl Law {
+    /// The same law, of whose contacts a book of losses remembers more: the rows stand behind all others.
+    pub fn booked(mut self) -> Self {
+        self.history_places.loads = Some(self.history.len());
+        self.history.push(LOADS);
+        if self.rolling.active || self.has_other_force() {
+            self.history_places.other_loads = Some(self.history.len());
+            self.history.push(OTHER_LOADS);
+        }
+        self
+    }
+
+    /// Whether part of the normal force is neither the spring nor the dashpot of a pressed contact.
+    pub fn has_other_force(&self) -> bool {
+        self.cohesion.active || !self.takes_offset()
+    }
+
+    /// Whether normal forces depend on what was before.
+    pub fn is_plastic(&self) -> bool {
+        self.normal.history.is_some()
+    }
+
+    /// What a book of losses has to know of it.
+    pub(crate) fn booking(&self) -> Booked {
+        let carries = self.scheme.carries();
+        Booked {
+            friction: self.tangential.active,
+            spring: self.tangential.has_spring,
+            keeps_stiffness: self.tangential.keeps_stiffness,
+            limits_dashpot: self.tangential.limits_dashpot,
+            projects: self.tangential.projects && !carries,
+            rolling: self.rolling.active,
+            presses: self.takes_offset(),
+            carries,
+            least_force: self.normal.count,
+        }
+    }
+
     /// The law of these sub-models.
     pub fn of(choice: &LawChoice) -> Self {
         let (normal, tangential) = (choice.normal.visit(Functions), choice.tangential.visit(Functions));
@@ -90,6 +138,7 @@ impl Law {
             tangential: place(tangential.history),
             rolling: place(rolling.history),
             rates: place(choice.scheme.history()),
+            ..HistoryPlaces::default()
         };
         let after_normal = normal.count + Switches::COUNT;
         let places = CoefficientPlaces {
@@ -316,17 +365,26 @@ impl Law {
     /// spring, where there are \[J\].
     pub fn elastic_energy(&self, row: &[f64], contact: &Contact, offset: f64, history: &[Row]) -> f64 {
         let of = |place: Option<usize>| place.and_then(|place| history.get(place).copied());
-        let HistoryPlaces { normal, rolling, .. } = self.history_places;
-        let mut energy = (self.normal.elastic_energy)(row, contact, offset, of(normal).unwrap_or_default());
+        let mut energy = self.normal_energy(row, contact, offset, history);
         let response = (self.normal.response)(row, contact);
         if let Some(spring) = of(self.spring()).map(Vector::from) {
             let stiffness = (self.tangential.stiffness)(&row[self.places.tangential..], response.tangential_stiffness);
             energy += 0.5 * stiffness * spring.dot(spring);
         }
-        if let Some(torque) = of(rolling) {
-            energy += (self.rolling.elastic_energy)(&row[self.places.rolling..], contact, &response, torque);
-        }
-        energy
+        energy + self.rolling_energy(row, contact, history)
+    }
+
+    /// Elastic energy of the normal force beyond an offset of the overlap \[m\] \[J\].
+    pub fn normal_energy(&self, row: &[f64], contact: &Contact, offset: f64, history: &[Row]) -> f64 {
+        let own = self.history_places.normal.and_then(|place| history.get(place).copied());
+        (self.normal.elastic_energy)(row, contact, offset, own.unwrap_or_default())
+    }
+
+    /// Elastic energy of the rolling spring, where there is one \[J\].
+    pub fn rolling_energy(&self, row: &[f64], contact: &Contact, history: &[Row]) -> f64 {
+        let Some(&torque) = self.history_places.rolling.and_then(|place| history.get(place)) else { return 0.0 };
+        let response = (self.normal.response)(row, contact);
+        (self.rolling.elastic_energy)(&row[self.places.rolling..], contact, &response, torque)
     }
 
     /// Stiffness of the rolling spring \[N m\].

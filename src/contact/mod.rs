@@ -15,6 +15,7 @@ pub mod cohesion;
 pub(crate) mod fixtures;
 mod functions;
 mod law;
+mod losses;
 mod material;
 pub mod normal;
 pub mod rolling;
@@ -28,6 +29,8 @@ pub(crate) use coefficients::coefficients;
 #[cfg(test)]
 pub use law::Offset;
 pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
+pub(crate) use losses::parting;
+pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
 pub use scheme::{Carry, Scheme};
 pub(crate) use sub_model::pressing_force;
@@ -180,8 +183,8 @@ pub struct Friction<N: Number = f64> {
 }
 
 /// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model and of the
-/// scheme.
-pub const MOST_HISTORY: usize = 4;
+/// scheme, and two of a book of losses.
+pub const MOST_HISTORY: usize = 6;
 
 /// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
 pub const MOST_KEPT: usize = MOST_HISTORY + 1;

@@ -123,6 +123,12 @@ pub trait Tangential: Coefficients {
     const HAS_SPRING: bool;
     /// Whether slip is damped by γ_t.
     const HAS_DASHPOT: bool;
+    /// Whether the fourth remembered number is the stiffness of the spring \[N/m\]; otherwise it is k_t.
+    const KEEPS_STIFFNESS: bool = false;
+    /// Whether spring and dashpot together stand at the limit while it slides, not the spring alone.
+    const LIMITS_DASHPOT: bool = false;
+    /// Whether the part of the spring along the normal is lost as the contact turns.
+    const PROJECTS: bool = false;
     /// Stiffness of the spring where that of the normal model is k_t \[N/m\].
     fn stiffness(&self, from_normal_model: f64) -> f64 {
         from_normal_model

@@ -1,12 +1,13 @@
 //! Gravity, applied forces and Cundall's global damping.
 
 use super::Rows;
+use super::braking::{brake, brakes, taken};
 use crate::boundaries::RigidBody;
 use crate::geometry::Quaternion;
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::{BoundaryState, Particles, Row, State};
+use crate::state::{BoundaryState, Loss, Particles, Row, State};
 use crate::threads::{CHUNK, Context};
 
 /// Force \[N\] and moment about the reference point of a group \[N m\].
@@ -142,9 +143,9 @@ impl Fields {
             }
         }
         let ids = std::mem::take(&mut state.particles.id);
-        let rows = Rows::of(&mut state.particles);
+        let (rows, books) = (Rows::of(&mut state.particles), state.losses.is_some());
         let of_piece = |piece| {
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; 6];
             rows.each_free(piece, |body| {
                 let id = ids[body.slot];
                 if self.damping.is_empty() {
@@ -154,20 +155,36 @@ impl Fields {
                 let damped = self.damping[id as usize];
                 let (before, after) = self.split(body.velocity[3], id, damped);
                 add(body.force, before);
+                let (mut losses, mut turns) = ([0.0; 3], [0.0; 3]);
                 for axis in 0..3 {
-                    let loss = brake(damped.linear, body.force[axis], body.velocity[axis]);
-                    body.force[axis] -= loss;
-                    sum[axis] -= loss;
-                    body.torque[axis] -= brake(damped.angular, body.torque[axis], body.spin[axis]);
+                    losses[axis] = brake(damped.linear, body.force[axis], body.velocity[axis]);
+                    body.force[axis] -= losses[axis];
+                    sum[axis] -= losses[axis];
+                    turns[axis] = brake(damped.angular, body.torque[axis], body.spin[axis]);
+                    body.torque[axis] -= turns[axis];
                 }
                 add(body.force, after);
+                if books {
+                    let moved = taken(losses, body.velocity, body.force, context.step);
+                    let turned = taken(turns, body.spin, body.torque, context.step);
+                    for kind in 0..3 {
+                        sum[3 + kind] += moved[kind] + turned[kind];
+                    }
+                }
             });
             sum
         };
-        let plus = |sum: [f64; 3], part: [f64; 3]| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]];
-        let sum = context.fold(rows.pieces(), of_piece, [0.0; 3], plus);
+        let plus = |mut sum: [f64; 6], part: [f64; 6]| {
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+            sum
+        };
+        let [x, y, z, now, power, growth] = context.fold(rows.pieces(), of_piece, [0.0; 6], plus);
         state.particles.id = ids;
-        sum
+        if let Some(losses) = &mut state.losses {
+            losses.add(Loss::GlobalDamping, now);
+            losses.braking = [power, growth];
+        }
+        [x, y, z]
     }
 
     /// Puts the whole load on each body that forces move: that of the particles, weight, applied forces, springs and dashpots to
@@ -262,18 +279,6 @@ impl Fields {
 /// Force and moment of a load.
 fn halves([x, y, z, a, b, c]: [f64; 6]) -> Load {
     [Vector::new(x, y, z), Vector::new(a, b, c)]
-}
-
-/// What damping takes from a component of a load: a fraction that lowers its power, also at rest.
-#[inline(always)]
-fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {
-    if load * velocity >= 0.0 { fraction * load } else { -fraction * load }
-}
-
-/// What damping adds to a load, component by component.
-fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3] {
-    let load = load.to_array();
-    [0, 1, 2].map(|axis| -brake(fraction, load[axis], velocity[axis]))
 }
 
 /// Adds a load to a row.

@@ -1,5 +1,6 @@
 //! Velocity Verlet: half a kick, a drift, forces, half a kick.
 
+mod braking;
 mod fields;
 
 pub(crate) use fields::Fields;

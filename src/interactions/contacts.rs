@@ -8,7 +8,7 @@ use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
 use crate::batches::SpherePair;
-use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Touching};
+use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::batches::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
 use crate::lanes::{self, Lane, Shared};
@@ -17,6 +17,7 @@ use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
 use crate::threads::Context;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// The pass of one contact law.
 pub(crate) struct ContactPass {
@@ -28,6 +29,8 @@ pub(crate) struct ContactPass {
     pub table: CoefficientTable,
     /// The law.
     pub law: BatchLaw,
+    /// Room for what each slab lost.
+    pub lost: Mutex<Vec<Lost>>,
 }
 
 impl Pass for ContactPass {
@@ -53,12 +56,30 @@ impl Pass for ContactPass {
             width: context.width,
         };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
-        context.slabs(ends.len().saturating_sub(1), |slab| {
+        let slabs = ends.len().saturating_sub(1);
+        let piece = |slab: usize| {
             // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
             let next = slab + if slab % 2 == 0 { 2 } else { 4 };
             let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
-            batches.run(ends[slab] as usize, ends[slab + 1] as usize, ahead);
+            (ends[slab] as usize, ends[slab + 1] as usize, ahead)
+        };
+        let Some(losses) = &mut state.losses else {
+            context.slabs(slabs, |slab| {
+                let (from, to, ahead) = piece(slab);
+                batches.run(from, to, ahead);
+            });
+            return Ok(());
+        };
+        let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.clear();
+        lost.resize(slabs, Lost::default());
+        let places = Shared::new(&mut lost);
+        context.slabs(slabs, |slab| {
+            let (from, to, ahead) = piece(slab);
+            // SAFETY: each slab is done once, and has a place of its own.
+            unsafe { *places.at(slab) = batches.run_booked(from, to, ahead).1 };
         });
+        lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
         Ok(())
     }
 
@@ -106,6 +127,10 @@ impl Pass for ContactPass {
 
     fn elastic_energy(&self, state: &State) -> f64 {
         listed::elastic_energy(self, state)
+    }
+
+    fn held_energy(&self, state: &State) -> [f64; 3] {
+        listed::held_energy(self, state)
     }
 }
 

@@ -111,6 +111,23 @@ fn remembered(history: &[Vec<Row>], entry: usize, flags: u8) -> (Reaction, bool)
 
 /// Elastic energy of the contacts \[J\]: none of the normal force while a bond suppresses it.
 pub(crate) fn elastic_energy(list: &impl Listed, state: &State) -> f64 {
+    energy(list, state, Law::elastic_energy)
+}
+
+/// Energy that a law's rolling springs and its sticky or plastic normal forces hold \[J\].
+pub(crate) fn held_energy(list: &impl Listed, state: &State) -> [f64; 3] {
+    let (law, mut held) = (list.law(), [0.0; 3]);
+    if law.has_rolling() {
+        held[0] = energy(list, state, |law, row, contact, _, history| law.rolling_energy(row, contact, history));
+    }
+    if !law.takes_offset() {
+        held[if law.is_plastic() { 2 } else { 1 }] = energy(list, state, Law::normal_energy);
+    }
+    held
+}
+
+/// Sum of an energy of each contact, of its law, coefficients, geometry, offset and history \[J\].
+fn energy(list: &impl Listed, state: &State, of: impl Fn(&Law, &[f64], &Contact, f64, &[Row]) -> f64) -> f64 {
     let (law, kept) = (list.law(), list.kept(state));
     let told = kept.flags.iter().enumerate().filter(|(_, flags)| is_told(**flags));
     let energy = |(entry, &flags): (usize, &u8)| {
@@ -122,7 +139,7 @@ pub(crate) fn elastic_energy(list: &impl Listed, state: &State) -> f64 {
             }
             _ => 0.0,
         };
-        Some(law.elastic_energy(row, &contact, offset, &records::history(kept.history, entry)))
+        Some(of(law, row, &contact, offset, &records::history(kept.history, entry)))
     };
     told.filter_map(energy).sum()
 }

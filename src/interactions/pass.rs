@@ -60,6 +60,11 @@ pub(crate) trait Pass: Send + Sync {
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;
 
+    /// Energy at the present time of rolling springs, of sticky and of plastic normal forces \[J\]: for a book of losses.
+    fn held_energy(&self, _state: &State) -> [f64; 3] {
+        [0.0; 3]
+    }
+
     /// Largest overlap at the present time over the smaller radius of the two (the particle's, at a surface).
     fn largest_overlap(&self, _state: &State) -> f64 {
         0.0

@@ -1,5 +1,6 @@
 //! What a pass over particles or contacts is needed for, found once at a communication point.
 
+use crate::state::Loss;
 use crate::step::{ElasticEnergy, Simulation};
 use std::cell::OnceCell;
 
@@ -11,6 +12,8 @@ pub struct Findings {
     kinetic: OnceCell<f64>,
     /// Elastic energy \[J\].
     elastic: OnceCell<ElasticEnergy>,
+    /// What each loss took \[J\].
+    losses: OnceCell<[f64; Loss::COUNT]>,
     /// Number of contacts.
     contacts: OnceCell<u64>,
     /// Largest overlap over the smaller radius.
@@ -26,6 +29,11 @@ impl Findings {
     /// Elastic energy.
     pub(super) fn elastic(&self, simulation: &Simulation) -> ElasticEnergy {
         *self.elastic.get_or_init(|| simulation.elastic_energies())
+    }
+
+    /// What each loss took \[J\].
+    pub(super) fn losses(&self, simulation: &Simulation) -> &[f64; Loss::COUNT] {
+        self.losses.get_or_init(|| simulation.losses().unwrap_or_default())
     }
 
     /// Number of contacts.

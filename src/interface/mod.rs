@@ -4,6 +4,7 @@
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
 mod findings;
+mod losses;
 mod parameters;
 mod quantity;
 mod rows;

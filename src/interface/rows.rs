@@ -3,11 +3,12 @@
 //! A row says everything of its variables: name, unit, when a scene has them, how they are read and written. The unit's
 //! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
 
+use super::losses::{self, LOSSES};
 use super::{Causality, Findings, Quantity, Value, Variability, Variable};
 use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::{BondList, BoundaryState, State};
+use crate::state::{BondList, BoundaryState, Loss, State};
 use crate::step::Simulation;
 
 /// Names of the axes in variables.
@@ -339,6 +340,51 @@ static OF_BOUNDARIES: [Row; 18] = [
     },
 ];
 
+/// The output of a loss, by its place.
+const fn lost<const PLACE: usize>() -> Row {
+    let (name, description) = LOSSES[PLACE];
+    Row {
+        name,
+        description,
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| losses::is_booked(scene, Loss::ALL[PLACE]),
+        read: |now, _| Value::Real(now.findings.losses(now.simulation)[PLACE]),
+        ..OUTPUT
+    }
+}
+
+/// What each loss took, and what they leave unaccounted.
+static OF_LOSSES: [Row; Loss::COUNT + 1] = [
+    lost::<0>(),
+    lost::<1>(),
+    lost::<2>(),
+    lost::<3>(),
+    lost::<4>(),
+    lost::<5>(),
+    lost::<6>(),
+    lost::<7>(),
+    lost::<8>(),
+    lost::<9>(),
+    lost::<10>(),
+    lost::<11>(),
+    Row {
+        name: "energy.physical_residual",
+        description: "kinetic, elastic and potential energy and all losses since the start, less what boundaries and forces \
+                      gave: the error of the time stepping",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| scene.output.losses,
+        read: |now, _| {
+            let Present { simulation, findings } = now;
+            let (kinetic, elastic) = (findings.kinetic(simulation), findings.elastic(simulation).all);
+            let residual = simulation.physical_residual_beside(kinetic, elastic, findings.losses(simulation));
+            Value::Real(residual.unwrap_or(0.0))
+        },
+        ..OUTPUT
+    },
+];
+
 /// Variables of the scene as a whole.
 static OF_SCENE: [Row; 12] = [
     Row {
@@ -476,7 +522,7 @@ impl PartialEq for Source {
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
     let of_boundaries = boundaries.flat_map(|boundary| OF_BOUNDARIES.iter().map(move |row| (row, boundary)));
-    let rows = of_boundaries.chain(OF_SCENE.iter().map(|row| (row, BoundaryIndex(0))));
+    let rows = of_boundaries.chain(OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, BoundaryIndex(0))));
     let places = rows.flat_map(|(row, boundary)| {
         let axes = if row.each == Each::Axis { AXES.len() } else { 1 };
         (0..axes).map(move |axis| Source { row, at: At { boundary, axis } })
@@ -487,7 +533,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 /// All rows.
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
-    OF_BOUNDARIES.iter().chain(&OF_SCENE)
+    OF_BOUNDARIES.iter().chain(&OF_SCENE).chain(&OF_LOSSES)
 }
 
 impl Source {

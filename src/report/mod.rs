@@ -144,6 +144,9 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     if scene.output.energy {
         uses.push("the algorithmic energy book".to_owned());
     }
+    if scene.output.losses {
+        uses.push("the physical energy book".to_owned());
+    }
     uses
 }
 

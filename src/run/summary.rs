@@ -5,6 +5,7 @@ use super::momentum::MomentumBalance;
 use super::order::RunOrder;
 use super::remarks::remarks;
 use crate::results::Failure;
+use crate::state::Loss;
 use crate::state::ledger::Source;
 use crate::step::Simulation;
 use serde::Serialize;
@@ -81,6 +82,17 @@ pub struct EnergyBook {
     pub relative_residual: f64,
 }
 
+/// The physical energy book: what each loss took since time 0 \[J\].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LossBook {
+    /// By cause \[J\].
+    pub lost: BTreeMap<&'static str, f64>,
+    /// All of them \[J\].
+    pub sum: f64,
+    /// Energy that is there and was lost, less what was there and came from outside \[J\].
+    pub residual: f64,
+}
+
 /// How a run went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -122,6 +134,8 @@ pub struct Summary {
     pub ns_per_particle_and_step: Option<f64>,
     /// The algorithmic energy book, where the scene keeps one.
     pub energy: Option<EnergyBook>,
+    /// The physical energy book, where the scene keeps one.
+    pub losses: Option<LossBook>,
     /// The momentum balance of this session.
     pub momentum: MomentumBalance,
     /// What is legal but risky in the scene.
@@ -188,6 +202,7 @@ impl Summary {
             }),
             ns_per_particle_and_step: share(session_steps as f64 * particles as f64),
             energy: energy_book(simulation),
+            losses: loss_book(simulation),
             momentum,
             remarks: remarks(order.scene, simulation),
             left_behind: Vec::new(),
@@ -250,4 +265,11 @@ fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
         residual,
         relative_residual: if scale > 0.0 { residual / scale } else { 0.0 },
     })
+}
+
+/// What was lost up to the present time, where the scene asks for it.
+fn loss_book(simulation: &Simulation) -> Option<LossBook> {
+    let (losses, residual) = (simulation.losses()?, simulation.physical_residual()?);
+    let lost = Loss::ALL.into_iter().zip(losses).map(|(loss, energy)| (loss.name(), energy)).collect();
+    Some(LossBook { lost, sum: losses.iter().sum(), residual })
 }

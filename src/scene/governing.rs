@@ -41,7 +41,9 @@ impl Scene {
     /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,
     /// [`OFFSET`] behind them.
     pub fn kept_rows(&self, law: usize) -> Vec<HistoryRow> {
-        let mut rows = Law::of(&self.contacts[law].choice()).history().to_vec();
+        let law = Law::of(&self.contacts[law].choice());
+        let law = if self.output.losses { law.booked() } else { law };
+        let mut rows = law.history().to_vec();
         rows.extend(self.suppresses_contacts().then_some(OFFSET));
         rows
     }

@@ -6,6 +6,7 @@
 mod accuracy;
 mod body;
 mod governing;
+mod output;
 mod parameters;
 mod source;
 
@@ -16,6 +17,7 @@ pub use crate::surface::Shape;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use governing::GoverningLaws;
+pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
 pub use source::Source;
@@ -264,21 +266,6 @@ pub struct AppliedForce {
     pub members: Vec<u32>,
     /// Force on each \[N\].
     pub force: [f64; 3],
-}
-
-/// `[output]`: what a run writes; what is absent is not computed.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Output {
-    /// Time between rows of `history.csv` \[s\].
-    pub history_interval: Option<f64>,
-    /// Time between `.vtu` frames of the particles \[s\].
-    pub frame_interval: Option<f64>,
-    /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
-    pub contacts: bool,
-    /// Whether the algorithmic energy book is kept.
-    pub energy: bool,
-    /// Time between checkpoints \[s\].
-    pub checkpoint_interval: Option<f64>,
 }
 
 impl Scene {

@@ -5,7 +5,7 @@
 //! anything is done with it. Each part looks through itself; the passes add what their laws demand of their lists
 //! ([`Pass::check`](crate::interactions::Pass::check)).
 
-use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Neighbours, Particles};
+use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
 use super::{NearParts, Row, State, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
@@ -113,7 +113,9 @@ impl State {
             let right = "the plane and the law of the scene";
             demand((list.boundary, list.law) == (same.boundary, same.law), "walls", 0, right)?;
         }
-        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, "a book where the scene asks for it")
+        let right = "a book where the scene asks for it";
+        demand(self.losses.is_some() == other.losses.is_some(), "losses", 0, right)?;
+        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, right)
     }
 
     /// Whether this can be a state of any scene: lengths and order of its lists, slots of particles, finite numbers.
@@ -143,6 +145,7 @@ impl State {
         demand_all(self.breaks.iter().map(broken), "breaks", "a bond law and particles of the scene")?;
         demand_all(self.boundaries.iter().map(BoundaryState::is_finite), "boundaries", FINITE)?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
+        self.losses.iter().try_for_each(Losses::check)?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")
     }
@@ -481,5 +484,16 @@ impl Ledger {
             }
         }
         Ok(())
+    }
+}
+
+impl Losses {
+    /// Whether all its numbers are finite.
+    fn check(&self) -> Result<(), StateFault> {
+        let Self { initial_kinetic, initial_elastic, initial_potential, given_to_bodies, .. } = self;
+        all_finite(&[*initial_kinetic, *initial_elastic, *initial_potential, *given_to_bodies], "losses")?;
+        all_finite(&self.initial_held, "losses")?;
+        all_finite(&self.taken, "losses")?;
+        all_finite(&self.braking, "losses")
     }
 }

@@ -12,6 +12,7 @@ pub mod foresight;
 mod in_place;
 mod layout;
 pub mod ledger;
+pub mod losses;
 pub mod particles;
 mod plain;
 pub mod snapshot;
@@ -24,6 +25,7 @@ pub use clock::Clock;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use foresight::Foresight;
 pub use ledger::Ledger;
+pub use losses::{Loss, Losses};
 pub use particles::Particles;
 
 pub use crate::number::Row;
@@ -60,6 +62,8 @@ pub struct State {
     pub boundaries: Vec<BoundaryState>,
     /// The algorithmic energy book, if the scene asks for it.
     pub ledger: Option<Ledger>,
+    /// The physical energy book, if the scene asks for it.
+    pub losses: Option<Losses>,
     /// Sum of the global damping forces at the present time \[N\].
     pub damping_force: [f64; 3],
     /// Impulse of global damping on the particles since time 0 \[N s\].
@@ -79,6 +83,7 @@ clone_in_place!(State {
     breaks,
     boundaries,
     ledger,
+    losses,
     damping_force,
     damping_impulse
 });
@@ -92,6 +97,9 @@ impl State {
         self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);
         if let Some(ledger) = &mut self.ledger {
             ledger.begin_counting();
+        }
+        if let Some(losses) = &mut self.losses {
+            losses.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

@@ -11,8 +11,9 @@ use crate::interactions::surfaces::SurfacePass;
 use crate::neighbours;
 use crate::scene::{Boundary, Scene};
 use crate::state::{
-    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Neighbours, Particles, State, WallContacts,
+    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Particles, State, WallContacts,
 };
+use std::sync::Mutex;
 
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
@@ -31,6 +32,7 @@ pub(super) fn state(scene: &Scene) -> State {
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),
         ledger: scene.output.energy.then(Ledger::default),
+        losses: scene.output.losses.then(Losses::default),
         damping_force: [0.0; 3],
         damping_impulse: [0.0; 3],
         particles,
@@ -136,6 +138,7 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         index,
         kept_rows: scene.kept_rows(index).len(),
         table: CoefficientTable::of(law, scene),
-        law: BatchLaw::of(&law.choice()),
+        law: BatchLaw::booked_where(&law.choice(), scene.output.losses),
+        lost: Mutex::default(),
     }
 }

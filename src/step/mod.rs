@@ -4,6 +4,7 @@ mod assemble;
 mod coefficients;
 mod depth;
 mod limits;
+mod losses;
 mod observe;
 mod placement;
 mod probe;
@@ -352,6 +353,7 @@ impl Simulation {
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
@@ -385,6 +387,7 @@ impl Simulation {
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };

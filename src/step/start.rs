@@ -92,6 +92,7 @@ impl Simulation {
             ledger.initial_kinetic = kinetic;
             ledger.initial_elastic = elastic;
         }
+        self.open_losses();
     }
 }
 

@@ -31,7 +31,7 @@ const ROUNDS: u32 = 5;
 const ROUGH: &str = "[contact.c.tangential.history]";
 
 /// What is measured: its name, and what the scene has beside particles and planes.
-const FEATURES: [(&str, &str); 22] = [
+const FEATURES: [(&str, &str); 24] = [
     ("no law at all", ""),
     ("hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n"),
     ("hertz", "[contact.c.normal.hertz]\n"),
@@ -47,6 +47,7 @@ const FEATURES: [(&str, &str); 22] = [
     ("hertz + history, gravity", "[contact.c.normal.hertz]\nROUGH\nGRAVITY"),
     ("hertz + history, Cundall damping", "[contact.c.normal.hertz]\nROUGH\n[damping.d]\nlinear = 0.7\nangular = 0.7\n"),
     ("hertz + history, energy book", "[contact.c.normal.hertz]\nROUGH\n[output]\nenergy = true\n"),
+    ("hertz + history, losses", "[contact.c.normal.hertz]\nROUGH\n[output]\nlosses = true\n"),
     ("hertz + history, every step an interval", "[contact.c.normal.hertz]\nROUGH\nSINGLE"),
     ("bonds incremental", "BOND\nformulation = \"incremental\"\n"),
     ("bonds finite_rotation", "BOND\n"),
@@ -56,6 +57,7 @@ const FEATURES: [(&str, &str); 22] = [
     ),
     ("bonds finite_rotation, breakage", "BOND\n[bond.b.breakage]\nmax_normal_stress = 1e12\nmax_shear_stress = 1e12\n"),
     ("bonds finite_rotation, energy book", "BOND\n[output]\nenergy = true\n"),
+    ("bonds finite_rotation, losses", "BOND\n[output]\nlosses = true\n"),
     ("bonds + hertz + history", "[contact.c.normal.hertz]\nROUGH\nBOND\n"),
 ];
 

@@ -40,6 +40,7 @@ impl Tangential for History {
     const HISTORY: Option<HistoryRow> = Some(HistoryRow { name: "tangential spring", odd: [true, true, true, false] });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
+    const PROJECTS: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))

@@ -31,6 +31,7 @@ impl Tangential for NoHistory {
     const ACTIVE: bool = true;
     const HAS_SPRING: bool = false;
     const HAS_DASHPOT: bool = true;
+    const LIMITS_DASHPOT: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))

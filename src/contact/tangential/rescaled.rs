@@ -41,6 +41,8 @@ impl Tangential for Rescaled {
         Some(HistoryRow { name: "tangential spring, its stiffness before", odd: [true, true, true, false] });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
+    const KEEPS_STIFFNESS: bool = true;
+    const PROJECTS: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))

@@ -62,6 +62,8 @@ impl Tangential for TurnedHistory {
         Some(HistoryRow { name: "tangential spring, its stiffness before", odd: [true, true, true, false] });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
+    const KEEPS_STIFFNESS: bool = true;
+    const LIMITS_DASHPOT: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let friction = pair.friction()?;

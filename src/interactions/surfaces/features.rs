@@ -221,7 +221,7 @@ impl AtSurface {
         let particles = work.particles;
         let bodies = AtFeet { at, particle, number, foot, weight, material: self.material, particles };
         let entries = Entries::of(flags, history, pair_constant);
-        let load = self.batches(bodies, entries, work.context).run(0, count, 0..0);
+        let load = self.run(&self.batches(bodies, entries, work.context), 0..count);
         contacts.finish();
         Load { behind: through, ..load }
     }
@@ -374,6 +374,23 @@ impl AtSurface {
         sum
     }
 
+    /// Energy at features of rolling springs, of sticky and of plastic normal forces \[J\].
+    pub(super) fn held_at_features(&self, state: &State) -> [f64; 3] {
+        let (list, law, mut held) = (self.list(state), &self.law.law, [0.0; 3]);
+        if !law.has_rolling() && law.takes_offset() {
+            return held;
+        }
+        let own = if law.is_plastic() { 2 } else { 1 };
+        self.each(state, Motion::Present, |entry, foot, share, ContactGeometry { contact, .. }| {
+            let (row, history) = (self.row(state, list.particle[entry]), records::history(&list.history, entry));
+            held[0] += share * law.rolling_energy(row, contact, &history);
+            if !law.takes_offset() {
+                held[own] += foot.weight * law.normal_energy(row, contact, 0.0, &history);
+            }
+        });
+        held
+    }
+
     /// Largest overlap with a feature over the radius of the particle.
     pub(super) fn largest_overlap(&self, state: &State) -> f64 {
         let mut largest = 0.0_f64;
@@ -452,6 +469,10 @@ impl Bodies for AtFeet<'_> {
         };
         let sphere = SphereAt { normal: Vector::new(x, y, z), distance, radius };
         self.at.meet(&sphere, position, motion, N::zero())
+    }
+
+    fn weights(&self) -> Option<&[[f64; 2]]> {
+        Some(self.weight)
     }
 
     fn row(&self, table: &CoefficientTable, first: u32, _second: u32) -> u32 {

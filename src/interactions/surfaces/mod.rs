@@ -13,7 +13,7 @@ use super::ahead::{Ahead, Link};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
-use crate::batches::{BatchLaw, Batches, Entries};
+use crate::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::batches::{CoefficientTable, Partners};
 use crate::contact::Response;
 use crate::lanes::Shared;
@@ -117,7 +117,7 @@ impl AtSurface {
             conveying,
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
-            law: BatchLaw::of(&choice.choice()),
+            law: BatchLaw::booked_where(&choice.choice(), scene.output.losses),
         }
     }
 
@@ -143,7 +143,7 @@ impl AtSurface {
                 let bodies = AtPlane { plane, pivot, particle, material, particles: work.particles };
                 let [from, to] =
                     [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
-                let load = self.batches(bodies, work.entries[self.index], work.context).run(from, to, 0..0);
+                let load = self.run(&self.batches(bodies, work.entries[self.index], work.context), from..to);
                 Load { conveying_power: -plane.conveying.dot(load.force.into()), ..load }
             }
             Touched::Features(shape) => match shape.features() {
@@ -151,6 +151,16 @@ impl AtSurface {
                 None => Load::default(),
             },
         }
+    }
+
+    /// Works on a piece of a list.
+    fn run<B: Bodies<Sum = Load>>(&self, batches: &Batches<B>, entries: Range<usize>) -> Load {
+        let Range { start, end } = entries;
+        if self.law.books() {
+            let (load, lost) = batches.run_booked(start, end, 0..0);
+            return Load { lost, ..load };
+        }
+        batches.run(start, end, 0..0)
     }
 
     /// A list to be worked on in batches.
@@ -177,6 +187,9 @@ impl AtSurface {
             }
             boundary.conveying_power += load.conveying_power;
             behind = behind.or(load.behind);
+            if let Some(losses) = &mut state.losses {
+                load.lost.book(&self.law.law, losses);
+            }
         }
         match behind {
             None => Ok(()),
@@ -320,6 +333,18 @@ impl Pass for SurfacePass {
             None => surface.energy_at_features(state),
         };
         self.surfaces.iter().map(energy).sum()
+    }
+
+    fn held_energy(&self, state: &State) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for surface in &self.surfaces {
+            let held = match surface.plane_list(state) {
+                Some(list) => listed::held_energy(&list, state),
+                None => surface.held_at_features(state),
+            };
+            sum.iter_mut().zip(held).for_each(|(sum, part)| *sum += part);
+        }
+        sum
     }
 
     fn largest_overlap(&self, state: &State) -> f64 {

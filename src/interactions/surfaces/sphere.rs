@@ -1,6 +1,6 @@
 //! A sphere at a surface: geometry of the contact, and what it does to both.
 
-use crate::batches::{self, ContactGeometry};
+use crate::batches::{self, ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector};
@@ -163,6 +163,8 @@ pub(super) struct Load {
     pub(super) moment: [f64; 3],
     /// Power of the surface that runs in itself, on the particles \[W\].
     pub(super) conveying_power: f64,
+    /// What was lost, where that is booked.
+    pub(super) lost: Lost,
     /// A particle (slot) whose centre is behind the surface, or went through it.
     pub(super) behind: Option<u32>,
 }

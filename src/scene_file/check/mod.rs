@@ -129,6 +129,7 @@ fn output(table: &OutputTable, faults: &mut Faults) -> Output {
         frame_interval: table.frame_interval.map(crate::quantity::Positive::get),
         contacts: table.contacts,
         energy: table.energy,
+        losses: table.losses,
         checkpoint_interval: table.checkpoint_interval.map(crate::quantity::Positive::get),
     }
 }

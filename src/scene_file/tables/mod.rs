@@ -163,9 +163,11 @@ pub(in crate::scene_file) struct OutputTable {
     /// Whether frames have contacts.
     #[serde(default)]
     pub(in crate::scene_file) contacts: bool,
-    /// Whether the energy book is kept.
+    /// Whether the algorithmic energy book is kept, and whether losses are booked.
     #[serde(default)]
     pub(in crate::scene_file) energy: bool,
+    #[serde(default)]
+    pub(in crate::scene_file) losses: bool,
     /// Time between checkpoints \[s\].
     pub(in crate::scene_file) checkpoint_interval: Option<Positive>,
 }

@@ -1,7 +1,7 @@
 //! What must be known of a scene to understand a state that it has reached.
 
 use crate::bond::{self, formulation::FormulationChoice};
-use crate::scene::{Boundary, Scene};
+use crate::scene::{Boundary, Output, Scene};
 use crate::state::{State, StateFault, demand};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -209,7 +209,8 @@ fn course(scene: &Scene) -> u64 {
     rest.run.settle_tolerance = defaults.settle_tolerance;
     rest.run.settle_damping = defaults.settle_damping;
     rest.run.max_overlap = defaults.max_overlap;
-    rest.output = crate::scene::Output { energy: scene.output.energy, ..crate::scene::Output::default() };
+    let Output { energy, losses, .. } = scene.output;
+    rest.output = Output { energy, losses, ..Output::default() };
     // Writing to a fingerprint has no way to fail.
     let _ = write!(hashed, "{rest:?}");
     hashed.0.digest()

@@ -1,0 +1,196 @@
+//! What contacts lose, over a batch: what sub-models leave in the columns is looked at when they are through. One kernel for
+//! all laws.
+//!
+//! Losses are summed in eight columns, by the place of the contact in the batch: the same bits in every lane width.
+
+use super::Manner;
+use super::stage::Stage;
+use crate::contact::{Booked, Contact, LossKind, Seen};
+use crate::lanes::{self, Kernel, Lane, Width, vector};
+use crate::number::Vector;
+use crate::state::contacts::SLIDING;
+
+/// Most entries of a batch, with the register that fills it.
+const PLACES: usize = 80;
+
+/// The places of a batch, as numbers.
+const RAMP: [f64; PLACES] = {
+    let mut ramp = [0.0; PLACES];
+    let mut place = 0;
+    while place < PLACES {
+        ramp[place] = place as f64;
+        place += 1;
+    }
+    ramp
+};
+
+/// Keeps what sub-models change and a book wants to know.
+pub(super) fn keep_before(width: Width, stage: &mut Stage) {
+    lanes::run(width, KeepBefore(stage));
+}
+
+/// Books what contacts lose on which the whole law acts.
+pub(super) fn book_open(width: Width, stage: &mut Stage) {
+    lanes::run(width, Book { stage, manner: Manner::Open });
+}
+
+/// The same of those whose normal force a bond suppresses.
+pub(super) fn book_bonded(width: Width, stage: &mut Stage) {
+    lanes::run(width, Book { stage, manner: Manner::Bonded });
+}
+
+/// The same of those whose normal force is taken from an offset.
+pub(super) fn book_released(width: Width, stage: &mut Stage) {
+    lanes::run(width, Book { stage, manner: Manner::Released });
+}
+
+/// Springs and normal velocities before sub-models work.
+struct KeepBefore<'a, 'b>(&'a mut Stage<'b>);
+
+impl Kernel for KeepBefore<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let stage = self.0;
+        let Booked { spring, carries, .. } = *stage.booked;
+        let half = N::splat(0.5 * stage.step);
+        let mut done = 0;
+        while done < stage.buffer.ready {
+            // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
+            // piece of the list.
+            unsafe {
+                let entries = stage.buffer.entry.as_ptr().add(done);
+                let row = stage.remembered(spring, stage.history.tangential, entries);
+                let mut velocity = N::zero();
+                if carries {
+                    let contact: Contact<N> = stage.contact(done, false);
+                    let across = contact.slip + contact.turning.cross(contact.normal);
+                    // Along the normal of mid-step.
+                    velocity = contact.normal_velocity - across.dot(across) * (half * contact.per_distance);
+                }
+                stage.buffer.put_before(done, Vector::of_row(row), velocity);
+            }
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// What contacts lose.
+struct Book<'a, 'b> {
+    /// What sub-models left.
+    stage: &'a mut Stage<'b>,
+    /// What was done with the contacts.
+    manner: Manner,
+}
+
+impl Kernel for Book<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { stage, manner } = self;
+        let ready = N::splat(stage.buffer.ready as f64);
+        let mut done = 0;
+        while done < stage.buffer.ready {
+            // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
+            // piece of the list. A register begins at a multiple of its width, and so ends in the eight columns.
+            unsafe {
+                let (mut lost, loads) = seen::<N>(stage, manner, done).losses(stage.booked);
+                let entries = stage.buffer.entry.as_ptr().add(done);
+                stage.remember(true, stage.history.loads, loads[0], entries);
+                stage.remember(true, stage.history.other_loads, loads[1], entries);
+                if let Some(weights) = stage.weights {
+                    let base = weights.as_ptr().cast::<f64>();
+                    weigh(&mut lost, [N::gather(base, entries, 2), N::gather(base.add(1), entries, 2)]);
+                }
+                // The entries that fill the last register are not counted.
+                let counted = ready.greater(N::load(RAMP.as_ptr().add(done)));
+                let mut kind = 0;
+                while kind < LossKind::COUNT {
+                    let sum = stage.buffer.losses.columns[kind].as_mut_ptr().add(done % 8);
+                    (N::load(sum) + N::select(counted, lost[kind], N::zero())).store(sum);
+                    kind += 1;
+                }
+            }
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// What is seen of a register's worth of contacts, as moved at mid-step where springs are carried.
+///
+/// # Safety
+/// As for [`Stage::contact`].
+#[inline(always)]
+unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> {
+    let (step, booked, buffer) = (N::splat(stage.step), *stage.booked, &*stage.buffer);
+    let history = &stage.history;
+    // SAFETY: the caller's promise.
+    unsafe {
+        let entries = buffer.entry.as_ptr().add(place);
+        let contact: Contact<N> = stage.contact(place, false);
+        let mut seen = Seen {
+            normal: buffer.normal(place),
+            pressing: if matches!(manner, Manner::Open) { contact.overlap } else { buffer.pressing(place) },
+            least_force: match stage.uniform {
+                Some(row) => N::splat(row[booked.least_force]),
+                None => stage.table.gather(booked.least_force, buffer.row.as_ptr().add(place)),
+            },
+            acts: !matches!(manner, Manner::Bonded),
+            approach: contact.normal_velocity * step,
+            slip: contact.slip * step,
+            turn: contact.relative_spin * step,
+            force: Vector::zero(),
+            rolling: Vector::zero(),
+            spring_before: Vector::zero(),
+            spring: stage.remembered(booked.spring, history.tangential, entries),
+            sliding: sliding::<N>(stage, entries),
+            before: [
+                stage.remembered(true, history.loads, entries),
+                stage.remembered(true, history.other_loads, entries),
+            ],
+            contact,
+        };
+        if booked.friction {
+            seen.force = vector(N::load_block(buffer.force.as_ptr().add(place)));
+        }
+        if booked.rolling {
+            seen.rolling = vector(N::load_block(buffer.rolling.as_ptr().add(place)));
+        }
+        if booked.spring || booked.carries {
+            let (spring, velocity) = buffer.before::<N>(place);
+            seen.spring_before = spring;
+            if booked.carries {
+                let carry = buffer.carry::<N>(place);
+                (seen.approach, seen.slip) = (velocity * step, carry.stretch * (N::splat(1.0) / carry.share));
+            }
+        }
+        seen
+    }
+}
+
+/// Which of a register's worth of contacts slide.
+///
+/// # Safety
+/// As for [`Stage::remembered`].
+#[inline(always)]
+unsafe fn sliding<N: Lane>(stage: &Stage, entries: *const u32) -> N::Mask {
+    let mut numbers = [0.0; 8];
+    // SAFETY: the caller's promise: there are as many entries as lanes; there is room for the widest register.
+    unsafe {
+        let mut lane = 0;
+        while stage.booked.friction && lane < N::WIDTH {
+            numbers[lane] = f64::from(*stage.entries.flags.at(*entries.add(lane) as usize) & SLIDING);
+            lane += 1;
+        }
+        N::load(numbers.as_ptr()).greater(N::zero())
+    }
+}
+
+/// Puts weights on the losses of contacts that do not count once: of the normal force, and of friction.
+#[inline(always)]
+fn weigh<N: Lane>(lost: &mut [N; LossKind::COUNT], [weight, share]: [N; 2]) {
+    let mut kind = 0;
+    while kind < LossKind::COUNT {
+        let of_normal = kind == LossKind::Normal as usize || kind == LossKind::Other as usize;
+        lost[kind] = lost[kind] * if of_normal { weight } else { share };
+        kind += 1;
+    }
+}

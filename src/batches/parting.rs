@@ -1,0 +1,50 @@
+//! What is lost with a contact whose bodies have parted.
+
+use super::lost::Sums;
+use super::{Batches, Bodies, FOUND};
+use crate::contact::{Contact, parting};
+use crate::state::Row;
+
+/// Bodies that part, and the book of what is lost with their contacts.
+pub(super) struct Parting<'a, 'b, B> {
+    /// The list.
+    pub(super) work: &'a Batches<'b, B>,
+    /// The book.
+    pub(super) losses: &'a mut Sums,
+}
+
+impl<B: Bodies> Parting<'_, '_, B> {
+    /// Books what is lost with an entry that touches no more, where losses are booked: the last loads have acted for another half
+    /// step, and what the tangential spring still held is gone.
+    ///
+    /// # Safety
+    /// The entry belongs to this piece of the list.
+    #[inline(always)]
+    pub(super) unsafe fn book(&mut self, entry: usize) {
+        if self.work.law.books() {
+            // SAFETY: the caller's promise.
+            let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
+            let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
+            self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
+        }
+    }
+
+    /// The contact of an entry where its bodies are, and its rows: spring, and what the book remembers.
+    ///
+    /// # Safety
+    /// As for [`Parting::book`].
+    #[inline(never)]
+    unsafe fn ended(&self, entry: usize) -> (Contact, [Row; 3]) {
+        let Batches { bodies, entries, law, .. } = self.work;
+        let (first, second) = (&bodies.first()[entry], &bodies.second()[entry]);
+        let places = law.law.history_places();
+        let spring = places.tangential.filter(|_| law.booked.spring);
+        // SAFETY: the caller's promise: these are slots of the list, and there is a row for each entry.
+        unsafe {
+            let (_, found): (u32, [f64; FOUND]) = bodies.touch(first, second, None, &mut B::Sum::default());
+            let contact = bodies.meet::<f64, true>(first, second, found, B::roots(&found)).contact;
+            let row = |place: Option<usize>| place.map_or([0.0; 4], |place| *entries.history[place].at(entry));
+            (contact, [row(spring), row(places.loads), row(places.other_loads)])
+        }
+    }
+}

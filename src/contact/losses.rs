@@ -1,0 +1,199 @@
+//! What a contact loses in a step, by kind: found beside the law from what its sub-models answered, so that no sub-model
+//! knows of it.
+//!
+//! A force acts half a step before its evaluation and half a step after it. Work is therefore booked as the integrator makes
+//! it: the way of the step times the mean of the forces at its beginning, which are remembered ([`Seen::before`]), and at
+//! its end. No loss is the rest of a balance, but those of rolling, sticky and plastic models: there the work is booked, and what the
+//! models then hold is taken off where somebody asks.
+
+use super::{Contact, NormalForce};
+use crate::number::{Number, Vector};
+
+/// Kinds of loss that are found contact by contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LossKind {
+    /// Dashpots along the normal.
+    Normal,
+    /// Dashpots in the tangent plane.
+    Tangential,
+    /// Friction at its limit.
+    Sliding,
+    /// Change of the tangential stiffness.
+    Stiffness,
+    /// Springs that are projected.
+    Projection,
+    /// Work against rolling torque.
+    Rolling,
+    /// Work against normal forces that are neither spring nor dashpot.
+    Other,
+}
+
+impl LossKind {
+    /// How many there are.
+    pub const COUNT: usize = 7;
+}
+
+/// What a book of losses has to know of a law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Booked {
+    /// Whether there is friction.
+    pub friction: bool,
+    /// Whether friction has a spring.
+    pub spring: bool,
+    /// Whether the fourth number beside the spring is its stiffness.
+    pub keeps_stiffness: bool,
+    /// Whether dashpot and spring together stand at the limit of friction.
+    pub limits_dashpot: bool,
+    /// Whether the part of the spring along the normal is lost.
+    pub projects: bool,
+    /// Whether there is rolling torque.
+    pub rolling: bool,
+    /// Whether the normal model is a spring k_n δ and a dashpot.
+    pub presses: bool,
+    /// Whether springs are carried at mid-step.
+    pub carries: bool,
+    /// Where the least normal force stands among the coefficients.
+    pub least_force: usize,
+}
+
+/// What a book of losses sees of a contact.
+pub struct Seen<N: Number> {
+    /// The contact as the law saw it: its dashpots, these velocities.
+    pub contact: Contact<N>,
+    /// What the normal model answered.
+    pub normal: NormalForce<N>,
+    /// Overlap from which the elastic force is taken \[m\].
+    pub pressing: N,
+    /// Lower bound of the force of normal spring and dashpot \[N\].
+    pub least_force: N,
+    /// Whether the normal force and rolling torque act.
+    pub acts: bool,
+    /// Way along the normal in this step \[m\].
+    pub approach: N,
+    /// Way in the tangent plane in this step \[m\].
+    pub slip: Vector<N>,
+    /// Angle by which i turned against j \[rad\].
+    pub turn: Vector<N>,
+    /// Force on i \[N\]; of it the tangential part is looked at.
+    pub force: Vector<N>,
+    /// Rolling torque \[N m\].
+    pub rolling: Vector<N>,
+    /// Tangential spring before \[m\].
+    pub spring_before: Vector<N>,
+    /// What friction remembers now.
+    pub spring: [N; 4],
+    /// Whether friction is at its limit.
+    pub sliding: N::Mask,
+    /// What the book remembers: k_t \[N/m\] with the force of both dashpots on i \[N\]; the normal force that is neither spring nor
+    /// dashpot \[N\] with the rolling torque \[N m\].
+    pub before: [[N; 4]; 2],
+}
+
+impl<N: Number> Seen<N> {
+    /// What the contact loses \[J\], by [`LossKind`], and what is to be remembered.
+    #[inline(always)]
+    pub fn losses(&self, booked: &Booked) -> ([N; LossKind::COUNT], [[N; 4]; 2]) {
+        let (half, zero) = (N::splat(0.5), N::zero());
+        let mut lost = [zero; LossKind::COUNT];
+        let normal = self.contact.normal;
+        let (damping, other) = self.dashpot(booked);
+        let [stiffness_before, x, y, z] = self.before[0];
+        let before = Vector::new(x, y, z);
+        let damping_before = before.dot(normal);
+        lost[LossKind::Normal as usize] = -((damping_before + damping) * self.approach * half);
+        let (mut stiffness, mut loads) = (zero, normal * damping);
+        if booked.friction {
+            let mut dashpot = self.force - normal * self.force.dot(normal);
+            let mut slipped = zero;
+            if booked.spring {
+                stiffness = self.normal.response.tangential_stiffness;
+                stiffness = if booked.keeps_stiffness { self.spring[3] } else { stiffness };
+                dashpot += Vector::of_row(self.spring) * stiffness;
+                let [slid, stretched, projected] = self.spring_losses([stiffness_before, stiffness], booked.projects);
+                slipped = N::select(self.sliding, slid, zero);
+                lost[LossKind::Stiffness as usize] = stretched - slipped;
+                lost[LossKind::Projection as usize] = projected;
+            }
+            let taken = -((before - normal * damping_before + dashpot).dot(self.slip) * half);
+            let rubbed = if booked.limits_dashpot { N::select(self.sliding, taken, zero) } else { zero };
+            lost[LossKind::Tangential as usize] = taken - rubbed;
+            lost[LossKind::Sliding as usize] = slipped + rubbed;
+            loads += dashpot;
+        }
+        let [other_before, x, y, z] = self.before[1];
+        lost[LossKind::Other as usize] = -((other_before + other) * self.approach * half);
+        let mut rolling = Vector::zero();
+        if booked.rolling && self.acts {
+            rolling = self.rolling;
+            lost[LossKind::Rolling as usize] = (Vector::new(x, y, z) + rolling).dot(self.turn) * half;
+        }
+        (lost, [[stiffness, loads.x, loads.y, loads.z], [other, rolling.x, rolling.y, rolling.z]])
+    }
+
+    /// Force of the dashpot along the normal, and of what is neither that nor the spring \[N\].
+    #[inline(always)]
+    fn dashpot(&self, booked: &Booked) -> (N, N) {
+        if !self.acts {
+            return (N::zero(), N::zero());
+        }
+        let response = &self.normal.response;
+        let damping = -(response.normal_damping * self.contact.normal_velocity);
+        if !booked.presses {
+            return (damping, self.normal.force - damping);
+        }
+        let elastic = response.normal_stiffness * self.pressing;
+        let pressed = (elastic + damping).max(self.least_force);
+        (pressed - elastic, self.normal.force - pressed)
+    }
+
+    /// What friction takes where it is at its limit, what a spring loses by that and by its stiffness together, and what is
+    /// projected, of stiffnesses before and now \[J\].
+    ///
+    /// ```text
+    /// W = ½ (k₀ s₀ + k s)·Δ                   work on the spring
+    /// P = ½ k₀ (s₀·n)²                        projected
+    /// S = W + ½ (k₀ s₀ + k s)·(s₀ − s) − P    the same mean force times what did not stretch the spring
+    /// W − ½ k s² + ½ k₀ s₀² − P = S − ½ (k − k₀) s₀·s
+    /// ```
+    #[inline(always)]
+    fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 3] {
+        let half = N::splat(0.5);
+        let (before, now) = (self.spring_before, Vector::of_row(self.spring));
+        let mean = (before * stiffness_before + now * stiffness) * half;
+        let work = mean.dot(self.slip);
+        let held_before = stiffness_before * before.dot(before) * half;
+        let held = stiffness * now.dot(now) * half;
+        let along = before.dot(self.contact.normal);
+        let projected = if projects { stiffness_before * along * along * half } else { N::zero() };
+        [work + mean.dot(before - now) - projected, work - held + held_before - projected, projected]
+    }
+}
+
+/// What is lost with a contact whose bodies have parted: of this motion and half step \[s\], by the loads that are remembered and
+/// the spring that friction remembers; by [`LossKind`], and what the spring held \[J\].
+pub(crate) fn parting(
+    booked: &Booked,
+    contact: &Contact,
+    half: f64,
+    spring: Vector,
+    before: [[f64; 4]; 2],
+) -> ([f64; LossKind::COUNT], f64) {
+    let (mut lost, mut held) = ([0.0; LossKind::COUNT], 0.0);
+    let [stiffness, x, y, z] = before[0];
+    let (loads, normal) = (Vector::new(x, y, z), contact.normal);
+    let along = loads.dot(normal);
+    lost[LossKind::Normal as usize] = -(along * contact.normal_velocity * half);
+    if booked.friction {
+        lost[LossKind::Tangential as usize] = -((loads - normal * along).dot(contact.slip) * half);
+        held = stiffness * spring.dot(spring * 0.5 + contact.slip * half);
+    }
+    let [other, x, y, z] = before[1];
+    lost[LossKind::Other as usize] = -(other * contact.normal_velocity * half);
+    if booked.rolling {
+        lost[LossKind::Rolling as usize] = Vector::new(x, y, z).dot(contact.relative_spin) * half;
+    }
+    (lost, held)
+}
+
+#[cfg(test)]
+mod tests;

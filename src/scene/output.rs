@@ -1,0 +1,18 @@
+//! What a run writes.
+
+/// `[output]`: what a run writes; what is absent is not computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Output {
+    /// Time between rows of `history.csv` \[s\].
+    pub history_interval: Option<f64>,
+    /// Time between `.vtu` frames of the particles \[s\].
+    pub frame_interval: Option<f64>,
+    /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
+    pub contacts: bool,
+    /// Whether the algorithmic energy book is kept.
+    pub energy: bool,
+    /// Whether the physical energy book is kept: losses, each by itself.
+    pub losses: bool,
+    /// Time between checkpoints \[s\].
+    pub checkpoint_interval: Option<f64>,
+}
