@@ -1,6 +1,6 @@
 //! Particles with bonded and cohesive contacts, run alone or exported as FMI 2.0 co-simulation units.
 //!
-//! Data goes one way: scene file → [`scene::Scene`] → [`state::State`] and passes →
+//! Data flows in one direction: scene file → [`scene::Scene`] → [`state::State`] and passes →
 //! [`step::Simulation::advance`] → interface and outputs → unit and command line.
 
 mod batches;

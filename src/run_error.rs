@@ -1,9 +1,9 @@
 //! Why a run stopped.
 
-/// What is behind a motion that no longer makes sense, with its figures.
+/// The cause of a motion that no longer makes sense, with its figures.
 #[derive(Clone, Debug, Default, PartialEq, thiserror::Error)]
 pub enum Cause {
-    /// Not yet looked for.
+    /// The program has not searched for it yet.
     #[default]
     #[error("the cause is not known")]
     Unknown,
@@ -98,7 +98,7 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
-    /// A number ceased to be one.
+    /// A number ceased to be finite.
     #[error("particle {id} has a {quantity} that is not finite at t = {time} s: {cause}")]
     NotFinite {
         /// The particle.
@@ -122,7 +122,7 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
-    /// Two particles are pressed into each other as deep as no contact law holds.
+    /// Two particles are pressed into each other deeper than any contact law is valid.
     #[error("particles {first} and {second} overlap by {overlap:.2} of the smaller radius at t = {time} s: {cause}")]
     Crushed {
         /// One particle.
@@ -141,7 +141,7 @@ pub enum RunError {
         "contacts and bonds gave {gained:.3e} J more than they got, of {turnover:.3e} J that were turned over, at t = {time} s: {cause}"
     )]
     EnergyGain {
-        /// What came out of nothing \[J\].
+        /// Energy that came out of nothing \[J\].
         gained: f64,
         /// Sum of the magnitudes of all work \[J\].
         turnover: f64,
@@ -213,7 +213,7 @@ pub enum RunError {
         /// The plane.
         boundary: String,
     },
-    /// Lists that have no room.
+    /// Lists for which there is not enough memory.
     #[error(
         "{pairs:.2e} {why} need about {:.1} GB of memory, and {:.1} GB are free; a shorter one or fewer particles are right",
         needed / 1e9, *free as f64 / 1e9
@@ -241,13 +241,13 @@ pub enum RunError {
         /// How far it would jump \[m\].
         way: f64,
     },
-    /// Whoever asked for it wants no more of it.
+    /// The caller has asked to stop.
     #[error("stopped at t = {time} s, as asked for")]
     Stopped {
         /// Time \[s\].
         time: f64,
     },
-    /// An interval that is no interval.
+    /// An interval that is not a finite number above 0.
     #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
     Interval {
         /// What was asked for \[s\].

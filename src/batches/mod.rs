@@ -1,6 +1,6 @@
-//! The law on the touching entries of a list, whatever the bodies are.
+//! Evaluates a contact law on the touching entries of a list, whatever the bodies are.
 //!
-//! Entries are worked on in batches whose buffers stay in the first-level cache, in four phases:
+//! Batches of entries, with buffers that stay in the first-level cache, go through four phases:
 //!
 //! 1. *touch*: which entries touch, several at a time; they are compacted without a branch, and where their bodies
 //!    are to each other with them;
@@ -8,12 +8,12 @@
 //! 3. *react*: the sub-models of the law, one after another on the columns; forces and torques as rows;
 //! 4. *spread*: the rows are added to the bodies, one by one, in the order of the list.
 //!
-//! Phases 1, 2 and 4 know the bodies and no law, phase 3 knows the law and no bodies ([`law`]): each is compiled once for
-//! each of what it knows. Short phases also let the processor work on several registers' worth of contacts at once.
-//! Roots and quotients, for which what follows would wait, are found one register ahead.
+//! Phases 1, 2 and 4 know the bodies but not the law, phase 3 knows the law but not the bodies ([`law`]): each is compiled
+//! once for each kind of what it knows. Short phases also let the processor work on several registers' worth of contacts at once.
+//! Roots and quotients, for which later instructions would wait, are computed one register ahead.
 //!
-//! Who brings new bodies together writes [`Bodies`] for them, fills [`Batches`] and calls [`Batches::run`] on pieces of
-//! the list that share no body that is written to.
+//! A new kind of body needs an implementation of [`Bodies`]; its pass fills [`Batches`] and calls [`Batches::run`] on pieces
+//! of the list. Pieces that run at the same time must not write to the same body.
 
 mod buffer;
 pub(crate) mod coefficients;
@@ -52,15 +52,15 @@ pub(crate) struct ContactGeometry<N = f64> {
     pub second_arm: N,
 }
 
-/// Numbers that phase 1 leaves of a touching entry to phase 2, at most.
+/// The most numbers that phase 1 hands to phase 2 for a touching entry.
 pub(crate) const FOUND: usize = 5;
 
 /// Which bodies an entry of a list brings together.
 pub(crate) trait Bodies: Copy {
-    /// What is summed up beside the loads on particles.
+    /// What is summed in addition to the loads on particles.
     type Sum: Default;
 
-    /// Numbers that [`Bodies::touch`] leaves to [`Bodies::meet`].
+    /// How many numbers [`Bodies::touch`] hands to [`Bodies::meet`].
     const FOUND: usize;
 
     /// The first body of each entry (slot).
@@ -82,7 +82,7 @@ pub(crate) trait Bodies: Copy {
         sum: &mut Self::Sum,
     ) -> (u32, [N; FOUND]);
 
-    /// What takes the processor long, is needed early, and follows from the places alone: roots and quotients.
+    /// Computes ahead what takes the processor long and follows from the positions alone: roots and quotients.
     fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2];
 
     /// Geometry and relative motion; slip, spin and arms where there is torque.
@@ -97,7 +97,7 @@ pub(crate) trait Bodies: Copy {
         roots: [N; 2],
     ) -> ContactGeometry<N>;
 
-    /// How often the normal force of each entry counts, and its share of friction, where it is not 1.
+    /// The weight of the normal force of each entry, and its share of friction, if they are not 1.
     fn weights(&self) -> Option<&[[f64; 2]]> {
         None
     }
@@ -141,21 +141,21 @@ impl Touching<'_> {
     }
 }
 
-/// What a list keeps of each entry.
+/// What a list stores for each entry.
 #[derive(Clone, Copy)]
 pub(crate) struct Entries {
     /// Its bits.
     pub flags: Shared<u8>,
-    /// What is kept of it: a row of each entry in each of the first lists.
+    /// What is stored: a row for each entry in each of the first lists.
     history: [Shared<Row>; MOST_KEPT],
-    /// How many rows are kept.
+    /// How many rows are stored.
     kept: usize,
     /// Its pair constant; empty where the law has none.
     pub pair_constant: Shared<f64>,
 }
 
 impl Entries {
-    /// What a list keeps.
+    /// What a list stores.
     pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &mut [f64]) -> Self {
         let mut rows = [Shared::new(&mut []); MOST_KEPT];
         let kept = history.len();
@@ -165,7 +165,7 @@ impl Entries {
         Self { flags: Shared::new(flags), history: rows, kept, pair_constant: Shared::new(pair_constant) }
     }
 
-    /// What is kept: lists with a row of each entry.
+    /// What is stored: lists with a row for each entry.
     #[inline(always)]
     fn history(&self) -> &[Shared<Row>] {
         &self.history[..self.kept]
@@ -178,16 +178,16 @@ impl Entries {
     }
 }
 
-/// Which entries of a list are worked on: those whose flags have exactly these of some bits.
+/// Which entries of a list are evaluated: those whose flags, among some bits, have exactly these.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chosen {
-    /// The bits that are looked at.
+    /// The bits that are compared.
     pub mask: u8,
-    /// What they are to be.
+    /// The values that these bits must have.
     pub value: u8,
 }
 
-/// What is done with entries whose contacts bonds suppress, or do not.
+/// What the law does at an entry, depending on a bond that may suppress its contact.
 #[derive(Clone, Copy, Debug)]
 enum Manner {
     /// The whole law acts.
@@ -204,7 +204,7 @@ impl Manner {
     /// All, in the order in which they are done.
     const ALL: [Self; 4] = [Self::Open, Self::Bonded, Self::Released, Self::Followed];
 
-    /// The entries that are done so.
+    /// The entries that are evaluated in this manner.
     fn chosen(self) -> Chosen {
         let silent = BONDED | SILENT | LASTING;
         match self {
@@ -216,12 +216,12 @@ impl Manner {
     }
 }
 
-/// A list to be worked on, in pieces.
+/// A list that is evaluated in pieces.
 #[derive(Clone, Copy)]
 pub(crate) struct Batches<'a, B> {
     /// Which bodies meet.
     pub bodies: B,
-    /// What the list keeps.
+    /// What the list stores.
     pub entries: Entries,
     /// The law.
     pub law: &'a BatchLaw,
@@ -236,8 +236,8 @@ pub(crate) struct Batches<'a, B> {
 }
 
 impl<B: Bodies> Batches<'_, B> {
-    /// The law on a piece of the list. Pieces worked on at the same time share no body that is written to. `ahead` are
-    /// particles (slots) that a later piece will need: they come into the cache bit by bit.
+    /// Evaluates the law on a piece of the list. Pieces that run at the same time must not write to the same body. `ahead`
+    /// are particles (slots) that a later piece will need; they are fetched into the cache bit by bit.
     pub(crate) fn run(&self, from: usize, to: usize, ahead: Range<usize>) -> B::Sum {
         Buffer::with(|buffer| self.run_in(buffer, from..to, ahead))
     }
@@ -308,7 +308,7 @@ impl<B: Bodies> Batches<'_, B> {
         }
     }
 
-    /// What the sub-models work on.
+    /// The columns on which the sub-models work.
     fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
         let Self { entries, table, uniform, step, law: BatchLaw { law, booked, .. }, .. } = self;
         let (places, history, offset) = (law.places(), law.history_places(), law.history().len());

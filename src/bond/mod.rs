@@ -1,22 +1,22 @@
-//! What bonded bodies do to each other: pure functions of one bond and its own state.
+//! Forces and torques between bonded bodies: pure functions of one bond and its own state.
 //!
 //! A bond law has four sub-models: when bonds are made (`creation`), how elastic force and moments follow from the motion
 //! (`formulation`), damping, and breakage. Each is one file and one row in the list of its folder. They are written over
 //! [`Number`], so the same source runs one bond at a time or several in a vector register: masks and selects, no branch
 //! that changes a value.
 //!
-//! What a pass does, for each living bond and in this order (`docs/bonds.md` has the whole step):
+//! For each living bond a pass does the following, in this order (`docs/bonds.md` describes the whole step):
 //!
 //! 1. loads the two bodies ([`Body`]) and the rows of state, makes a [`Pair`] of them;
 //! 2. calls the formulation: [`Motion`] and [`Elastic`];
-//! 3. adds what damping does, if the law has one ([`damping::Damping::damp`]);
+//! 3. adds the damping force and torques, if the law has damping ([`damping::Damping::damp`]);
 //! 4. adds force and torque to i, takes force from j, adds the torque of j;
 //! 5. stores the rows that the formulation changes (none in the evaluation before the first step);
-//! 6. where a rule of breakage holds ([`breakage::Breakage::judge`]), removes the bond, which does nothing any more, and
-//!    books what it carried as released; where [`Elastic::overbent`] holds, stops with an error that names the pair.
+//! 6. if a rule of breakage holds ([`breakage::Breakage::judge`]), removes the bond, which does not act any more, and books
+//!    its elastic energy as released; if [`Elastic::overbent`] holds, stops with an error that names the pair.
 //!
 //! The numbers of a law are the same for all its bonds; what differs from bond to bond (radius, arms, effective masses)
-//! follows from the bodies. Each sub-model keeps its own numbers and nobody else looks at them.
+//! follows from the bodies. Each sub-model keeps its own numbers; no other code uses them.
 //!
 //! Signs: the axis points from j to i; force and torques are those on i, the force on j is the opposite.
 //! The velocities are those of half a time step before the positions (velocity Verlet).
@@ -47,16 +47,16 @@ use crate::number::{Number, Vector};
 /// The largest number of state rows that a formulation has.
 pub const MOST_ROWS: usize = 3;
 
-/// State of one bond, or of a lane vector of bonds; rows beyond [`Formulation::ROWS`] are not looked at.
+/// State of one bond, or of a lane vector of bonds; rows beyond [`Formulation::ROWS`] are not used.
 pub type Rows<N = f64> = [[N; 4]; MOST_ROWS];
 
-/// The most numbers that [`Formulation::halfway`] gives.
+/// The largest number of values that [`Formulation::halfway`] returns.
 pub const MOST_HALFWAY: usize = 17;
 
-/// What a formulation keeps from the first half of its evaluation for the second.
+/// Values that a formulation hands from the first half of its evaluation to the second.
 pub type Halfway<N = f64> = [N; MOST_HALFWAY];
 
-/// What the elastic part of a bond answers to the motion of its bodies.
+/// The elastic response of a bond to the motion of its bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Elastic<N: Number> {
     /// u: above 0 compressed, below stretched \[m\].
@@ -79,9 +79,9 @@ pub struct Elastic<N: Number> {
     pub energy: N,
     /// Elastic energy that relaxation took in this evaluation \[J\].
     pub relaxed: N,
-    /// Where the bond is bent further than the formulation can follow (π).
+    /// Whether the bond is bent further than the formulation can follow (π).
     pub overbent: N::Mask,
-    /// The state to remember.
+    /// The new state.
     pub rows: Rows<N>,
 }
 

@@ -1,8 +1,8 @@
 //! Bonds between particles: one pass for each bond law.
 //!
-//! As the contacts, slab by slab and batch by batch: the law on several bonds at once, results added one by one in the
-//! order of the list. Every listed bond lives; what breaks is taken out, in order, when the pass is
-//! through.
+//! Like contacts, bonds are evaluated slab by slab and batch by batch: the law on several bonds at once, results added one by
+//! one in the order of the list. Every listed bond lives; broken bonds are removed, in order, at the end of
+//! the pass.
 
 mod after;
 mod batch;

@@ -1,4 +1,4 @@
-//! How boundaries go through a time step: led by their motion, or as rigid bodies that forces move; and what they feel.
+//! Boundaries during a time step: their motion, prescribed or as rigid bodies that forces move; and the loads on them.
 
 pub(crate) mod course;
 pub(crate) mod felt;

@@ -1,9 +1,9 @@
-//! What touching bodies do to each other: pure functions of one contact and its own history.
+//! Forces and torques between touching bodies: pure functions of one contact and its own history.
 //!
 //! A contact law is composed of four sub-models: normal, tangential, rolling, cohesion. Each is one file
 //! and one row in the list beside it. They are written over [`Number`], so the same source runs one
 //! contact at a time or several in a vector register. No sub-model knows which others it is combined with: they
-//! hand each other a [`NormalForce`], and what each of them remembers of a contact is a row of its own ([`HistoryRow`]).
+//! hand each other a [`NormalForce`], and each of them stores its history of a contact in a row of its own ([`HistoryRow`]).
 //!
 //! Signs: the normal points from body j to body i; a positive normal force pushes i along it. The
 //! relative velocity is that of i seen from j; the normal velocity is negative while they approach.
@@ -70,7 +70,7 @@ pub struct Contact<N = f64> {
     pub per_reach: N,
     /// p q/(p + q), p = m_i R_i², q = m_j R_j², of two spheres; m_i R_i² at a wall \[kg m²\].
     pub rolling_inertia: N,
-    /// What the normal model made of effective radius and mass when the pair was found
+    /// Constant that the normal model computed from effective radius and mass when the pair was found
     /// ([`NormalForm::pair_constant`]).
     pub pair_constant: N,
 }
@@ -84,8 +84,8 @@ impl<N: Number> Contact<N> {
     }
 }
 
-/// What of a contact a sub-model looks at, beyond overlap, effective radius and mass, normal and normal velocity. What
-/// no sub-model of a law looks at is not found.
+/// Which values of a contact a sub-model uses, beyond overlap, effective radius and mass, normal and normal velocity. A
+/// value that no sub-model of a law uses is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
     /// Slip; there are torques.
@@ -107,7 +107,7 @@ impl Needs {
     pub const NONE: Self =
         Self { torque: false, spin: false, section: false, bodies: false, spin_sum: false, carry: false };
 
-    /// What either of two looks at.
+    /// The values that at least one of two uses.
     pub fn and(self, other: Self) -> Self {
         Self {
             torque: self.torque || other.torque,
@@ -136,7 +136,7 @@ pub enum Onset {
 /// Whether a normal model pulls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Adhesion {
-    /// It does not, but for its dashpot at the end of a contact.
+    /// It does not, except for its dashpot at the end of a contact.
     None,
     /// While the bodies touch.
     InTouch,
@@ -144,10 +144,10 @@ pub enum Adhesion {
     BeyondTouch,
 }
 
-/// What [`NormalForm::roots`] finds.
+/// The result of [`NormalForm::roots`].
 pub type Roots<N> = [N; 2];
 
-/// What a normal model says of a contact: stiffnesses and damping coefficients.
+/// Stiffnesses and damping coefficients of a contact, by its normal model.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<N = f64> {
     /// k_n in the normal force k_n δ − γ_n v_n \[N/m\].
@@ -160,14 +160,14 @@ pub struct Response<N = f64> {
     pub tangential_damping: N,
 }
 
-/// What the normal model, and cohesion after it, hand to the others.
+/// Results of the normal model, and of cohesion after it, for the other sub-models.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalForce<N = f64> {
     /// Stiffnesses and damping coefficients at the contact.
     pub response: Response<N>,
     /// Force along the normal on i \[N\].
     pub force: N,
-    /// What of it friction and rolling see \[N\].
+    /// The part of it from which friction and rolling take their limits \[N\].
     pub seen: N,
 }
 
@@ -176,9 +176,9 @@ pub struct NormalForce<N = f64> {
 pub struct Friction<N: Number = f64> {
     /// Force on i in the tangent plane \[N\].
     pub force: Vector<N>,
-    /// What is to be remembered.
+    /// The new history.
     pub history: [N; 4],
-    /// Where it is at its limit.
+    /// Whether it is at its limit.
     pub sliding: N::Mask,
 }
 
@@ -189,8 +189,8 @@ pub const MOST_HISTORY: usize = 6;
 /// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
 pub const MOST_KEPT: usize = MOST_HISTORY + 1;
 
-/// What a sub-model remembers of a contact from one evaluation to the next: a row of four numbers, zero at first touch
-/// and gone with the contact.
+/// The history that a sub-model stores of a contact from one evaluation to the next: a row of four numbers, zero at first
+/// touch and removed with the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HistoryRow {
     /// What it is.
@@ -223,7 +223,7 @@ impl Switches {
         Self::new(if limit_force { 0.0 } else { f64::NEG_INFINITY }, if tangential_damping { 1.0 } else { 0.0 })
     }
 
-    /// Whether the normal force is kept from pulling.
+    /// Whether the normal force is limited so that it never pulls.
     pub fn limits_force(&self) -> bool {
         self.least_force == 0.0
     }
@@ -239,7 +239,7 @@ impl Switches {
 #[serde(deny_unknown_fields)]
 pub struct NoKeys {}
 
-/// Why sub-models and switches do not go together.
+/// Why sub-models and switches cannot be combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Objection {
     /// The table of the key below `[contact.<law>]`: empty, or the kind of sub-model.
@@ -250,7 +250,7 @@ pub struct Objection {
     pub reason: &'static str,
 }
 
-/// What one contact does to its two bodies.
+/// Force and torques of one contact on its two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
     /// Force on i; j gets the opposite \[N\].

@@ -27,7 +27,7 @@ pub enum PackageError {
     Write {
         /// The unit's file.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         cause: io::Error,
     },
 }

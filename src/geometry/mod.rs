@@ -1,4 +1,4 @@
-//! What is scalar in space: orientations and rotation vectors.
+//! Geometry of single bodies (one at a time, not in lanes): orientations and rotation vectors.
 
 mod frame;
 pub mod orientation;

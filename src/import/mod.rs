@@ -116,7 +116,7 @@ impl FileFault {
 /// How many mistakes of one kind and file are reported.
 pub(crate) const REPORTED: usize = 10;
 
-/// What the scene says about a file.
+/// How the scene describes a file.
 pub(crate) struct Request<'a> {
     /// The file's name.
     pub(crate) file: &'a str,
@@ -185,7 +185,7 @@ fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Vec<FileFault>> {
     }
 }
 
-/// What a file is: as the scene says, as its name says, or as it begins.
+/// The format of a file: as the scene says, as its name says, or as its beginning shows.
 fn format(request: &Request, bytes: &[u8]) -> Result<Format, Vec<FileFault>> {
     if let Some(format) = request.format {
         return Ok(format);
@@ -271,7 +271,7 @@ fn periodic(line: usize) -> Vec<FileFault> {
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 
-/// Refuses bodies that are no spheres.
+/// Refuses bodies that are not spheres.
 fn non_spherical(line: usize) -> Vec<FileFault> {
     let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres are" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]

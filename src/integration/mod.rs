@@ -1,4 +1,4 @@
-//! Velocity Verlet: half a kick, a drift, forces, half a kick.
+//! Velocity Verlet: half a step of velocity (a kick), a step of position (the drift), forces, the other half of the kick.
 
 mod braking;
 mod fields;
@@ -111,7 +111,7 @@ struct Second<'a, 'b> {
     step: f64,
     /// Whether particles turn.
     turning: bool,
-    /// Largest squared speed at the middle of the next step; not a number where anything is none \[m²/s²\].
+    /// Largest squared speed at the middle of the next step; NaN if any velocity or force is NaN \[m²/s²\].
     fastest: &'b mut f64,
 }
 
@@ -230,7 +230,7 @@ impl<'a> Rows<'a> {
     /// One particle's rows.
     ///
     /// # Safety
-    /// `slot` is a particle, and nobody else reads or writes its rows meanwhile.
+    /// `slot` is a particle, and no other thread reads or writes its rows meanwhile.
     #[inline(always)]
     pub(crate) unsafe fn body(&self, slot: usize) -> RigidBody<'a> {
         // SAFETY: the caller's promise.

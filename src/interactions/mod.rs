@@ -1,4 +1,4 @@
-//! Interactions: what particles and surfaces do to each other, pass by pass over the lists, and what every pass has in common.
+//! Interactions: forces between particles and surfaces, pass by pass over the lists, and what all passes have in common.
 
 mod ahead;
 pub(crate) mod contacts;

@@ -19,14 +19,14 @@ use parameters::Parameter;
 use rows::Present;
 use std::collections::BTreeMap;
 
-/// Whether a variable is given from outside or computed here.
+/// Whether the host sets a variable or the program computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
-    /// Given from outside before each communication step.
+    /// The host sets it before each communication step.
     Input,
-    /// Computed here.
+    /// The program computes it.
     Output,
-    /// Given from outside before the start or, where it is tunable, between communication steps.
+    /// The host sets it before the start or, if it is tunable, between communication steps.
     Parameter,
 }
 
@@ -74,7 +74,7 @@ impl std::fmt::Display for Value {
     }
 }
 
-/// One variable, as the outside sees it.
+/// One variable, as the host sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     /// Its name: `<boundary>.<quantity>.<axis>` or `<group>.<quantity>`.
@@ -89,7 +89,7 @@ pub struct Variable {
     pub variability: Variability,
     /// Its value before anything is set, for inputs and constants.
     pub start: Option<f64>,
-    /// Its lower bound, where nature sets one.
+    /// Its lower bound, if physics sets one.
     pub minimum: Option<f64>,
     /// Its upper bound, likewise.
     pub maximum: Option<f64>,
@@ -137,7 +137,7 @@ pub enum InterfaceError {
         /// What was found and what would be right, as the scene says it.
         refusal: String,
     },
-    /// A parameter is no input.
+    /// A parameter is not an input.
     #[error("{index} is a parameter ({name}); only inputs have rates")]
     NoRate {
         /// Its index.
@@ -145,7 +145,7 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
-    /// A parameter that is fixed by now.
+    /// A parameter that can no longer be changed.
     #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
     Fixed {
         /// Its index.
@@ -153,10 +153,10 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
-    /// Tunable parameters that do not go together.
+    /// Values of tunable parameters that contradict each other.
     #[error(transparent)]
     Tune(#[from] TuneError),
-    /// The value is no number.
+    /// The value is not a finite number.
     #[error("{value} for {index} ({name}); a finite number is right")]
     NotFinite {
         /// Its index.
@@ -229,7 +229,7 @@ impl Interface {
         self.value_with(simulation, &Findings::default(), index)
     }
 
-    /// The same, where several values are asked for: what was found for one serves the others.
+    /// The same for several values: results found for one value are used again for the others.
     pub fn value_with(&self, simulation: &Simulation, findings: &Findings, index: usize) -> Value {
         match &self.variables[index].source {
             Source::Row(rows::Source { row, at }) => (row.read)(Present { simulation, findings }, *at),
@@ -265,7 +265,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Sets tunable parameters between communication steps, all or none. Others than tunable parameters are left out.
+    /// Sets tunable parameters between communication steps, all or none. Parameters that are not tunable are ignored.
     pub fn tune(&self, simulation: &mut Simulation, values: &[(usize, f64)]) -> Result<(), InterfaceError> {
         let mut changes = Vec::new();
         for &(index, value) in values {

@@ -48,7 +48,7 @@ pub trait Lane: Number {
     /// Transposes back and writes the rows, the last one last.
     ///
     /// # Safety
-    /// As for [`Lane::load_rows`]; nobody else reads or writes these rows meanwhile.
+    /// As for [`Lane::load_rows`]; no other thread reads or writes these rows meanwhile.
     unsafe fn store_rows(values: [Self; 4], rows: *mut Row, index: *const u32);
 
     /// Transposes back and writes all rows to consecutive places.
@@ -122,7 +122,7 @@ pub fn columns<N: Number>(vector: Vector<N>) -> [N; 4] {
     [vector.x, vector.y, vector.z, N::zero()]
 }
 
-/// Tells the processor that something will be needed soon, where it can be told.
+/// Tells the processor, if it can be told, that an address will be needed soon.
 #[inline(always)]
 pub fn prefetch<T>(_place: *const T) {
     #[cfg(target_arch = "x86_64")]
@@ -159,7 +159,7 @@ unsafe fn compact_one_by_one(width: usize, from: *const u32, bits: u32, to: *mut
 /// Lane widths that can be chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
-    /// What every processor of the target offers: two numbers (SSE2) on x86-64, elsewhere one.
+    /// The width that every processor of the target offers: two numbers (SSE2) on x86-64, elsewhere one.
     Least,
     /// Four numbers: AVX2.
     Four,
@@ -269,7 +269,7 @@ impl<T> Shared<T> {
     /// One element, to be changed.
     ///
     /// # Safety
-    /// `index` is below the length, and nobody else reads or writes this element meanwhile.
+    /// `index` is below the length, and no other thread reads or writes this element meanwhile.
     #[inline(always)]
     #[allow(clippy::mut_from_ref, reason = "disjoint use is the caller's promise")]
     pub unsafe fn at<'a>(self, index: usize) -> &'a mut T {
@@ -281,7 +281,7 @@ impl<T> Shared<T> {
     /// A part, to be changed.
     ///
     /// # Safety
-    /// The part is inside, and nobody else reads or writes it meanwhile.
+    /// The part is inside, and no other thread reads or writes it meanwhile.
     #[inline(always)]
     pub unsafe fn part<'a>(self, from: usize, to: usize) -> &'a mut [T] {
         debug_assert!(from <= to && to <= self.length);

@@ -1,7 +1,7 @@
 //! What an axis of a boundary does, whatever the shape of the boundary: one file and one row of [`AxisMotion`] a motion.
 //!
-//! A motion that the scene or the outside leads says where its axis stands at the end of a time step; one that is free is
-//! moved by the forces on the boundary ([`crate::boundaries`] does that).
+//! If the scene or the host leads a motion, the motion says where its axis stands at the end of a time step. If it is free,
+//! the forces on the boundary move it ([`crate::boundaries`] does that).
 
 mod conveying;
 mod course;
@@ -30,7 +30,7 @@ use std::sync::Arc;
 pub enum AxisMotion {
     /// Stays.
     Fixed,
-    /// Stays, and the surface runs along it in itself at this velocity \[m/s\].
+    /// Stays, while the surface moves along it like a conveyor belt, at this velocity \[m/s\].
     Conveying(f64),
     /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
     Driven,
@@ -38,9 +38,9 @@ pub enum AxisMotion {
     Steered,
     /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
     Prescribed(f64),
-    /// Is where a schedule has it.
+    /// Is where a schedule says.
     Scheduled(Schedule),
-    /// Is where a table has it.
+    /// Is where a table says.
     Tabulated(Arc<Table>),
     /// Moves by the forces on it.
     Free,
@@ -51,12 +51,12 @@ pub enum AxisMotion {
     Servo(Servo),
 }
 
-/// What is asked of every motion.
+/// What every motion provides.
 trait Motion {
     /// What the axis does, for a report, with the unit of a velocity; nothing where it stays.
     fn words(&self, unit: &str) -> Option<String>;
 
-    /// What the outside sees of it.
+    /// Which of its variables the host sees.
     fn seen(&self) -> Seen;
 
     /// Whether forces move it.
@@ -64,17 +64,17 @@ trait Motion {
         false
     }
 
-    /// What its input starts with, if it has one; in the unit of the input.
+    /// The start value of its input, if it has one; in the unit of the input.
     fn first_input(&self) -> f64 {
         0.0
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], where the scene alone says them.
+    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], if the scene alone determines them.
     fn at(&self, _time: f64) -> Option<[f64; 2]> {
         None
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, where it is led through it.
+    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
     fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
         self.at(progress.time).map(|[place, rate]| [way.target + place, rate])
     }
@@ -85,15 +85,15 @@ trait Motion {
 pub(crate) struct Way {
     /// Where it began \[m, rad\].
     pub start: f64,
-    /// Where it is to end; of a prescribed axis where it stood at time 0 \[m, rad\].
+    /// Where it is to end; for a prescribed axis, where it stood at time 0 \[m, rad\].
     pub target: f64,
     /// Where it stands before the present time step \[m, rad\].
     pub before: f64,
-    /// How it goes there.
+    /// In which way it moves there.
     pub course: InputCourse,
 }
 
-/// What the outside sees of an axis.
+/// Which variables of an axis the host sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Seen {
     /// Nothing: it stays.
@@ -104,11 +104,11 @@ pub(crate) enum Seen {
     Place,
     /// Its displacement and its velocity are outputs.
     PlaceAndRate,
-    /// So they are, and a load on it is an input.
+    /// Its displacement and its velocity are outputs, and a load on it is an input.
     Load,
     /// Its displacement is an output, its velocity an input.
     Rate,
-    /// Its displacement and what it misses are outputs, the force of the particles that it is to reach is an input.
+    /// Its displacement and the error of its force are outputs; the force of the particles that it is to reach is an input.
     Servo,
 }
 
@@ -116,7 +116,7 @@ impl AxisMotion {
     /// The axes of a boundary in their order, as scenes and variables name them.
     pub const WORDS: [&str; 6] = ["x", "y", "z", "rotation.x", "rotation.y", "rotation.z"];
 
-    /// Asks the row of this motion.
+    /// Calls the row of this motion.
     fn ask<T>(&self, question: impl FnOnce(&dyn Motion) -> T) -> T {
         match self {
             Self::Fixed => question(&fixed::Fixed),
@@ -137,7 +137,7 @@ impl AxisMotion {
         self.ask(|row| row.words(unit))
     }
 
-    /// What the outside sees of it.
+    /// Which of its variables the host sees.
     pub(crate) fn seen(&self) -> Seen {
         self.ask(|row| row.seen())
     }
@@ -170,7 +170,7 @@ impl AxisMotion {
         }
     }
 
-    /// What its input starts with; 0 where it has none.
+    /// The start value of its input; 0 if it has none.
     pub(crate) fn first_input(&self) -> f64 {
         self.ask(|row| row.first_input())
     }
@@ -180,7 +180,7 @@ impl AxisMotion {
         self.seen() == Seen::Nothing
     }
 
-    /// How fast the surface runs along it in itself \[m/s\].
+    /// Velocity of the surface along it, like that of a conveyor belt \[m/s\].
     pub(crate) fn conveys(&self) -> f64 {
         match self {
             Self::Conveying(velocity) => *velocity,
@@ -188,7 +188,7 @@ impl AxisMotion {
         }
     }
 
-    /// Whether it goes where an input says.
+    /// Whether an input leads it.
     pub fn is_driven(&self) -> bool {
         self.takes_place() || self.takes_velocity()
     }
@@ -208,12 +208,12 @@ impl AxisMotion {
         self.ask(|row| row.is_free())
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], where the scene alone says them.
+    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at a time \[s\], if the scene alone determines them.
     pub(crate) fn at(&self, time: f64) -> Option<[f64; 2]> {
         self.ask(|row| row.at(time))
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, where it is led through it.
+    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
     pub(crate) fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
         self.ask(|row| row.lead(way, progress))
     }

@@ -1,9 +1,9 @@
-//! Which particles are near each other, and the order they are kept in.
+//! Which particles are near each other, and the order in which they are stored.
 //!
 //! Particles are sorted into slabs across the longest extent of the packing, each at least as thick as the largest
-//! reach of a pair, and inside a slab by size and cell. Pairs therefore reach no further than the next slab. What a law
-//! remembers follows the pair of particles, never a place in a list. Pieces of work are those of geometry or of fixed length:
-//! lists and their order do not depend on the number of threads.
+//! reach of a pair, and inside a slab by size and cell. Pairs therefore reach no further than the next slab. The history of a
+//! contact follows the pair of particles, never a place in a list. Pieces of work follow from geometry or have a fixed length,
+//! so lists and their order do not depend on the number of threads.
 
 pub(crate) mod bonds;
 mod grid;
@@ -33,11 +33,11 @@ use planes::Plane;
 use sizes::Sizes;
 pub(crate) use skin::FIRST as FIRST_SKIN;
 
-/// The search: what it knows of the scene, and room to work in.
+/// The search: what it knows of the scene, and its working space.
 pub(crate) struct Search {
     /// Which pairs have a law.
     laws: Laws,
-    /// Rows that are kept of each contact of a law.
+    /// Rows that are stored for each contact of a law.
     histories: Vec<Vec<HistoryRow>>,
     /// Planes of the scene.
     planes: Vec<Plane>,
@@ -104,8 +104,8 @@ impl Search {
         }
     }
 
-    /// Takes over the coefficients of contact laws that a state has: how far beyond touch bodies hold together follows from
-    /// them.
+    /// Takes over the coefficients of contact laws of a state: they determine how far beyond touch bodies hold
+    /// together.
     pub(crate) fn take_coefficients(&mut self, scene: &Scene, state: &State) {
         let reaches = scene.contacts.iter().zip(&state.coefficients).map(|(choice, rows)| {
             let law = Law::of(&choice.choice());
@@ -126,8 +126,8 @@ impl Search {
         self.smallest
     }
 
-    /// Whether every two bodies that may touch once they have come nearer to each other by `way` \[m\] are in a list that
-    /// tells of it beforehand. Lists of surfaces other than planes tell of what touches, only.
+    /// Whether every two bodies that may touch once they have come nearer to each other by `way` \[m\] are in a list of near
+    /// bodies. Lists of surfaces other than planes report only what touches.
     pub(crate) fn holds_all_within(&self, state: &State, way: f64) -> bool {
         if !self.touching {
             return false; // there are no lists
@@ -140,7 +140,7 @@ impl Search {
         self.boundaries.iter().all(tells) && used + way < state.neighbours.skin
     }
 
-    /// Whether a state from outside, which has been looked through otherwise, has the lists that the search makes.
+    /// Whether a state from outside, whose other parts have been checked, has the lists that the search makes.
     pub(crate) fn check(&self, state: &State) -> Result<(), StateFault> {
         let lists = &state.neighbours;
         demand(!self.needed || !lists.slabs.is_empty(), "slabs", 0, "slabs of particles")?;

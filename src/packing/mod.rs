@@ -1,4 +1,4 @@
-//! Particles that no file lists: lattices and random packings.
+//! Particles that the program places itself: lattices and random packings.
 
 mod crowd;
 mod dense;
@@ -15,16 +15,16 @@ pub(crate) use random::packing;
 
 use crate::memory;
 
-/// How far a random packing is; told many times a second.
+/// Progress of a random packing; reported many times a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PackingProgress<'a> {
-    /// Spheres are put at free places one after the other.
+    /// Spheres are placed at free positions one after the other.
     Placing {
         /// The particle set.
         set: &'a str,
-        /// How many have their place.
+        /// How many have been placed.
         placed: usize,
-        /// Of how many.
+        /// How many there are to be.
         count: usize,
     },
     /// Spheres are pushed apart.
@@ -33,7 +33,7 @@ pub enum PackingProgress<'a> {
         set: &'a str,
         /// Rounds of pushes so far.
         rounds: usize,
-        /// Largest overlap over the smaller radius; below 1e-4 they are apart.
+        /// Largest overlap over the smaller radius; below 1e-4 the packing is done.
         overlap: f64,
     },
 }
@@ -44,7 +44,7 @@ pub(crate) type Sphere = ([f64; 3], f64);
 /// How many spheres one set may have, so that a slip in a length does not fill the memory.
 const MOST: usize = 50_000_000;
 
-/// What is right instead of so many spheres; nothing where there is room for them.
+/// What would be right instead of so many spheres; nothing if there is memory for them.
 fn too_many(count: f64) -> Option<String> {
     let room = memory::available().map_or(MOST, |free| MOST.min((free / memory::SPHERE) as usize));
     match room {

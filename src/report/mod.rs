@@ -1,4 +1,4 @@
-//! What is to be known of a scene before it runs.
+//! The report of `cograin check`: what a user should know of a scene before it runs.
 
 mod forecast;
 mod rules;
@@ -21,16 +21,16 @@ use std::path::Path;
 use std::sync::Arc;
 use trial::Trial;
 
-/// What is to be known of a scene before it runs. Displays as text for a person.
+/// What a user should know of a scene before it runs. Displays as text for a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// What the scene uses and pays for, a line each.
     pub uses: Vec<String>,
     /// The time step, the stable one and what limits it.
     pub time_step: String,
-    /// The usual rules of thumb beside it.
+    /// Common rules of thumb for the time step, to compare with.
     pub rules: Option<String>,
-    /// What a run writes, a line each; nothing where the scene does not say when it ends.
+    /// What a run writes, a line each; nothing if the scene does not say when it ends.
     pub outputs: Vec<String>,
     /// How many steps a run makes.
     pub steps: Option<String>,
@@ -40,13 +40,13 @@ pub struct Report {
     pub cost: String,
     /// Wall time of a run.
     pub time: Option<String>,
-    /// What the scene pays for and could drop, and what that saves, a line each.
+    /// What the scene pays for and could do without, and what that saves, a line each.
     pub savings: Vec<String>,
     /// What is legal but risky.
     pub remarks: Vec<String>,
 }
 
-/// Takes a scene to its start and a few steps further, writes nothing, and tells what was seen.
+/// Starts a scene, makes a few steps, writes nothing, and reports what it found.
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
@@ -75,7 +75,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, savings, remarks })
 }
 
-/// The scene at its start, which may be a checkpoint's, and what of that stays behind.
+/// The scene at its start, which may be that of a checkpoint, and what could not be taken over from it.
 fn begin(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<(Simulation, Vec<String>), Refusal> {
     let Some(path) = from else {
         let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };

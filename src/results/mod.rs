@@ -1,4 +1,4 @@
-//! What a run leaves in its folder, when each file is due, and what may be wrong with them.
+//! The files that a run writes into its folder, when each is due, and what may be wrong with them.
 //!
 //! | file in a run's folder      | what it holds                                                     |
 //! |-----------------------------|-------------------------------------------------------------------|
@@ -11,9 +11,9 @@
 //! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
 //! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |
 //!
-//! All of them are whole at any time, whatever ends the program; `--resume` takes them up where the checkpoint
-//! stands and ends with the same bytes as a run that was never broken (`summary.json`, which tells of one
-//! session, aside). When outputs are due, and how that divides the run, is told in `schedule.rs`.
+//! All of them are complete at any time, whatever ends the program. `--resume` continues them from the checkpoint, and
+//! they end with the same bytes as those of an uninterrupted run (except `summary.json`, which describes one
+//! session). `schedule.rs` says when outputs are due, and how that divides the run.
 
 mod collection;
 mod error;
@@ -34,7 +34,7 @@ pub use failure::{Failure, Refusal};
 pub use files::{Checkpoint, TakenOver, read_checkpoint, write_checkpoint};
 pub use vtk::EncodeError;
 
-/// File of the unit's outputs over time.
+/// File of the outputs of the unit over time.
 pub(crate) const HISTORY: &str = "history.csv";
 
 /// File of the bonds that broke.
@@ -43,7 +43,7 @@ const BREAKAGE: &str = "breakage.csv";
 /// File of the state to continue from.
 pub const CHECKPOINT: &str = "checkpoint.cograin";
 
-/// File that tells how a run went.
+/// File that describes how a run went.
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// Ending of a file that is being written.

@@ -1,4 +1,4 @@
-//! A scene that runs by itself, from one communication point to the next, and what it writes there.
+//! A run of a scene without a master, from one communication point to the next, and what it writes there.
 
 mod beginning;
 mod inputs;
@@ -33,8 +33,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-/// Wall time between checkpoints of a scene that gives no interval. It decides when they are written and nothing
-/// of what is in them.
+/// Wall time between checkpoints of a scene that gives no interval. It determines when they are written, but not
+/// their content.
 const CHECKPOINT_PAUSE: Duration = Duration::from_secs(30);
 
 /// Where a checkpoint is written from.
@@ -42,7 +42,7 @@ const CHECKPOINT_PAUSE: Duration = Duration::from_secs(30);
 enum WrittenFrom {
     /// From a copy, while the simulation goes on.
     Copied,
-    /// From the state itself, where nothing goes on meanwhile: a copy would be what the process needs most memory for.
+    /// From the state itself, if the simulation waits meanwhile: a copy would be the largest use of memory of the process.
     InPlace,
 }
 
@@ -55,9 +55,9 @@ pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summa
 
 /// A run under way.
 struct Session<'a> {
-    /// What was asked for.
+    /// The order.
     order: RunOrder<'a>,
-    /// When what is written.
+    /// When each output is written.
     schedule: Schedule,
     /// The end of the run \[s\].
     end: f64,
@@ -65,11 +65,11 @@ struct Session<'a> {
     simulation: Simulation,
     /// Its variables.
     interface: Interface,
-    /// What the driven boundaries do.
+    /// Inputs of the driven boundaries.
     inputs: Option<Inputs>,
-    /// Where to.
+    /// The folder of the results.
     folder: Arc<Mutex<Folder>>,
-    /// Who writes.
+    /// The writer.
     writer: Writer,
     /// Communication point that was reached last \[s\].
     time: f64,
@@ -77,13 +77,13 @@ struct Session<'a> {
     start: f64,
     /// Momentum and impulses at the start of this session.
     momentum: momentum::Start,
-    /// What was counted.
+    /// The counts.
     meter: Meter,
     /// When the last checkpoint was handed over.
     last_checkpoint: Instant,
-    /// What could not be taken along from another scene, in words.
+    /// What could not be taken over from another scene, in words.
     left_behind: Vec<String>,
-    /// What keeps others out of the folder.
+    /// The lock that keeps other runs out of the folder.
     _lock: FolderLock,
 }
 
@@ -195,7 +195,7 @@ impl<'a> Session<'a> {
         if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.clone())) }
     }
 
-    /// Hands what is due of the present state to the writer.
+    /// Hands the outputs that are due to the writer.
     fn write(&mut self, due: Due, checkpoint: WrittenFrom) -> Result<(), OutputError> {
         let time = self.time;
         if due.history {
@@ -218,12 +218,12 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// What is told who asked to stop.
+    /// The answer to a request to stop.
     fn interrupted(&self) -> Failure {
         Failure::Interrupted { time: self.time, folder: self.order.folder.to_owned() }
     }
 
-    /// Waits for the writer and leaves the summary. The first thing that went wrong is told.
+    /// Waits for the writer and writes the summary. Returns the first error.
     fn end(mut self, result: Result<(), Failure>) -> Result<Summary, Failure> {
         let result = result.and(self.writer.finish().map_err(Failure::from));
         let momentum = self.momentum.balance(&self.simulation);

@@ -1,7 +1,7 @@
-//! The scene: what particles, laws, boundaries and settings there are, checked, in SI units.
+//! The scene: its particles, laws, boundaries and settings, checked, in SI units.
 //!
 //! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
-//! tables; scenes built in code are asked by [`Scene::check`]. Nothing after that asks again.
+//! tables; [`Scene::check`] checks scenes that are built in code. Later code need not check again.
 
 mod accuracy;
 mod body;
@@ -31,7 +31,7 @@ use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
 /// A scene that can be run: everything the file says, checked, in SI units.
 ///
-/// The default is the empty scene, to build others from in code.
+/// The default is the empty scene, from which code can build others.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Settings of the run.
@@ -73,9 +73,9 @@ pub struct Run {
     pub end: Option<f64>,
     /// The time step.
     pub step: Step,
-    /// What scheme and time step are chosen for, where the scene names neither.
+    /// The accuracy for which scheme and time step are chosen, if the scene does not name them.
     pub accuracy: Accuracy,
-    /// How springs and dashpots of contacts go on in time.
+    /// How springs and dashpots of contacts are integrated in time.
     pub scheme: Scheme,
     /// Whether a given step above the stable one may run on.
     pub allow_unstable: bool,
@@ -83,7 +83,7 @@ pub struct Run {
     pub threads: Option<usize>,
     /// Seed of everything random.
     pub seed: u64,
-    /// How far beyond touch neighbours are looked for \[m\]; `None`: chosen from motion and list length.
+    /// Distance beyond touch up to which neighbours are searched \[m\]; `None`: chosen from motion and list length.
     pub skin: Option<f64>,
     /// Unbalanced force, over the mean contact force, below which `cograin settle` is done.
     pub settle_tolerance: f64,
@@ -121,7 +121,7 @@ impl Run {
 pub enum Step {
     /// This long \[s\].
     Given(f64),
-    /// A fraction of the computed stable step, found anew as the packing changes.
+    /// A fraction of the computed stable step, computed again as the packing changes.
     Automatic {
         /// The fraction, above 0 and below 1.
         safety: f64,
@@ -145,12 +145,12 @@ pub struct ContactLaw {
     pub cohesion: CohesionChoice,
     /// Switches of every law.
     pub switches: Switches,
-    /// How springs and dashpots go on in time.
+    /// How springs and dashpots are integrated in time.
     pub scheme: Scheme,
 }
 
 impl ContactLaw {
-    /// What the law is composed of.
+    /// The sub-models of the law.
     pub fn choice(&self) -> LawChoice {
         let Self { normal, tangential, rolling, cohesion, switches, scheme, .. } = *self;
         LawChoice { normal, tangential, rolling, cohesion, switches, scheme }
@@ -213,7 +213,7 @@ impl Particle {
     }
 }
 
-/// `[boundary.<name>]`: where the outside world meets the particles.
+/// `[boundary.<name>]`: where the outside world acts on the particles.
 #[derive(Clone, Debug)]
 pub struct Boundary {
     /// Its name in the scene and in the unit's variables.
@@ -226,7 +226,7 @@ pub struct Boundary {
     pub input: InputCourse,
     /// The point about which its moment is taken, at time 0 \[m\].
     pub reference: [f64; 3],
-    /// What it is as a rigid body that forces move.
+    /// Its properties as a rigid body that forces move.
     pub body: Body,
 }
 

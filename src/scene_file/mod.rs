@@ -1,4 +1,4 @@
-//! The scene file: its tables, how they are read, and the checks across tables that make of them a [`Scene`].
+//! The scene file: its tables, how they are read, and the checks across tables that turn them into a [`Scene`].
 
 mod check;
 mod parameters;
@@ -15,13 +15,13 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 impl Scene {
-    /// Reads a scene and the files that it names, which are looked for beside it.
+    /// Reads a scene and the files that it names, which it searches in the folder of the scene.
     pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
         Self::read_with(path, &[], &mut |_| {})
     }
 
-    /// The same with some values set from outside, which are part of the text from here on; tells how far its random
-    /// packings are.
+    /// The same with other values of some keys, which are part of the text from here on; reports the progress of random
+    /// packings.
     pub fn read_with(
         path: &Path,
         settings: &[Setting],

@@ -2,9 +2,9 @@
 //!
 //! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
-//! the largest root μ of det(μ² M − μ C − K). [`blocks`] bounds it from the safe side where there are contacts alone, [`lanczos`]
-//! finds it with a certificate where there are bonds. Contacts and bonds still to come are foreseen by the passes
-//! ([`Ahead`]); pairs that are not yet near each other by [`coming_root`]. `docs/stability.md` has the whole.
+//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side. If
+//! there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
+//! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
 mod lanczos;
@@ -24,7 +24,7 @@ pub(crate) use surfaces::{has_more_contacts, put_blocks};
 /// What limits the time step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// A safe bound of the time step \[s\]; infinite where nothing can be stiff.
+    /// A safe bound of the time step \[s\]; infinite if nothing can be stiff.
     pub safe: f64,
     /// What limits it, if anything does.
     pub by: Option<Limiter>,

@@ -1,7 +1,7 @@
-//! The numbers that change, and nothing else: saving and restoring this continues bit for bit.
+//! The numbers that change, and nothing else: a run that continues from a restored state gives the same bits.
 //!
 //! No physics here. Particles stand in the order of the present neighbour list, which follows space;
-//! [`Particles::id`] and [`Particles::slot`] go between that order and the scene's.
+//! [`Particles::id`] and [`Particles::slot`] translate between that order and the scene's.
 
 pub mod bonds;
 pub mod boundaries;
@@ -38,7 +38,7 @@ use serde::{Deserialize, Serialize};
 pub struct State {
     /// Time and counters.
     pub clock: Clock,
-    /// What the stable time step was found for.
+    /// For which conditions the stable time step was computed.
     pub foresight: Foresight,
     /// Positions, velocities, forces.
     pub particles: Particles,
@@ -89,8 +89,8 @@ clone_in_place!(State {
 });
 
 impl State {
-    /// Lets every count and sum that began at time 0 begin anew: bonds made and broken, what left them, impulses, work.
-    /// The energies that an energy book begins with, and mean loads, are to be set by who knows them.
+    /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
+    /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {
         self.breaks.clear();
         self.damping_impulse = [0.0; 3];

@@ -1,4 +1,4 @@
-//! Condensed static stiffness: how much more force a boundary takes for a small displacement, when everything else has come
+//! Condensed static stiffness: how the force on a boundary changes by a small displacement, when everything else has come
 //! to rest again.
 //!
 //! ```text
@@ -6,11 +6,11 @@
 //! J u + f = 0,   stiffness = −∂(force on the boundary) of both together
 //! ```
 //!
-//! The columns of J are differences of the very evaluation that time steps make, at rest and so slowly that no dashpot
-//! feels it: every law, formulation and surface is in them, with the springs that stick and those that slide. Bodies that
-//! act on no common one are displaced at once, so a packing of any size takes some hundred evaluations. Sliding, and
+//! The columns of J are differences of the evaluation that time steps make, at rest and so slowly that dashpots have no
+//! effect. They include every law, formulation and surface, sticking and sliding contacts. Bodies that act on no
+//! common body are displaced together, so a packing of any size takes about a hundred evaluations. Sliding, and
 //! springs whose stiffness follows the overlap, make J unsymmetric; it is solved by iteration. At the end all bodies are
-//! displaced by the solution, and what load is left on them is told.
+//! displaced by the solution, and the load that is left on them is reported.
 
 mod columns;
 mod network;
@@ -28,9 +28,9 @@ use solution::Factors;
 
 /// Displacement by which differences are taken, over the mean overlap of the contacts.
 const OF_OVERLAP: f64 = 1e-4;
-/// The least of it, over the smallest radius: rounding of positions must not show.
+/// Lower bound of that displacement, over the smallest radius: it must be large beside the rounding of positions.
 const LEAST: f64 = 1e-9;
-/// The same where nothing touches, so bonds alone answer.
+/// The displacement if nothing touches, so that bonds alone respond.
 const OF_RADIUS: f64 = 1e-6;
 
 /// Why there is no stiffness.
@@ -47,14 +47,14 @@ pub enum StaticsError {
     /// Forces cannot be evaluated.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The equations have no solution that is found.
+    /// The iteration finds no solution of the equations.
     #[error(
         "the network of {freedoms} freedoms comes to no rest when boundary {boundary} is displaced: it is not stable"
     )]
     Unstable {
         /// The boundary.
         boundary: String,
-        /// How many freedoms there are.
+        /// How many degrees of freedom there are.
         freedoms: usize,
     },
 }
@@ -64,7 +64,7 @@ pub enum StaticsError {
 pub struct BoundaryStiffness {
     /// The boundary.
     pub boundary: BoundaryIndex,
-    /// Less of force \[N\] along the first axis for each displacement \[m\] along the second.
+    /// Decrease of the force \[N\] along the first axis for each displacement \[m\] along the second.
     pub matrix: [[f64; 3]; 3],
     /// Largest load that is left on a body, over the largest that the displaced boundary puts on one.
     pub residual: f64,
@@ -75,13 +75,13 @@ pub struct BoundaryStiffness {
 pub struct Stiffness {
     /// Boundaries, in the order in which they were asked for.
     pub boundaries: Vec<BoundaryStiffness>,
-    /// How many freedoms were solved for.
+    /// How many degrees of freedom were solved for.
     pub freedoms: usize,
     /// Particles that nothing holds, by their numbers in the scene's order.
     pub rattlers: Vec<u32>,
     /// Particles that something holds, but not in every direction, likewise.
     pub loose: Vec<u32>,
-    /// Largest difference of two mirrored entries over the largest entry: 0 where everything sticks to linear springs.
+    /// Largest difference of two mirrored entries over the largest entry: 0 if all contacts stick and all springs are linear.
     pub asymmetry: f64,
 }
 
@@ -136,7 +136,7 @@ fn way(simulation: &Simulation, state: &State) -> f64 {
     }
 }
 
-/// Refuses what depends on the speed or the time, however slow.
+/// Refuses laws that depend on speed or time, however slow the motion.
 fn refuse(scene: &Scene) -> Result<(), StaticsError> {
     let refused = |what: String, right| Err(StaticsError::Refused { what, right });
     if let Some(law) = scene.contacts.iter().find(|law| law.rolling.name() == "cdt") {

@@ -45,12 +45,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use way_back::WayBack;
 
-/// Intervals this close to a whole number of time steps, over the time step, are taken for that number.
+/// An interval this close to a whole number of time steps (over the time step) counts as that number.
 const WHOLE: f64 = 1e-6;
 
 /// A scene in motion: its state and the passes composed for it.
 pub struct Simulation {
-    /// What is simulated.
+    /// The scene.
     scene: Arc<Scene>,
     /// Everything that changes.
     state: State,
@@ -72,17 +72,17 @@ pub struct Simulation {
     width: Width,
     /// Threads.
     workers: Workers,
-    /// Room for what is noted within a time step.
+    /// Working space of a time step.
     room: Room,
-    /// The way back to the beginning of a communication step that fails.
+    /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
-    /// Set from outside to end the interval under way.
+    /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
-    /// Who is told what has just been done, in benchmarks.
+    /// In benchmarks, the function that is called after each part of a time step.
     watch: Option<Watch>,
 }
 
-/// What is noted within a time step. It is kept so that no step asks for memory.
+/// Working space of a time step. It is kept so that a step requests no memory.
 #[derive(Default)]
 struct Room {
     /// Ways of the boundaries.
@@ -95,7 +95,7 @@ struct Room {
     bonds: Vec<usize>,
 }
 
-/// Is told the name of each part of a time step when it is done.
+/// A function that gets the name of each part of a time step when it is done.
 pub type Watch = Box<dyn FnMut(&'static str) + Send>;
 
 impl Simulation {
@@ -107,7 +107,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// The scene in a state saved earlier, which is looked through before ([`Simulation::check`]).
+    /// The scene in a state saved earlier, which is checked first ([`Simulation::check`]).
     pub fn resume(scene: Arc<Scene>, state: State) -> Result<Self, StateFault> {
         let first = assemble::state(&scene);
         let mut simulation = Self::with(scene, first);
@@ -184,7 +184,7 @@ impl Simulation {
         }
     }
 
-    /// Makes the neighbour lists anew, as motion does from time to time: results change by rounding only.
+    /// Makes new neighbour lists, as happens from time to time by motion: results change by rounding only.
     pub fn renew_lists(&mut self) {
         self.way_back.forget();
         let mut workers = std::mem::take(&mut self.workers);
@@ -192,7 +192,7 @@ impl Simulation {
         self.workers = workers;
     }
 
-    /// What passes know where time stands still.
+    /// What passes know while time does not advance.
     fn standing(&self) -> Context<'static> {
         Context { step: 0.0, width: self.width, threads: None }
     }
@@ -206,7 +206,7 @@ impl Simulation {
         }
     }
 
-    /// Puts back a state of this simulation, which is looked through before ([`Simulation::check`]); it continues from
+    /// Restores a state of this simulation, which is checked first ([`Simulation::check`]); the simulation continues from
     /// there bit for bit.
     pub fn restore(&mut self, state: &State) -> Result<(), StateFault> {
         self.check(state)?;
@@ -219,18 +219,18 @@ impl Simulation {
         Ok(())
     }
 
-    /// Works in this lane width from now on. Every width gives the same bits.
+    /// Uses this lane width from now on. Every width gives the same bits.
     pub fn set_width(&mut self, width: Width) {
         self.width = if width.offered() { width } else { Width::Least };
     }
 
-    /// Damps every particle that the scene does not damp by this fraction (Cundall), gravity included.
+    /// Adds Cundall damping of this fraction, gravity included, to every particle that the scene does not damp.
     pub fn damp_rest(&mut self, fraction: f64) {
         self.way_back.forget();
         self.fields.damp_rest(fraction, self.scene.particles.len());
     }
 
-    /// From now on an interval ends after its present time step when this is set ([`RunError::Stopped`]).
+    /// From now on an interval ends after its present time step if this flag is set ([`RunError::Stopped`]).
     pub fn stop_when(&mut self, stop: &Arc<AtomicBool>) {
         self.stop = Some(Arc::clone(stop));
     }
@@ -240,7 +240,7 @@ impl Simulation {
         self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
-    /// Has somebody told, from now on, what has just been done in a time step: to see what each part costs.
+    /// Calls this function, from now on, after each part of a time step: to measure what each part costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
     }
@@ -252,7 +252,7 @@ impl Simulation {
         }
     }
 
-    /// What is simulated.
+    /// The scene.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
@@ -267,8 +267,8 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// What the outside gives for an axis in the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven
-    /// one is to be at its end \[m, rad\] or how fast it moves \[m/s, rad/s\], the load on one that forces move \[N, N m\], the force
+    /// Sets the input of an axis for the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven axis
+    /// is to be at its end \[m, rad\] or how fast it moves \[m/s, rad/s\], the load on one that forces move \[N, N m\], the force
     /// that a servo is to reach \[N\].
     pub fn set_input(&mut self, boundary: BoundaryIndex, axis: usize, value: f64) {
         let boundary = &mut self.state.boundaries[boundary.index()];
@@ -283,9 +283,9 @@ impl Simulation {
 
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end.
     ///
-    /// An error that is seen before a step ([`RunError::Runaway`]) leaves the state of the last good time step, at
-    /// [`Simulation::time`]. One that a step itself brings about leaves the state behind that step, for the search of
-    /// the cause only: who wants to go on keeps a copy.
+    /// An error that is found before a step ([`RunError::Runaway`]) leaves the state of the last good time step, at
+    /// [`Simulation::time`]. An error that a step itself causes leaves the state after that step, which serves to find
+    /// the cause only: to be able to go on, keep a copy of the state.
     pub fn advance(&mut self, interval: f64) -> Result<(), RunError> {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });

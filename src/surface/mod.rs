@@ -1,9 +1,9 @@
-//! What a boundary is: the shapes that particles can touch and that are no particles themselves, and groups of particles
-//! that move as one.
+//! The shapes of boundaries: surfaces that particles can touch, and groups of particles that move as a rigid
+//! body.
 //!
 //! A shape is one file and one row of [`with_shapes`]. Its file holds what a scene writes under its key and the check of
-//! that, where the surface is, how a sphere touches it, and its words in reports. How a surface moves is no concern of its
-//! shape ([`crate::motion`]).
+//! that, where the surface is, how a sphere touches it, and its words in reports. The shape does not know how the surface
+//! moves ([`crate::motion`]).
 
 pub(crate) mod cone;
 pub mod cylinder;
@@ -63,7 +63,7 @@ impl Deref for Shape {
     }
 }
 
-/// What is asked of every shape.
+/// What every shape provides.
 pub trait Surface: Debug + Send + Sync {
     /// Its key in a scene.
     fn key(&self) -> &'static str;
@@ -89,18 +89,18 @@ pub trait Surface: Debug + Send + Sync {
         None
     }
 
-    /// Where a sphere touches it, if it is a surface of features: all that are touched themselves and are no plane.
+    /// Where a sphere touches it, if it is a surface of features: any surface except a plane.
     fn features(&self) -> Option<&dyn Features> {
         None
     }
 
-    /// How far in front of the surface, at time 0, a centre is, negative behind it \[m\]; nothing where the surface is not
-    /// touched itself.
+    /// How far in front of the surface, at time 0, a centre is, negative behind it \[m\]; nothing for a group, which has no
+    /// surface.
     fn distance(&self, _centre: Vector) -> Option<f64> {
         None
     }
 
-    /// The point about which its moment is taken if the scene names none \[m\]; nothing where it is the mass centre of its
+    /// The point about which its moment is taken if the scene names none \[m\]; nothing if this is the mass centre of its
     /// particles.
     fn reference(&self) -> Option<[f64; 3]> {
         None
@@ -123,24 +123,24 @@ pub(crate) trait ShapeKeys {
 
 /// What stands around the key of a shape in a scene.
 pub(crate) trait Around {
-    /// The material that the boundary names. Reports an unknown one, and that there is none: `who` needs one.
+    /// The material that the boundary names. Reports an unknown or missing one: `who` needs one.
     fn material(&mut self, who: &str) -> Option<MaterialIndex>;
 
-    /// Reports a material that the boundary names though, as `why` says, it has none of its own.
+    /// Reports a material that the boundary names although, as `why` says, it has none of its own.
     fn no_material(&mut self, why: &str);
 
     /// The particles that a selection chooses; reports a selection of none.
     fn select(&mut self, selection: &Selection) -> Vec<u32>;
 
-    /// What stands in a file that the boundary names; nothing where it could not be read, which is reported already.
+    /// The content of a file that the boundary names; nothing if it could not be read, which has been reported.
     fn file(&self, name: &str) -> Option<&[u8]>;
 
     /// Reports a value: what was found at a key below the boundary and what would be right.
     fn refuse(&mut self, key: &str, found: String, right: &str);
 }
 
-/// A direction as a unit vector, from one of any length but 0: scaled first, so that neither very long nor very short ones
-/// overflow.
+/// A direction as a unit vector, from one of any length except 0: scaled first, so that neither very long nor very short
+/// ones overflow.
 pub(crate) fn direction(vector: [f64; 3]) -> Option<[f64; 3]> {
     let largest = vector.iter().fold(0.0_f64, |largest, part| largest.max(part.abs()));
     if largest == 0.0 {

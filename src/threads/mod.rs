@@ -1,4 +1,4 @@
-//! Threads: who works on which piece of a loop. The bits of the result do not depend on it.
+//! Threads: which thread works on which piece of a loop. The bits of the result do not depend on it.
 
 mod context;
 mod helpers;

@@ -1,4 +1,4 @@
-//! VTK files through vtkio: its panics are silent here, and it is asked for no more memory than a file can fill.
+//! VTK files through vtkio: its panics print nothing here, and it gets no more memory than a file can fill.
 
 mod packed_sizes;
 
