@@ -35,7 +35,7 @@ impl Guarded {
 static INSTANCES: Mutex<BTreeMap<usize, Arc<Guarded>>> = Mutex::new(BTreeMap::new());
 
 /// How long the table of instances is waited for. It is held for a moment at a time, unless the process was forked in
-/// just that moment: then nobody is left to give it back, and calls are refused.
+/// just that moment: then no thread is left to give it back, and calls are refused.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Does something with the table of instances; `None` if it cannot be had.
@@ -95,7 +95,7 @@ pub(crate) fn leave(component: Component) {
     });
 }
 
-/// Ends the communication step under way on another thread; refused where there is none.
+/// Ends the communication step under way on another thread; refused if there is no such step.
 pub(crate) fn cancel(component: Component, function: &Call) -> Status {
     let Some(guarded) = find(component) else { return Status::Error };
     if matches!(guarded.instance.try_lock(), Err(TryLockError::WouldBlock)) {

@@ -484,7 +484,7 @@ impl Instance {
         Ok(self.keep(saved, address))
     }
 
-    /// Keeps a state at `address`, or anew if that is none of ours. Yields the address.
+    /// Keeps a state at `address`, or at a new one if this unit has none there. Yields the address.
     fn keep(&mut self, saved: Saved, address: usize) -> usize {
         if let Some(kept) = self.kept.get_mut(&address) {
             *kept = Kept { saved, bytes: None };

@@ -74,7 +74,7 @@ pub(crate) enum Refusal {
         /// The flag and its value.
         flag: &'static str,
     },
-    /// A time that is none.
+    /// A time that is not a finite number.
     #[error("{argument} is {value} s; {right} is right")]
     Time {
         /// The argument.
@@ -84,7 +84,7 @@ pub(crate) enum Refusal {
         /// What would be right.
         right: &'static str,
     },
-    /// A tolerance that is none.
+    /// A tolerance that is not a finite number of 0 or above.
     #[error("tolerance is {value}; a finite number of 0 or above is right")]
     Tolerance {
         /// Its value.
@@ -106,7 +106,7 @@ pub(crate) enum Refusal {
         /// Stop time \[s\].
         stop: f64,
     },
-    /// A communication step that nobody would see the end of.
+    /// A communication step of so many time steps that they would take days.
     #[error(
         "a step of {length} s is {count:.1e} time steps of {step:.2e} s, days of computing in which the host cannot \
          stop; at most {most:.1e} in one fmi2DoStep are right"

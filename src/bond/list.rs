@@ -1,4 +1,4 @@
-//! Lists of bonds as other programs write them: who is bonded to whom.
+//! Lists of bonds as other programs write them: pairs of particles.
 
 use std::collections::BTreeSet;
 

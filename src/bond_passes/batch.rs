@@ -406,7 +406,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
     }
 }
 
-/// Bonds ahead of those that are loaded whose state is asked for.
+/// How many bonds ahead of the loaded ones the state is fetched.
 const AHEAD: usize = 32;
 
 /// Loads of the particle whose bonds are worked on. Bonds stand side by side by that of their bodies which comes first in

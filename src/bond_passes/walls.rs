@@ -169,7 +169,7 @@ struct Work<'a> {
     step: f64,
 }
 
-/// A row of a bond out of each column; zeros where there is none.
+/// A row of a bond out of each column; zeros if there is no column.
 ///
 /// # Safety
 /// The bond is in the list, and belongs to the piece that asks.

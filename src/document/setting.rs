@@ -24,10 +24,10 @@ pub enum SettingError {
     /// There is no `=`.
     #[error("{0:?} has no =; KEY=VALUE is right")]
     NoValue(String),
-    /// The key is none.
+    /// The text before `=` is not a key.
     #[error("{0:?} is no key; names with dots between them are right, as pair.glass.glass.friction")]
     Key(String),
-    /// The value is none.
+    /// The text after `=` is not a value.
     #[error("{0:?} is no value; a number, a word, true, false or a list in brackets is right")]
     Value(String),
 }

@@ -93,7 +93,7 @@ pub enum ResourceError {
         /// What the system said.
         cause: io::Error,
     },
-    /// The list of files is none.
+    /// The list of files is not readable.
     #[error("{}: {cause}; a list of names is right", path.display())]
     Index {
         /// Its path.

@@ -123,7 +123,7 @@ impl Fields {
         gravity + self.applied.iter().enumerate().map(applied).fold(0.0, f64::max)
     }
 
-    /// Gravity \[m/s²\], if nothing else acts and nobody asks for it by itself: it is then added by the kick that
+    /// Gravity \[m/s²\], if nothing else acts and no book needs it separately: it is then added by the kick that
     /// follows.
     pub(crate) fn weight_alone(&self, state: &State) -> Option<[f64; 3]> {
         let alone = self.damping.is_empty() && self.applied.is_empty() && state.ledger.is_none();

@@ -81,7 +81,7 @@ impl Link {
     }
 }
 
-/// How far somebody who asks for stiffnesses looks ahead.
+/// How far ahead the search for stiffnesses looks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ahead {
     /// Overlaps that grow by no more than this count as if they had \[m\]: certain, whatever moves the bodies.

@@ -5,7 +5,7 @@ use crate::step::{ElasticEnergy, Simulation};
 use std::cell::OnceCell;
 
 /// What has been found of a simulation since it last changed. Nothing is looked for before it is asked for, and
-/// nothing twice. It is part of no state: whoever changes the simulation forgets it.
+/// nothing twice. It is not part of the state; code that changes the simulation clears it.
 #[derive(Debug, Default)]
 pub struct Findings {
     /// Kinetic energy \[J\].

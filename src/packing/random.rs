@@ -130,7 +130,7 @@ fn scattered(
     Ok(spheres)
 }
 
-/// A place, in coordinates of the region, where the sphere overlaps nobody.
+/// A place, in coordinates of the region, where the sphere overlaps no other.
 fn room(radius: f64, region: &Region, classes: &[Class], random: &mut ChaCha8Rng) -> Option<[f64; 3]> {
     let free = region.size().map(|length| length - 2.0 * radius);
     if free.iter().any(|length| *length < 0.0) {

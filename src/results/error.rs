@@ -95,7 +95,7 @@ pub enum ResumeError {
         /// Its time \[s\].
         time: f64,
     },
-    /// Its time is none that a run of this scene comes by.
+    /// A run of this scene never stops at its time.
     #[error("the checkpoint is at t = {time} s, where a run of this scene writes nothing; {nearest} s would be right")]
     Between {
         /// Time of the checkpoint \[s\].

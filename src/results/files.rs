@@ -22,7 +22,7 @@ pub(crate) enum Durability {
     Machine,
 }
 
-/// Writes a file under another name and renames it: whoever looks finds the old one or the new one, whole.
+/// Writes a file under another name and renames it: a reader finds either the old one or the new one, complete.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), OutputError> {
     write_whole_by(path, durability, |file| file.write_all(bytes))
 }

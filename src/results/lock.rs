@@ -1,7 +1,7 @@
 //! One folder, one run: a lock that ends with the process that holds it.
 //!
 //! The lock is an advisory one of the system on a hidden file, so it is gone when the process is, whatever ended it.
-//! The file says who holds it; it is removed in the end, and one that a killed process left behind is taken over.
+//! The file names the process that holds it. It is removed at the end; a run takes over one that a killed process left.
 
 use super::error::OutputError;
 use super::failure::{Failure, Refusal};
@@ -61,7 +61,7 @@ impl Drop for FolderLock {
     }
 }
 
-/// Who holds the lock, in a message.
+/// The process that holds the lock, in a message.
 fn name(holder: &str) -> String {
     let holder = holder.trim();
     if holder.is_empty() { "another process".to_owned() } else { holder.to_owned() }

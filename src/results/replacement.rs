@@ -2,9 +2,9 @@
 //!
 //! A run begins in a hidden folder inside the folder of its results. When its first files are there and on the disk, the
 //! hidden folder gets another name: from this one moment on the new run stands. What is left to do, removing the earlier
-//! run's files and putting the new ones in their place, is taken up by whoever opens the folder next, if need be.
+//! run's files and putting the new ones in their place, is done by the next run that opens the folder, if need be.
 //!
-//! | hidden folder        | what stands                    | who opens the results             |
+//! | hidden folder        | valid results                  | what the next run does with it    |
 //! |----------------------|--------------------------------|-----------------------------------|
 //! | `.cograin-new`       | the earlier run, whole         | removes it                        |
 //! | `.cograin-replacing` | the new run                    | removes the earlier run's results |

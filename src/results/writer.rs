@@ -79,7 +79,7 @@ impl Drop for Writer {
     }
 }
 
-/// The folder; whoever panicked in it has told so where its end was waited for.
+/// The folder; a panic of the writer is reported where its end is waited for.
 pub(crate) fn opened(folder: &Mutex<Folder>) -> MutexGuard<'_, Folder> {
     folder.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -4,7 +4,7 @@ use super::Scene;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{HistoryRow, Law, OFFSET};
 
-/// The contact law of each two materials: who asks which law governs a contact asks here.
+/// The contact law of each two materials: the only place that says which law governs a contact.
 #[derive(Clone, Debug)]
 pub struct GoverningLaws {
     /// Of each two materials, row by row.

@@ -82,7 +82,7 @@ fn products(order: usize, share: f64) -> usize {
 struct Method<'a> {
     /// The network.
     network: &'a Network<'a>,
-    /// Who works.
+    /// The threads.
     context: &'a Context<'a>,
     /// Bodies that interact.
     bodies: usize,

@@ -1,7 +1,7 @@
 //! The layout of a type, as text: the names of its fields and what each holds.
 //!
 //! A type is asked to read itself from a reader that writes down what it is asked for. So the text changes with any field,
-//! and nobody has to keep a list of them beside the type.
+//! and no list of them has to be kept beside the type.
 
 use serde::de::{self, Deserialize, DeserializeSeed, Deserializer, EnumAccess, SeqAccess, VariantAccess, Visitor};
 use std::fmt::{self, Display, Write};

@@ -38,7 +38,7 @@ struct Nearest {
     apart: [f64; 2],
     /// Distance \[m\].
     distance: f64,
-    /// The corner that it is, if it is none of the inner points.
+    /// The corner that it is, if it is not an inner point.
     corner: Option<u32>,
     /// Along the segment from its first corner \[m\].
     along: f64,

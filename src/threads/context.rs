@@ -1,4 +1,4 @@
-//! Who works on the loops of a time step, in which lane width.
+//! The threads that work on the loops of a time step, and the lane width.
 
 use super::helpers::Threads;
 use crate::lanes::{Shared, Width};
@@ -14,7 +14,7 @@ pub(crate) struct Context<'a> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
-    /// Who works, if several threads do.
+    /// The helper threads, if several threads work.
     pub threads: Option<&'a Threads>,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A time step has some ten parallel loops of 5 to 500 µs. To wake a thread takes as long as the shorter ones, hence
 //! helpers look for the next loop for a while before they sleep. Each thread begins with the same share of every loop:
-//! what it works on is in its cache; who is through takes from the end of the shares of others.
+//! what it works on is in its cache; a thread that has finished takes from the end of the shares of others.
 
 use std::cell::UnsafeCell;
 use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release, SeqCst};
@@ -13,7 +13,7 @@ use std::thread::Thread;
 /// How often a helper looks for work before it sleeps: some 50 µs.
 const LOOKS: u32 = 1500;
 
-/// How often who is through looks whether others are before it lets others have the processor.
+/// How often a thread that has finished looks whether the others have, before it yields the processor.
 const PATIENCE: u32 = 3000;
 
 /// In the gate: pieces of the present loop may be taken.
@@ -162,7 +162,7 @@ impl Threads {
     }
 
     /// Does slabs 0 to `count` − 1: those of even number in any order, each of odd number when both its neighbours are
-    /// done. Who is through with the even ones does odd ones that others have not yet come to.
+    /// done. A thread that has finished the even ones does odd ones that others have not yet reached.
     pub(crate) fn slabs(&self, count: usize, work: &Work) {
         let threads = self.shares.len();
         for (place, share) in self.even.iter().enumerate() {
@@ -242,7 +242,7 @@ impl Threads {
     }
 }
 
-/// Waits a moment for somebody who is at work; in the long run lets others have the processor.
+/// Waits a moment for a thread that is at work; in the long run yields the processor.
 fn look_again(looks: &mut u32) {
     *looks += 1;
     if *looks < PATIENCE { std::hint::spin_loop() } else { std::thread::yield_now() }

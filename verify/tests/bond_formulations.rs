@@ -16,7 +16,7 @@ const DOCUMENTATION: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bonds.
 /// Steps of a case that are compared at most.
 const MOST: u64 = 2000;
 
-/// A difference below this is none.
+/// A difference below this counts as none.
 const SAME: f64 = 1e-9;
 
 /// Cases in which bonds bend in space: the difference from the engine is not small, and rounding grows in the engine.

@@ -54,7 +54,7 @@ fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles
 }
 
 /// The second half of the kick to all free axes. Returns the largest speed of a sphere of theirs at the middle of the
-/// next step \[m/s\]; not a number where a load is none.
+/// next step \[m/s\]; NaN if a load is NaN.
 pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &mut State, step: f64) -> f64 {
     let mut fastest = 0.0;
     for (index, body) in bodies.iter().enumerate() {
@@ -73,7 +73,7 @@ pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f6
     free.fold(0.0, |most, (body, moved)| larger(most, body.coming_speed(moved, step)))
 }
 
-/// The larger of two numbers, or the second where it is none.
+/// The larger of two numbers, or the second if it is NaN.
 fn larger(most: f64, one: f64) -> f64 {
     if one > most || one.is_nan() { one } else { most }
 }

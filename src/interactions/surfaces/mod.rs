@@ -92,7 +92,7 @@ struct Work<'a> {
     boundaries: &'a [BoundaryState],
     /// Particles.
     particles: Loaded<'a>,
-    /// Who works.
+    /// The threads.
     context: &'a Context<'a>,
 }
 
@@ -204,7 +204,7 @@ impl AtSurface {
 }
 
 impl SurfacePass {
-    /// The pass of the boundaries and laws of the scene that meet, in the order of their lists; none where there are none.
+    /// The pass of the boundaries and laws of the scene that meet, in the order of their lists; `None` if none meet.
     pub(crate) fn of(scene: &Scene, meetings: &[(u32, u32)]) -> Option<Self> {
         let surface = |(index, &(boundary, law)): (usize, &(u32, u32))| {
             AtSurface::of(scene, index, (&scene.boundaries[boundary as usize], law as usize))

@@ -1,4 +1,4 @@
-//! Which pairs are bonded at the start, and bond laws that bond nobody then.
+//! Which pairs are bonded at the start, and bond laws that bond no pair then.
 
 use super::finding::Finding;
 use crate::bond::creation::Moment;
@@ -36,13 +36,13 @@ impl<'a> Bonded<'a> {
     }
 }
 
-/// Bond laws that bond nobody at the start, though that is when they bond.
+/// Reports bond laws that bond no pair at the start, although they make their bonds then.
 pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
     let waiting = |bond: &&Bond| bond.create.bonds_near_pairs(&Moment::START);
     scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
 }
 
-/// Whether this law bonds nobody to its plane.
+/// Whether this law bonds no particle to its plane.
 fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
     let plane = scene.boundaries.get(plane.index())?.shape.plane()?;
     let members = scene.particles.iter().filter(|particle| bond.between.contains(&particle.set));
@@ -57,7 +57,7 @@ fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex
     Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
 }
 
-/// Whether this law bonds nobody.
+/// Whether this law bonds no pair.
 fn idle_law(scene: &Scene, bond: &Bond) -> Option<Finding> {
     let distance = bond.create_distance?;
     if let Some(plane) = bond.plane {

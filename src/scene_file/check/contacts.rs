@@ -19,7 +19,7 @@ pub(super) fn materials(written: &RawTables) -> Vec<Material> {
     written.materials.iter().map(material).collect()
 }
 
-/// Where a material stands; reports a name that is none.
+/// The place of a material; reports a name that no material has.
 pub(super) fn material_index(
     materials: &[Material],
     name: &str,

@@ -73,7 +73,7 @@ impl Owners {
         Self { tables: Vec::new(), of: vec![None; born.particles.len()] }
     }
 
-    /// Notes whose the members are; reports one that is somebody's already.
+    /// Notes the owner of the members; reports a member that already has an owner.
     pub(super) fn claim(&mut self, members: &[u32], table: &str, born: &Born, faults: &mut Faults) {
         let taken = members.iter().find_map(|member| self.of[*member as usize].map(|owner| (*member, owner)));
         if let Some((member, owner)) = taken {
