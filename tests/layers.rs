@@ -134,7 +134,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("neighbours", 14),
     ("integration", 6),
     ("batches", 63),
-    ("interactions", 13),
+    ("interactions", 14),
     ("bond_passes", 28),
     ("stability", 2),
     ("fmu", 35),
