@@ -9,13 +9,13 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 SIDE = 0.02  # of the cube [m]
-START = 0.1  # when the plates along z begin to close [s]
+START, END = 0.04, 0.07  # when the plates along z begin to close, and the end [s]
 
 
 def inputs(path, pressure):
     """The course of the plates along z at a pressure [Pa]."""
     force = pressure * SIDE**2
-    rows = [(0.0, force), (START, force), (START + 1e-4, 1e6), (0.25, 1e6)]
+    rows = [(0.0, force), (START, force), (START + 1e-4, 1e6), (END, 1e6)]
     lines = [f"{time},{-force},{force}" for time, force in rows]
     path.write_text("\n".join(["time,z_low.target_force.z,z_high.target_force.z", *lines]) + "\n")
 
@@ -24,11 +24,11 @@ def run(program, folder, seed, pressure):
     """One test; gives the rows of its history by their names."""
     folder.mkdir(parents=True, exist_ok=True)
     inputs(folder / "input.csv", pressure)
-    settings = [f"run.seed={seed}"]
+    settings = [f"run.seed={seed}", f"run.end={END}", "output.history_interval=5e-4"]
     for axis in "xyz":
         for side, sign in (("low", -1), ("high", 1)):
             settings.append(f"boundary.{axis}_{side}.motion.servo.{axis}.target={sign * pressure * SIDE**2!r}")
-    command = [program, "run", HERE / "scene.toml", "--inputs", folder / "input.csv", "-o", folder / "out"]
+    command = [program, "run", HERE / "scene.toml", "--overwrite", "--inputs", folder / "input.csv", "-o", folder / "out"]
     for setting in settings:
         command += ["--set", setting]
     subprocess.run([*map(str, command)], check=True, capture_output=True)

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 from conftest import MODELS, ROOT
 
 
@@ -38,6 +39,26 @@ def test_the_piston_gives_its_expected_numbers(unit, tmp_path):
     subprocess.run(command, check=True, capture_output=True)
     # The same bits everywhere; another order of operations would grow from a last bit to some 1e-7 in this time.
     compare(table(result), table(folder / "expected.csv"), 1e-9)
+
+
+@pytest.mark.parametrize("name", ["piston_load", "triaxial", "wheel"])
+def test_a_model_that_runs_by_itself_begins_as_expected(cograin, name, tmp_path):
+    folder = ROOT / "models" / name
+    expected = table(folder / "expected.csv")
+    inputs = ["--inputs", folder / "input.csv"] if (folder / "input.csv").exists() else []
+    cograin("run", folder / "scene.toml", *inputs, "--set", f"run.end={expected[1][-1, 0]}", "-o", tmp_path / "out")
+    compare(table(tmp_path / "out" / "history.csv"), expected, 1e-9)
+
+
+def test_the_drum_begins_as_expected_and_its_energy_book_closes(request, tmp_path):
+    folder = ROOT / "models" / "drum"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    subprocess.run([*command, "--end", "0.1", "--no-picture"], check=True, capture_output=True)
+    names, rows = table(tmp_path / "couple.csv")
+    compare((names, rows[3::4]), table(folder / "expected.csv"), 1e-9)
+    residual, kinetic = (np.abs(rows[:, names.index(f"energy.{name}")]).max() for name in ("residual", "kinetic"))
+    assert residual < 1e-12 * kinetic, f"{residual:.1e} J of {kinetic:.1e} J"
 
 
 def test_the_loaded_beam_begins_as_expected(request, tmp_path):
