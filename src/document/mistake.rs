@@ -214,10 +214,10 @@ pub enum Mistake {
         /// How many further particles do.
         more: usize,
     },
-    /// A particle whose centre is behind a plane.
+    /// A particle whose centre is behind a plane, or behind the front of a closed mesh.
     #[error(
         "the centre of particle {id} is {depth:.3e} m behind [boundary.{boundary}]{}; \
-         the normal of a plane points towards the particles", and_more(*.more, "particle")
+         its normals point towards the particles", and_more(*.more, "particle")
     )]
     Behind {
         /// The particle.

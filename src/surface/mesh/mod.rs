@@ -2,6 +2,7 @@
 
 mod faults;
 mod files;
+mod side;
 mod topology;
 mod tree;
 
@@ -36,6 +37,8 @@ struct Mesh {
     tree: Tree,
     /// Which side counts.
     sides: Sides,
+    /// Whether it has no rim.
+    closed: bool,
     /// Middle of the box around it \[m\].
     middle: Vector,
 }
@@ -86,12 +89,14 @@ impl Mesh {
         };
         let boxes: Vec<_> = topology.triangles.iter().map(|triangle| around(&places(triangle))).collect();
         let [low, high] = around(&topology.vertices);
-        let front = sides.map_or_else(|| topology.is_closed(), |sides| sides == 1);
+        let closed = topology.is_closed();
+        let front = sides.map_or(closed, |sides| sides == 1);
         Self {
             material,
             tree: Tree::of(&boxes),
             normals,
             sides: if front { Sides::Front } else { Sides::Both },
+            closed,
             middle: (Vector::from(low) + Vector::from(high)) * 0.5,
             topology,
         }
@@ -159,15 +164,6 @@ impl Mesh {
         })
     }
 
-    /// Distance of a centre from a triangle \[m\].
-    fn distance_from(&self, centre: Vector, triangle: usize) -> f64 {
-        if self.is_over(centre, triangle) {
-            return self.height(centre, triangle).abs();
-        }
-        let edges = self.topology.edges_of[triangle].iter();
-        edges.map(|edge| self.on_edge(centre, *edge).distance).fold(f64::INFINITY, f64::min)
-    }
-
     /// The feature of a triangle.
     fn face(&self, triangle: u32) -> u32 {
         (self.topology.vertices.len() + self.topology.edges.len()) as u32 + triangle
@@ -214,7 +210,7 @@ impl Features for Mesh {
     fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>) {
         let before = parts.len();
         self.tree.near(centre, reach, |triangle| {
-            if self.distance_from(centre, triangle as usize) <= reach {
+            if self.distance_from(centre, triangle) <= reach {
                 parts.push(triangle);
             }
         });
@@ -352,8 +348,7 @@ impl Surface for Mesh {
     }
 
     fn distance(&self, centre: Vector) -> Option<f64> {
-        let counting = (0..self.topology.triangles.len()).filter(|place| self.counts(centre, *place as u32));
-        counting.map(|triangle| self.distance_from(centre, triangle)).reduce(f64::min)
+        self.signed_distance(centre)
     }
 
     fn reference(&self) -> Option<[f64; 3]> {
