@@ -74,6 +74,17 @@ impl Simulation {
         bonds.map(|pass| pass.elastic_energy(&self.state)).sum()
     }
 
+    /// Elastic energy of the contacts without what their springs hold, of laws whose normal force remembers nothing \[J\].
+    pub fn pressing_energy(&self) -> f64 {
+        let mut state = self.state.clone();
+        let contacts = state.contacts.iter_mut().map(|list| &mut list.history);
+        for row in contacts.chain(state.walls.iter_mut().map(|list| &mut list.history)).flatten() {
+            row.fill([0.0; 4]);
+        }
+        let touching = self.passes.iter().filter(|pass| pass.source() != Source::Bonds);
+        touching.map(|pass| pass.elastic_energy(&state)).sum()
+    }
+
     /// Both at once.
     pub fn elastic_energies(&self) -> ElasticEnergy {
         let mut sum = ElasticEnergy::default();

@@ -106,10 +106,8 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let errors = theirs.as_ref().map(|theirs| Errors::between(&case, theirs, &run.samples, &measure));
     let links = theirs.as_ref().zip(history.as_ref());
     let links = links.map(|(theirs, history)| LinkErrors::between(&case, theirs, history, &run.samples, &measure));
-    let surfaces = Surfaces::read(&folder.join("boundary_rule.csv"))?.map(|theirs| {
-        let [.., force, torque] = measure.allowed;
-        SurfaceErrors::between(&case, &theirs, &run.samples, [force, torque])
-    });
+    let surfaces = Surfaces::read(&folder.join("boundary_rule.csv"))?
+        .map(|theirs| SurfaceErrors::between(&case, &theirs, &run.samples, measure.allowed));
     Ok(Report { name, errors, links, surfaces, stopped: run.stopped })
 }
 

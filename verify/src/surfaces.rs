@@ -1,4 +1,5 @@
-//! `boundary_rule.csv`: force and moment of the particles on each surface, as an independent program has them.
+//! `boundary_rule.csv`: the energy, and force and moment of the particles on each surface, as an independent program has
+//! them.
 
 use super::case::Case;
 use super::compare::{distance, length};
@@ -17,10 +18,13 @@ const BEFORE: usize = 3;
 /// Columns of a surface.
 const EACH: usize = 6;
 
+/// A step of the record: its number, the energy \[J\] and the surfaces.
+type Row = (u64, f64, Vec<OnSurface>);
+
 /// The record of another program.
 pub(super) struct Surfaces {
-    /// The surfaces at each step.
-    rows: Vec<(u64, Vec<OnSurface>)>,
+    /// Step by step.
+    rows: Vec<Row>,
 }
 
 impl Surfaces {
@@ -38,33 +42,42 @@ impl Surfaces {
                 return Err(VerifyError::Samples { path: path.to_path_buf(), line, message });
             }
             let surface = |of: &[f64]| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
-            Ok((numbers[0] as u64, numbers[BEFORE..].chunks_exact(EACH).map(surface).collect()))
+            Ok((numbers[0] as u64, numbers[BEFORE - 1], numbers[BEFORE..].chunks_exact(EACH).map(surface).collect()))
         });
         Ok(Some(Self { rows: rows.collect::<Result<_, _>>()? }))
     }
 }
 
-/// Largest errors of force and moment on the surfaces of a case, over the largest of each, and what they may be.
+/// Largest errors of force and moment on the surfaces of a case and of its energy, over the largest of each, and what they
+/// may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceErrors {
-    /// Of force and of moment.
-    pub found: [f64; 2],
+    /// Of force, of moment, of energy.
+    pub found: [f64; 3],
     /// What passes.
-    pub allowed: [f64; 2],
+    pub allowed: [f64; 3],
 }
 
 impl SurfaceErrors {
-    /// Compares with the record at the steps that were kept; `allowed` are the errors of force and torque that pass.
-    pub(super) fn between(case: &Case, theirs: &Surfaces, ours: &[Sample], allowed: [f64; 2]) -> Self {
-        let (mut found, mut scales) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for (step, surfaces) in &theirs.rows {
-            let Some(sample) = ours.iter().find(|sample| sample.step == *step) else { continue };
+    /// Compares with the record at the steps that were kept, all of which it must have; `allowed` are the errors that pass of position,
+    /// velocity, angular velocity, force and torque.
+    pub(super) fn between(case: &Case, theirs: &Surfaces, ours: &[Sample], allowed: [f64; 5]) -> Self {
+        let (mut found, mut scales) = ([0.0_f64; 3], [0.0_f64; 3]);
+        let mut note = |part: usize, error: f64, size: f64| {
+            found[part] = if error.is_nan() { f64::INFINITY } else { found[part].max(error) };
+            scales[part] = scales[part].max(size);
+        };
+        for sample in ours {
+            let Some((_, energy, surfaces)) = theirs.rows.iter().find(|(step, ..)| *step == sample.step) else {
+                note(0, f64::INFINITY, 0.0);
+                continue;
+            };
+            note(2, (sample.energy - energy).abs(), energy.abs());
             for (number, theirs) in surfaces.iter().enumerate() {
                 for part in 0..2 {
-                    let error =
-                        sample.surfaces.get(number).map_or(f64::INFINITY, |ours| distance(ours[part], theirs[part]));
-                    found[part] = if error.is_nan() { f64::INFINITY } else { found[part].max(error) };
-                    scales[part] = scales[part].max(length(theirs[part]));
+                    let ours = sample.surfaces.get(number);
+                    let error = ours.map_or(f64::INFINITY, |ours| distance(ours[part], theirs[part]));
+                    note(part, error, length(theirs[part]));
                 }
             }
         }
@@ -72,10 +85,11 @@ impl SurfaceErrors {
         let radius = case.particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
         scales[1] = scales[1].max(scales[0] * radius);
         let share = |part: usize| if scales[part] > 0.0 { found[part] / scales[part] } else { found[part] };
-        Self { found: [share(0), share(1)], allowed: [allowed[0], allowed[0].max(allowed[1])] }
+        let most = |of: &[f64]| of.iter().copied().fold(0.0, f64::max);
+        Self { found: [0, 1, 2].map(share), allowed: [allowed[3], most(&allowed[3..]), most(&allowed)] }
     }
 
-    /// Whether both are allowed.
+    /// Whether all are allowed.
     pub fn passed(&self) -> bool {
         self.found.iter().zip(&self.allowed).all(|(found, allowed)| found <= allowed)
     }
@@ -83,6 +97,7 @@ impl SurfaceErrors {
 
 impl fmt::Display for SurfaceErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "surfaces {:.1e} {:.1e}", self.found[0], self.found[1])
+        let [force, moment, energy] = self.found;
+        write!(formatter, "surfaces {force:.1e} {moment:.1e}, energy {energy:.1e}")
     }
 }

@@ -20,6 +20,9 @@ pub(super) struct Sample {
     pub(super) bonds: Vec<BondRecord>,
     /// Loads on the boundaries, in the order of the case's walls.
     pub(super) surfaces: Vec<OnSurface>,
+    /// Kinetic energy, that of contacts without their springs, and that in the field of gravity, 0 at the origin \[J\]; 0 in a case without
+    /// surfaces.
+    pub(super) energy: f64,
 }
 
 /// What a run left.
@@ -134,5 +137,14 @@ fn observe(case: &Case, simulation: &Simulation, step: u64) -> Sample {
         [moved.force, [u + y * c - z * b, v + z * a - x * c, w + x * b - y * a]]
     };
     let surfaces = simulation.state().boundaries.iter().map(about_origin).collect();
-    Sample { step, rows, bonds, surfaces }
+    let energy = if case.walls.is_empty() { 0.0 } else { energy(case, simulation) };
+    Sample { step, rows, bonds, surfaces, energy }
+}
+
+/// Kinetic energy, that of contacts without their springs, and that in the field of gravity \[J\].
+fn energy(case: &Case, simulation: &Simulation) -> f64 {
+    let particles = &simulation.state().particles;
+    let height = |place: &[f64; 4]| (0..3).map(|axis| case.gravity[axis] * place[axis]).sum::<f64>();
+    let field = particles.position.iter().zip(&particles.velocity).map(|(place, motion)| motion[3] * height(place));
+    simulation.kinetic_energy() + simulation.pressing_energy() - field.sum::<f64>()
 }
