@@ -30,6 +30,8 @@ class Scene(NamedTuple):
     wide: float = 1.0  # how far the wall at high x stands away, over the width of the packing
     factor: float = 1.0  # time step over STEP
     bonds: str = ""  # formulation, in the bonded block
+    facet: float = 0.0  # edge of the facets of the walls [m]; 0: they are planes
+    moving: bool = False  # whether walls of facets swing
     peers: tuple = ()  # those that can run it
 
 
@@ -40,6 +42,7 @@ SCENES = [
     Scene("s2_20k", (100, 1100), rolling=True, peers=("liggghts", "lammps")),
     Scene("s3_incremental", (100, 1100), bonds="incremental", peers=("lammps", "yade")),
     Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation", peers=("lammps", "yade")),
+    Scene("s1_20k_mesh", (100, 1100), facet=4.5e-3, peers=("liggghts",)),
     Scene("s4_20k", (500, 5500), wide=3.0, factor=2.0, peers=("liggghts", "lammps", "yade")),
 ]
 
@@ -94,13 +97,13 @@ def cograin(scene, steps, threads, folder):
     text += f"threads = {threads}\n[material.grain]\nyoungs_modulus = {YOUNGS_MODULUS!r}\n"
     text += f"poissons_ratio = {POISSONS_RATIO}\ndensity = {DENSITY}\n"
     text += '[particles.bed]\nmaterial = "grain"\nfile = "bed.csv"\n'
-    text += cograin_bonds(scene) if scene.bonds else cograin_contacts(scene)
+    text += cograin_bonds(scene) if scene.bonds else cograin_contacts(scene, folder)
     text += f"[output]\nhistory_interval = {steps * step!r}\n"
     (folder / f"{steps}.toml").write_text(text)
     return ["run", f"{steps}.toml", "-o", "out"]
 
 
-def cograin_contacts(scene):
+def cograin_contacts(scene, folder):
     """Contact law and walls."""
     text = f"[pair.grain.grain]\nrestitution = {RESTITUTION}\nfriction = {FRICTION}\n"
     if scene.rolling:
@@ -112,8 +115,38 @@ def cograin_contacts(scene):
         for name, place, sign in (("low", low, 1.0), ("high", high, -1.0)):
             point = [place if other == axis else 0.0 for other in "xyz"]
             normal = [sign if other == axis else 0.0 for other in "xyz"]
-            text += f"[boundary.{axis}_{name}]\nplane = {{ point = {point}, normal = {normal} }}\nmaterial = \"grain\"\n"
+            shape = f"plane = {{ point = {point}, normal = {normal} }}"
+            if scene.facet:
+                facets(folder / f"{axis}_{name}.stl", scene, "xyz".index(axis), place)
+                shape = f'mesh = {{ file = "{axis}_{name}.stl" }}'
+            text += f'[boundary.{axis}_{name}]\n{shape}\nmaterial = "grain"\n'
+            if scene.moving:
+                text += f"motion = {{ prescribed = {{ {axis} = {{ sine = {{ amplitude = 1e-6, frequency = 100.0 }} }} }} }}\n"
     return text
+
+
+def facets(path, scene, axis, place):
+    """A wall as an STL file: rectangles of about the edge of the scene's facets, each two triangles."""
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    walls = box(scene)
+
+    def steps(along):
+        low, high = walls[along]
+        count = max(1, round((high - low) / scene.facet))
+        return [low + (high - low) * number / count for number in range(count + 1)]
+
+    def corner(one, other):
+        at = [place] * 3
+        at[first], at[second] = one, other
+        return "vertex " + " ".join(map(repr, at))
+
+    lines = ["solid wall"]
+    ones, others = steps(first), steps(second)
+    for a, b in zip(ones, ones[1:]):
+        for c, d in zip(others, others[1:]):
+            for corners in (((a, c), (b, c), (b, d)), ((a, c), (b, d), (a, d))):
+                lines += ["facet normal 0 0 0", "outer loop", *(corner(*at) for at in corners), "endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid wall", ""]))
 
 
 def cograin_bonds(scene):
@@ -163,9 +196,17 @@ def liggghts(scene, steps, _threads, folder):
     for number, (name, kind, value) in enumerate(properties):
         text += f"fix m{number} all property/global {name} {kind} {value}\n"
     text += f"pair_style gran {style}\npair_coeff * *\n"
+    meshes = []
     for axis, ends in zip("xyz", box(scene)):
         for name, place in zip(("lo", "hi"), ends):
-            text += f"fix w{axis}{name} all wall/gran {style} primitive type 1 {axis}plane {place!r}\n"
+            if scene.facet:
+                meshes.append(f"{axis}{name}")
+                facets(folder / f"{axis}{name}.stl", scene, "xyz".index(axis), place)
+                text += f"fix {axis}{name} all mesh/surface file {axis}{name}.stl type 1\n"
+            else:
+                text += f"fix w{axis}{name} all wall/gran {style} primitive type 1 {axis}plane {place!r}\n"
+    if meshes:
+        text += f"fix walls all wall/gran {style} mesh n_meshes {len(meshes)} meshes {' '.join(meshes)}\n"
     text += f"fix g all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\ntimestep {time_step(scene)!r}\n"
     text += f"thermo {steps}\nthermo_style custom step atoms ke\nrun {steps}\n"
     (folder / f"{steps}.lig").write_text(text)
