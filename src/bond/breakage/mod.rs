@@ -1,8 +1,8 @@
-//! When a bond breaks. One rule a file and a row in the list below.
+//! When a bond breaks. Each rule is one file and one row in the list below.
 //!
-//! A scene may name several rules; each looks at every bond, and the first of the list that holds names the cause. A rule's
-//! file has its keys with their check, its numbers, what it asks of a bond, and the causes that it reports; its row makes
-//! it part of `[bond.<name>.breakage]`. Nothing else knows of a rule.
+//! A scene may name several rules. Each is applied to every bond, and the first of the list that is fulfilled names the
+//! cause. The file of a rule has its keys with their check, its numbers, its condition, and the causes that it reports; its
+//! row makes it part of `[bond.<name>.breakage]`. No other code knows the rule.
 
 pub mod distance;
 mod keys;
@@ -27,19 +27,19 @@ breakage_rules! {
 pub trait Breakage: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// What the scene writes of it.
     type Keys: KeysOf;
-    /// The keys of which at least one makes the rule look at anything.
+    /// The keys of which at least one must be given for the rule to act.
     const LIMITS: &'static [&'static str];
     /// The causes that it reports, by their names in `breakage.csv`.
     const CAUSES: &'static [&'static str];
     /// The rule that the keys mean for a bond of this formulation, if they name this one at all.
     fn of(own: &Self::Keys, formulation: FormulationChoice) -> Option<Self>;
-    /// What the keys, or these beside those of the other rules, say that cannot be, each with its key below `breakage`.
+    /// Reports contradictions among the keys, or with those of the other rules, each with its key below `breakage`.
     fn check(own: &Self::Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>);
-    /// 0 where the bond holds, else the place of its cause in [`Breakage::CAUSES`], from 1.
+    /// 0 if the bond holds, else the place of its cause in [`Breakage::CAUSES`], from 1.
     fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N;
 }
 
-/// A bond under its load, without damping, at the end of a time step: what a rule looks at.
+/// A bond under its load, without damping, at the end of a time step: the input of a rule.
 #[derive(Clone, Copy, Debug)]
 pub struct Loaded<N: Number = f64> {
     /// Distance of the centres, at a plane that of the centre from the foot \[m\].
@@ -93,8 +93,8 @@ impl<N: Number> Loaded<N> {
         Stress { mean, pressure: mean * sign, bending, shear: self.shear.length() * per_area + torsion, torsion }
     }
 
-    /// Normal stress at the rim: mean and bending, the mean of a compressed bond times this share (1 where compression
-    /// breaks, −1 where it relieves) \[Pa\].
+    /// Normal stress at the rim: mean and bending, the mean of a compressed bond times this share (1 if compression
+    /// breaks, −1 if it relieves) \[Pa\].
     #[inline(always)]
     pub fn normal_stress(&self, stress: &Stress<N>, compression_share: N) -> N {
         let compressed = self.compression.greater(N::zero());

@@ -1,4 +1,4 @@
-//! When bonds are made. One way a file and a row in the list below; and what the contact law does between bonded bodies.
+//! When bonds are made: each way is one file and one row in the list below. And what the contact law does between bonded bodies.
 
 mod always;
 mod contact_policy;
@@ -25,7 +25,7 @@ macro_rules! creations {
         }
 
         impl Creation {
-            /// Whether near pairs are bonded at this moment. Listed pairs are not looked for by distance.
+            /// Whether near pairs are bonded at this moment. Listed pairs are not searched by distance.
             pub fn bonds_near_pairs(&self, moment: &Moment) -> bool {
                 match self { $(Self::$row $(($value))? => $file::Way::bonds_near_pairs(($($value,)?), moment),)+ }
             }
@@ -35,12 +35,12 @@ macro_rules! creations {
                 match self { $(Self::$row $(($value))? => $file::Way::due(($($value,)?)),)+ }
             }
 
-            /// Whether near pairs are looked for in every step.
+            /// Whether near pairs are searched in every step.
             pub fn is_continual(&self) -> bool {
                 match self { $(Self::$row { .. } => $file::Way::IS_CONTINUAL,)+ }
             }
 
-            /// The pairs that are bonded before the first step, where they are listed.
+            /// The pairs that are bonded before the first step, if they are listed.
             pub fn listed(&self) -> Option<Listed<'_>> {
                 match self { $(Self::$row $(($value))? => $file::Way::listed(($($value,)?)),)+ }
             }
@@ -70,9 +70,9 @@ creations! {
 
 /// A way to make bonds.
 trait CreationWay {
-    /// What the scene writes of it: nothing, or one value.
+    /// The type that the scene writes for it: nothing, or one value.
     type Value<'a>;
-    /// Whether near pairs are looked for in every step.
+    /// Whether near pairs are searched in every step.
     const IS_CONTINUAL: bool = false;
     /// Whether near pairs are bonded at this moment.
     fn bonds_near_pairs(value: Self::Value<'_>, moment: &Moment) -> bool;
@@ -80,7 +80,7 @@ trait CreationWay {
     fn due(_value: Self::Value<'_>) -> Due {
         Due::AtStart
     }
-    /// The pairs that are bonded before the first step, where they are listed.
+    /// The pairs that are bonded before the first step, if they are listed.
     fn listed(_value: Self::Value<'_>) -> Option<Listed<'_>> {
         None
     }

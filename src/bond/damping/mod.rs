@@ -1,6 +1,6 @@
-//! Damping of bonds: force and torque added to the elastic ones. One model a file and a row in the list below.
+//! Damping of bonds: force and torque added to the elastic ones. Each model is one file and one row in the list below.
 //!
-//! The bond's own state and its breakage do not see damping.
+//! Damping changes neither the state of the bond nor its breakage.
 
 pub mod componentwise;
 pub mod opposing;
@@ -51,11 +51,11 @@ damping_models! {
     Smooth: componentwise::Smooth,
 }
 
-/// What the scene says of a damping model.
+/// The keys of a damping model in a scene.
 pub trait Model {
-    /// What stands in its table.
+    /// The type of the values in its table.
     type Keys: Copy + std::fmt::Debug + PartialEq + for<'de> Deserialize<'de>;
-    /// What it computes. Models that differ in their numbers alone share it.
+    /// The type that computes it. Models that differ in their numbers alone share one.
     type Form: Damping;
     /// Why it needs a given time step, if it does.
     const NEEDS_GIVEN_STEP: Option<&'static str> = None;
@@ -67,9 +67,9 @@ pub trait Model {
 
 /// A damping model, in numbers.
 pub trait Damping: Copy + std::fmt::Debug + Send + Sync + 'static {
-    /// Whether it looks at masses and moments of inertia.
+    /// Whether it uses masses and moments of inertia.
     const NEEDS_MASSES: bool;
-    /// What it adds to a bond that moves like this.
+    /// The damping of a bond with this motion.
     fn damp<N: Number>(
         &self,
         law: &Coefficients<N>,
@@ -77,13 +77,13 @@ pub trait Damping: Copy + std::fmt::Debug + Send + Sync + 'static {
         motion: &Motion<N>,
         elastic: &Elastic<N>,
     ) -> Damped<N>;
-    /// What it is to the stable time step: stiffness of each part with what damping adds to it at most \[N/m, N m\], and
+    /// Its part in the stable time step: stiffness of each part with the most that damping adds to it \[N/m, N m\], and
     /// dashpots \[kg/s, N m s\].
     fn linear(&self, pair: &Pair, stiffness: Parts) -> [Parts; 2];
 }
 
-/// A damping that opposes the motion by a share of each part: where the motion changes its sign in every step, which is
-/// the mode that grows first, the load on the way out is larger by that share.
+/// A damping that opposes the motion by a share of each part. In the mode that grows first, the motion changes its sign in
+/// every step, and the load on the way out is larger by that share.
 fn by_share(shares: &Parts, stiffness: Parts) -> [Parts; 2] {
     [std::array::from_fn(|part| stiffness[part] * (1.0 + shares[part])), [0.0; 4]]
 }
@@ -109,7 +109,7 @@ pub struct Damped<N: Number> {
     pub bending: Vector<N>,
 }
 
-/// What damping does to two bodies.
+/// Force and torques of damping on two bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct DampingLoad<N: Number = f64> {
     /// Force on i; j gets the opposite \[N\].
@@ -121,7 +121,7 @@ pub struct DampingLoad<N: Number = f64> {
 }
 
 impl<N: Number> Damped<N> {
-    /// What it comes to for the two bodies.
+    /// The resulting loads on the two bodies.
     #[inline(always)]
     pub fn load(&self, pair: &Pair<N>, motion: &Motion<N>) -> DampingLoad<N> {
         let couple = self.shear.cross(motion.axis) * motion.distance;
@@ -141,11 +141,11 @@ impl<N: Number> DampingLoad<N> {
         Self { force: Vector::zero(), torque_i: Vector::zero(), torque_j: Vector::zero() }
     }
 
-    /// Energy that it takes of bodies that move like this in half a time step of this length \[s\]: half a step with the
+    /// Energy that it takes from bodies with this motion in half a time step of this length \[s\]: half a step with the
     /// velocities after its evaluation, or half a step with those before \[J\].
     ///
     /// A force acts half a step before its evaluation and half a step after it. What it takes is booked with the
-    /// velocities of both sides, as the integrator does, so that the book holds where damping turns a motion round.
+    /// velocities of both sides, as the integrator does, so that the book holds even if damping reverses a motion.
     #[inline(always)]
     pub fn taken(&self, pair: &Pair<N>, step: N) -> N {
         let turning = self.torque_i.dot(pair.spin_i) + self.torque_j.dot(pair.spin_j);

@@ -1,5 +1,5 @@
-//! How elastic force and moments follow from the motion of two bonded bodies. One formulation a file and a row in the
-//! list below.
+//! How elastic force and moments follow from the motion of two bonded bodies. Each formulation is one file and one row in
+//! the list below.
 
 pub mod engine_exact;
 pub mod finite_rotation;
@@ -57,12 +57,12 @@ impl FormulationChoice {
     }
 }
 
-/// What is asked of a formulation beyond force and moments.
+/// What a law needs of a formulation beyond force and moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// That it relaxes.
+    /// Relaxation.
     pub relaxation: bool,
-    /// That it finds the rates, which damping looks at.
+    /// The rates, which damping uses.
     pub rates: bool,
 }
 
@@ -78,15 +78,15 @@ pub trait TakeFormulation {
 pub trait Formulation: Send + Sync + 'static {
     /// Rows of state.
     const ROWS: usize;
-    /// What each row holds, place by place: saved states are told apart by it, so it changes with the meaning of a row.
+    /// What each row holds, place by place. It identifies saved states, so it must change with the meaning of a row.
     const REMEMBERED: &'static str;
-    /// How many of them, from the first, no evaluation changes.
+    /// How many of the first rows stay constant.
     const FIXED_ROWS: usize;
     /// Whether bodies need an orientation.
     const NEEDS_ORIENTATIONS: bool;
-    /// Whether [`Elastic::relaxed`] says anything.
+    /// Whether [`Elastic::relaxed`] can differ from 0.
     const RELAXES: bool;
-    /// The rates that it finds, for itself or for damping.
+    /// The rates that it computes, for itself or for damping.
     const RATES: Rates;
     /// How many numbers [`Formulation::halfway`] gives.
     const HALFWAY: usize = 0;
@@ -95,13 +95,13 @@ pub trait Formulation: Send + Sync + 'static {
     /// [`Coefficients::step`], 0 before the first) still counts: the evaluation that follows has it.
     fn create<N: Number>(law: &Coefficients<N>, pair: &Pair<N>) -> Rows<N>;
 
-    /// What comes before a division that the rest waits for, and the quotient.
+    /// The part of the evaluation before a division for which the rest waits, and the quotient.
     #[inline(always)]
     fn halfway<N: Number>(_pair: &Pair<N>, _distance: N, _rows: &Rows<N>) -> Halfway<N> {
         [N::zero(); MOST_HALFWAY]
     }
 
-    /// Force, torques and new state, after that.
+    /// The rest of the evaluation: force, torques and new state.
     fn finish<N: Number>(
         law: &Coefficients<N>,
         pair: &Pair<N>,
@@ -119,7 +119,7 @@ pub trait Formulation: Send + Sync + 'static {
     }
 }
 
-/// What relaxation takes from the energies of the four parts, of whose force these shares are left.
+/// Energy that relaxation takes from the four parts, if these shares of their forces are left.
 #[inline(always)]
 fn relaxation_loss<N: Number>(left: Parts<N>, before: Parts<N>) -> N {
     let mut lost = N::zero();

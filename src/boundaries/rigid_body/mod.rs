@@ -1,4 +1,4 @@
-//! Boundaries as rigid bodies: what they weigh, and how forces move their free axes.
+//! Boundaries as rigid bodies: their mass and inertia, and how forces move their free axes.
 
 mod groups;
 mod kick;
@@ -16,7 +16,7 @@ use crate::state::{BoundaryState, Orientation};
 /// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
 const ITERATIONS: usize = 40;
 
-/// Change of an angular velocity, over its length, that is no change.
+/// Change of an angular velocity, over its length, below which the iteration ends.
 const STANDS: f64 = 4.0 * f64::EPSILON;
 
 /// How a body turns.
@@ -24,9 +24,9 @@ const STANDS: f64 = 4.0 * f64::EPSILON;
 pub(crate) enum Turning {
     /// It does not.
     Still,
-    /// As the outside or the scene says.
+    /// As the host or the scene says.
     Led,
-    /// By the moment about this axis through the reference point, held against the others.
+    /// By the moment about this axis through the reference point; it does not turn about the others.
     About(usize),
     /// As a free body.
     Freely,
@@ -161,7 +161,7 @@ impl RigidBody {
         }
     }
 
-    /// Whether stiff contacts add to its inertia: a surface may be far lighter than what touches it.
+    /// Whether stiff contacts add to its inertia, because a surface may be far lighter than the particles that touch it.
     pub(crate) fn is_implicit(&self) -> bool {
         self.members.is_empty() && self.is_free()
     }
@@ -177,7 +177,7 @@ impl RigidBody {
         [x, y, z, a, b, c]
     }
 
-    /// Puts what springs and dashpots to the ground do.
+    /// Sets the loads of springs and dashpots to the ground.
     pub(crate) fn support(&self, moved: &mut BoundaryState) {
         let places = [moved.displacement, moved.rotation].concat();
         let rates = [moved.velocity, moved.angular_velocity].concat();
@@ -186,7 +186,7 @@ impl RigidBody {
         }
     }
 
-    /// Starts a sum of what resists its motion: springs and dashpots to the ground.
+    /// Starts the sum of what resists its motion with springs and dashpots to the ground.
     pub(crate) fn supports(&self) -> [Triangle; 2] {
         [self.stiffness, self.damping].map(|parts| {
             let mut block = [0.0; 21];

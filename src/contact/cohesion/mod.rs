@@ -1,4 +1,4 @@
-//! Cohesion sub-models, one a file.
+//! Cohesion sub-models, each in a file of its own.
 
 pub mod attraction;
 pub mod none;

@@ -1,4 +1,4 @@
-//! Normal sub-models, one a file.
+//! Normal sub-models, each in a file of its own.
 
 pub mod dmt;
 pub mod eepa;
@@ -28,7 +28,7 @@ choices! {
 }
 
 impl NormalChoice {
-    /// What the damping of sticky elastic spheres follows, where it is one of their models.
+    /// What the damping follows, if the model is one of the adhesive elastic spheres.
     pub fn sticky(&self) -> Option<sticky::DampingKind> {
         match self {
             Self::Dmt(keys) | Self::Jkr(keys) => Some(keys.damping),

@@ -1,4 +1,4 @@
-//! Rolling sub-models, one a file.
+//! Rolling sub-models, each in a file of its own.
 
 pub mod cdt;
 pub mod epsd;

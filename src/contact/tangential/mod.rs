@@ -1,4 +1,4 @@
-//! Tangential sub-models, one a file.
+//! Tangential sub-models, each in a file of its own.
 
 pub mod history;
 pub mod no_history;

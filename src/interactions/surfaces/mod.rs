@@ -1,7 +1,7 @@
 //! Contacts of particles with surfaces: one pass for all surfaces of a scene.
 //!
-//! The surfaces are worked on together, pieces of the particles side by side: a particle gets the loads of all surfaces from
-//! one thread, in their order, and what a piece needs is where the contacts of its particles were worked on. A surface alone
+//! All surfaces are evaluated together, in pieces of the particles. A particle gets the loads of all surfaces from
+//! one thread, in their order, and that thread has the particles of the piece in its cache. A surface alone
 //! has too few particles for several threads. Loads on a surface are summed piece by piece, in order.
 
 mod features;
@@ -37,7 +37,7 @@ const PIECE: usize = 2 * CHUNK;
 pub(crate) struct SurfacePass {
     /// The surfaces, in the order of their lists.
     surfaces: Vec<AtSurface>,
-    /// Room for a step.
+    /// Working space of a step.
     room: Mutex<Room>,
 }
 
@@ -53,9 +53,9 @@ pub(super) struct AtSurface {
     material: u32,
     /// Point about which the moment is taken, at time 0 \[m\].
     reference: Vector,
-    /// How its surface runs in itself where it lies along this, in its own axes \[m/s\].
+    /// Velocity of a conveying surface where it lies along this vector, in its own axes \[m/s\].
     conveying: Vector,
-    /// Rows that are kept of each contact.
+    /// Rows that are stored for each contact.
     kept_rows: usize,
     /// Coefficients of the law.
     table: CoefficientTable,
@@ -63,7 +63,7 @@ pub(super) struct AtSurface {
     law: BatchLaw,
 }
 
-/// What is touched of a surface.
+/// What particles touch of a surface.
 enum Touched {
     /// A plane that does not turn, as it is at time 0.
     Plane(Plane),
@@ -71,12 +71,12 @@ enum Touched {
     Features(Shape),
 }
 
-/// What a step needs, kept from one to the next.
+/// Working space of a step, kept from one step to the next.
 #[derive(Default)]
 struct Room {
-    /// What the lists keep.
+    /// What the lists store.
     entries: Vec<Entries>,
-    /// What each piece does to each surface, piece by piece.
+    /// Loads of each piece on each surface, piece by piece.
     loads: Vec<Load>,
     /// Contacts with features, of each piece and each surface.
     contacts: Vec<FeatureContacts>,
@@ -86,7 +86,7 @@ struct Room {
 struct Work<'a> {
     /// Lists.
     walls: &'a [WallContacts],
-    /// What they keep.
+    /// What they store.
     entries: &'a [Entries],
     /// Boundaries.
     boundaries: &'a [BoundaryState],
@@ -131,7 +131,7 @@ impl AtSurface {
         self.table.row(state.particles.material[slot as usize], self.material)
     }
 
-    /// What the particles in a range of slots do to it. Ranges worked on at the same time do not overlap.
+    /// Loads of the particles in a range of slots on it. Ranges that are evaluated at the same time do not overlap.
     fn piece(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let list = &work.walls[self.index];
         let boundary = &work.boundaries[list.boundary as usize];
@@ -153,7 +153,7 @@ impl AtSurface {
         }
     }
 
-    /// Works on a piece of a list.
+    /// Evaluates a piece of a list.
     fn run<B: Bodies<Sum = Load>>(&self, batches: &Batches<B>, entries: Range<usize>) -> Load {
         let Range { start, end } = entries;
         if self.law.books() {
@@ -163,7 +163,7 @@ impl AtSurface {
         batches.run(start, end, 0..0)
     }
 
-    /// A list to be worked on in batches.
+    /// A list that is evaluated in batches.
     fn batches<B>(&self, bodies: B, entries: Entries, context: &Context) -> Batches<'_, B> {
         Batches {
             bodies,
@@ -176,7 +176,7 @@ impl AtSurface {
         }
     }
 
-    /// Adds to its boundary what the pieces did to it, in order.
+    /// Adds the loads of the pieces to its boundary, in order.
     fn book<'a>(&self, state: &mut State, loads: impl Iterator<Item = &'a Load>) -> Result<(), RunError> {
         let boundary = &mut state.boundaries[state.walls[self.index].boundary as usize];
         let mut behind = None;

@@ -1,4 +1,4 @@
-//! From tables, each right in itself, to a scene that is right as a whole.
+//! Checks across tables: from tables that are right by themselves to a scene that is right as a whole.
 
 mod body;
 mod bonded_pairs;
@@ -70,7 +70,7 @@ pub(super) fn scene(
     faults.finish().map(|()| scene)
 }
 
-/// Reports what was found in the scene at the line of the table as the text has it.
+/// Reports a mistake in the scene, at the line of its table in the text.
 fn report(finding: Finding, document: &Document, faults: &mut Faults) {
     let Finding { mut table, key, otherwise, mistake } = finding;
     if !document.has(&table)

@@ -48,7 +48,7 @@ pub(in crate::scene_file) struct RunTable {
     pub(in crate::scene_file) safety: Option<Safety>,
     /// How accurate.
     pub(in crate::scene_file) accuracy: Option<Accuracy>,
-    /// How springs and dashpots of contacts go on in time.
+    /// How springs and dashpots of contacts are integrated in time.
     pub(in crate::scene_file) scheme: Option<Scheme>,
     /// Whether a given step above the stable one may run on.
     pub(in crate::scene_file) allow_unstable: Option<bool>,
@@ -82,9 +82,9 @@ pub(in crate::scene_file) struct MaterialTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene_file) struct ContactTable {
-    /// For whom; absent: for all.
+    /// The pairs of materials; absent: all.
     pub(in crate::scene_file) between: Option<Between>,
-    /// Whether the normal force is kept from pulling.
+    /// Whether the normal force is limited so that it never pulls.
     #[serde(default)]
     pub(in crate::scene_file) limit_force: bool,
     /// Whether the tangential dashpot acts.
@@ -107,7 +107,7 @@ pub(in crate::scene_file) struct ContactTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene_file) struct DampingTable {
-    /// Whom; absent: all.
+    /// The particles; absent: all.
     pub(in crate::scene_file) particles: Option<Selection>,
     /// Fraction of the force.
     pub(in crate::scene_file) linear: Fraction,
@@ -137,9 +137,9 @@ pub(in crate::scene_file) struct ScaleTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene_file) struct ForceTable {
-    /// On whom.
+    /// The particles.
     pub(in crate::scene_file) particles: Selection,
-    /// On each \[N\].
+    /// Force on each \[N\].
     pub(in crate::scene_file) force: Triple,
 }
 

@@ -1,8 +1,8 @@
 //! A state that another scene has reached, as the start of this one: stages of a protocol.
 //!
-//! What belongs to the particles goes with them, by their numbers: position, motion, orientation, springs of contacts, bonds.
-//! Boundaries of the same name stay where they are. What governs all this is the new scene's: materials, laws, motions, books.
-//! If the new scene differs from the other one only in when it ends and what it writes, the state goes on bit for bit.
+//! The particles, found by their ids, keep what belongs to them: position, motion, orientation, springs of contacts, bonds.
+//! Boundaries of the same name stay where they are. The new scene determines all the rest: materials, laws, motions, books.
+//! If it differs from the other one only in its end and its outputs, the run continues bit for bit.
 
 mod description;
 mod history;
@@ -40,8 +40,8 @@ impl Numbers {
 }
 
 impl Simulation {
-    /// The scene in a state that another scene has reached, and what of that state could not be taken along. A state from
-    /// outside has been looked through by [`Description::check`].
+    /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
+    /// outside has been checked by [`Description::check`].
     pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
         let numbers = Numbers::of(&scene, from);
         let mut state = assemble::state(&scene);
@@ -70,7 +70,7 @@ impl Simulation {
     }
 }
 
-/// Puts the particles where they are, as they move.
+/// Sets positions and motion of the particles.
 fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
     let (particles, other) = (&mut state.particles, &reached.particles);
     if !other.orientation.is_empty() {
@@ -90,7 +90,7 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
     }
 }
 
-/// Leaves boundaries of the same name where they stand, and free axes as fast as they are.
+/// Takes over the positions of boundaries of the same name, and the velocities of free axes.
 fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
     let time = state.clock.time;
     for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
@@ -121,7 +121,7 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
     }
 }
 
-/// Refuses a group that this scene puts elsewhere than its particles are: they would jump.
+/// Refuses a group that this scene puts elsewhere than its particles are, because they would jump.
 fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), RunError> {
     for boundary in &scene.boundaries {
         for &member in boundary.shape.members() {

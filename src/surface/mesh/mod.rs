@@ -27,13 +27,13 @@ enum Sides {
 /// A surface of triangles. Features are numbered vertices first, then edges, then triangles.
 #[derive(Clone, Debug)]
 struct Mesh {
-    /// What it is made of.
+    /// Its material.
     material: MaterialIndex,
     /// The simplices.
     topology: Topology,
     /// Unit normal of each triangle.
     normals: Vec<Vector>,
-    /// What is near.
+    /// The tree that finds near triangles.
     tree: Tree,
     /// Which side counts.
     sides: Sides,
@@ -186,7 +186,7 @@ impl Mesh {
 }
 
 /// A surface of the triangles in STL files; an error says what is wrong with them. `sides`: 1, where the normals point, or 2;
-/// where it is not said, 1 of a closed surface and 2 of another.
+/// if absent, 1 for a closed surface and 2 for any other.
 pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -> Result<Shape, String> {
     let mut triangles = Vec::new();
     for file in files {
@@ -364,16 +364,16 @@ impl Surface for Mesh {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Keys {
-    /// Its file: STL, OBJ or VTK.
+    /// The file: STL, OBJ or VTK.
     file: String,
     /// Files of further triangles of the same surface.
     #[serde(default)]
     joined: Vec<String>,
-    /// Length of one of the file's units \[m\].
+    /// Length of one unit of the file \[m\].
     scale: Option<Positive>,
-    /// What it is turned by after that: a rotation vector \[rad\].
+    /// Rotation after scaling: a rotation vector \[rad\].
     rotation: Option<Triple>,
-    /// What it is shifted by after that \[m\].
+    /// Displacement after that \[m\].
     offset: Option<Triple>,
     /// Which sides of the triangles count: 1, where the normals point, or 2.
     sides: Option<u8>,

@@ -10,7 +10,7 @@ use crate::number::Vector;
 /// Corners of triangles as a file has them \[file's unit\].
 pub(super) type Triangles = Vec<[[f64; 3]; 3]>;
 
-/// What was found in a file and what would be right.
+/// A mistake in a file: what was found and what would be right.
 pub(super) type Wrong = (String, String);
 
 /// Memory that a byte of a file takes as it is read: nine numbers of 8 bytes over the shortest line of a face.
@@ -23,7 +23,7 @@ const TRIANGLE: u64 = 650;
 /// Bends of a polygon below this count as flat: 1 − cosine of a tenth of a degree.
 const FLAT: f64 = 1.5e-6;
 
-/// The triangles of a file, or what is wrong with it. Its name says what it is; a name without ending is that of an STL file.
+/// The triangles of a file, or what is wrong with it. The ending of its name gives the format; without an ending it is STL.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Triangles, Wrong> {
     has_room(READING, bytes.len())?;
     let lower = name.to_lowercase();
@@ -37,7 +37,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Triangles, Wrong> {
     Ok(triangles)
 }
 
-/// Refuses so many things of a file that need so much memory each \[bytes\], where there is not as much.
+/// Refuses a file with so many entries of so much memory each \[bytes\], if there is not as much memory.
 fn has_room(each: u64, count: usize) -> Result<(), Wrong> {
     let needed = each.saturating_mul(count as u64);
     memory::lacking(needed).map_or(Ok(()), |right| {
