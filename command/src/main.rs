@@ -395,7 +395,7 @@ const BAR_LENGTH: u64 = 10_000;
 /// Time between two drawings of a progress bar while nothing is told.
 const BAR_PAUSE: Duration = Duration::from_millis(500);
 
-/// A progress bar; invisible where the standard error is no terminal.
+/// A progress bar; invisible where the standard error is not a terminal.
 fn bar(template: &str) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();

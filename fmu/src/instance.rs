@@ -41,7 +41,7 @@ pub(crate) enum StartError {
         /// The type asked for.
         found: i32,
     },
-    /// The location is no path.
+    /// The location is not a path.
     #[error(transparent)]
     Location(#[from] LocationError),
     /// The resources cannot be read.

@@ -48,7 +48,7 @@ pub(crate) enum Refusal {
         /// The type of the function.
         expected: &'static str,
     },
-    /// A result that is no number.
+    /// A result that is not a number.
     #[error("{reference} ({name}) is {value}; its last finite value was before this time")]
     NoNumber {
         /// Its value reference.
@@ -132,7 +132,7 @@ pub(crate) enum Refusal {
         /// The right size.
         needed: usize,
     },
-    /// Bytes that are no state of this unit.
+    /// Bytes that are not a state of this unit.
     #[error(transparent)]
     Blob(#[from] crate::saved::BlobError),
     /// A category of messages that is not declared.

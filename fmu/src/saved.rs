@@ -42,7 +42,7 @@ const HEADER: usize = 8 + 4 + 8 + 3 + 8 + 8 + 4;
 /// Where the part begins that the checksum covers.
 const CHECKED: usize = 8 + 4 + 8;
 
-/// Why bytes are no state of this unit.
+/// Why bytes are not a state of this unit.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BlobError {
     /// Another kind of data.

@@ -1,4 +1,4 @@
-//! Saved states continue bit for bit; what is no state is refused.
+//! Saved states continue bit for bit; what is not a state is refused.
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;

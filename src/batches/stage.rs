@@ -242,7 +242,7 @@ impl Stage<'_> {
         }
     }
 
-    /// Writes that there is no friction, for a law that has torque all the same.
+    /// Writes zero friction, for a law that has torques without it.
     ///
     /// # Safety
     /// As for [`Stage::contact`].

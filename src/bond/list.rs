@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-/// Why a text is no list of bonds.
+/// Why a text is not a list of bonds.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ListError {
     /// No form that is known.

@@ -65,7 +65,7 @@ impl Default for Piece {
 }
 
 impl WallBondPass {
-    /// The pass of this bond of the scene; none where the boundary is no plane.
+    /// The pass of this bond of the scene; none where the boundary is not a plane.
     pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
         let bond = &scene.bonds[index];
         let Boundary { reference, .. } = &scene.boundaries[boundary.index()];

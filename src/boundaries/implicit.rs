@@ -1,6 +1,6 @@
 //! How stiff contacts move a light body without a shorter time step.
 //!
-//! A half kick gives a body that is no group of particles the change of motion Δ for which
+//! A half kick gives a body that is not a group of particles the change of motion Δ for which
 //!
 //! ```text
 //! (M + A) Δ = Δt/2 · load,      A = Δt²/2 K + Δt C

@@ -1,4 +1,4 @@
-//! What a text that is no scene looks like.
+//! How to recognise a text that is not a scene.
 
 use super::mistake::Mistake;
 

@@ -18,7 +18,7 @@ pub struct Setting {
     value: String,
 }
 
-/// Why a text is no setting.
+/// Why a text is not a setting.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SettingError {
     /// There is no `=`.

@@ -101,7 +101,7 @@ pub enum ResourceError {
         /// What is wrong with it.
         cause: serde_json::Error,
     },
-    /// The scene is no text.
+    /// The scene is not a text.
     #[error("{}: not UTF-8; text is right", path.display())]
     Text {
         /// Its path.

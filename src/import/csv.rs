@@ -86,7 +86,7 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
     Ok(uses)
 }
 
-/// A line that is no line of the table.
+/// A line that is not a line of the table.
 fn unreadable(error: &csv::Error) -> FileFault {
     let line = error.position().map(|position| position.line() as usize);
     let mistake = match error.kind() {

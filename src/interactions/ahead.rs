@@ -37,7 +37,7 @@ pub(crate) struct Link {
     pub kind: Kind,
     /// One particle (slot).
     pub first: u32,
-    /// The other particle (slot), or none at a boundary that is no particle.
+    /// The other particle (slot), or none at a boundary that is not a particle.
     pub second: Option<u32>,
     /// That boundary.
     pub boundary: Option<u32>,

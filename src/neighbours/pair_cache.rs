@@ -8,7 +8,7 @@ use crate::state::{Particles, Row};
 const MARGIN: f64 = 0.2;
 
 /// Pairs that may be near, with where everything was when they were found. What it hands out follows from the
-/// positions alone, so it is no part of the state.
+/// positions alone, so it is not part of the state.
 #[derive(Debug, Default)]
 pub(crate) struct PairCache {
     /// Positions at that time, of each of the scene's particles.

@@ -57,7 +57,7 @@ pub enum ResumeError {
         /// What the system said.
         source: io::Error,
     },
-    /// It is no checkpoint of this scene.
+    /// It is not a checkpoint of this scene.
     #[error("{}: {source}", path.display())]
     Snapshot {
         /// The file.
@@ -65,7 +65,7 @@ pub enum ResumeError {
         /// What is wrong with it.
         source: SnapshotError,
     },
-    /// It is no checkpoint.
+    /// It is not a checkpoint.
     #[error("{}: is no checkpoint; a file that run or settle has written is right", path.display())]
     Foreign {
         /// The file.
@@ -156,7 +156,7 @@ pub enum InputsError {
         /// What would be right.
         right: String,
     },
-    /// A field is no number.
+    /// A field is not a number.
     #[error("{}, line {line}, {column}: {found:?} found; a finite number is right", path.display())]
     Number {
         /// The file.

@@ -41,7 +41,7 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     })
 }
 
-/// On intervals that are no whole number of given steps.
+/// Remarks on intervals that are not a whole number of given steps.
 fn intervals(scene: &Scene) -> Vec<String> {
     let Step::Given(step) = scene.run.step else { return Vec::new() };
     let output = &scene.output;

@@ -46,7 +46,7 @@ pub struct SettleProgress {
     pub steps: u64,
     /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
     pub ratio: f64,
-    /// Below what it is done.
+    /// The ratio below which settling is done.
     pub tolerance: f64,
 }
 
@@ -59,7 +59,7 @@ pub struct Settled {
     pub time: f64,
     /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
     pub ratio: f64,
-    /// Below what it is done.
+    /// The ratio below which settling is done.
     pub tolerance: f64,
     /// Contacts, those with planes included.
     pub contacts: usize,

@@ -20,13 +20,13 @@ const SWEEPS: usize = 30;
 /// Sweeps in which the bound may stand still: the largest of many roots often waits for its neighbours.
 const PATIENCE: usize = 4;
 
-/// Gain of the bound in so many sweeps below which there are no more.
+/// Gain of the bound in so many sweeps below which the sweeps end.
 const GAIN: f64 = 2e-3;
 
 /// Parts of the first bound above which bodies are swept, one after the other until a lower one gains nothing.
 const LEVELS: [f64; 4] = [0.92, 0.84, 0.74, 0.6];
 
-/// Gain of the bound by a level below which there is no further one.
+/// Gain of the bound by a level below which no further level follows.
 const LEVEL_GAIN: f64 = 4e-3;
 
 /// Largest and least share ratio t.

@@ -11,7 +11,7 @@ pub struct Clock {
     pub lost: f64,
     /// The time step \[s\].
     pub step: f64,
-    /// Length of the last step made, 0 before the first \[s\]: an interval that is no whole number of time steps
+    /// Length of the last step made, 0 before the first \[s\]: an interval that is not a whole number of time steps
     /// is divided into shorter ones.
     pub last_step: f64,
     /// Largest stable time step, as last found \[s\].

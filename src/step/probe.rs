@@ -34,7 +34,7 @@ pub enum ProbeBody {
     Boundary(BoundaryIndex),
 }
 
-/// Two bodies that act on each other: slots of particles; none for what is no particle.
+/// Two bodies that act on each other: slots of particles; `None` for anything else.
 pub(crate) type Neighbours = (u32, Option<u32>);
 
 /// A simulation of its own, from whose state at rest bodies are displaced.

@@ -7,7 +7,7 @@ use crate::run_error::Cause;
 use crate::state::Clock;
 use crate::surface;
 
-/// Way of a particle in one time step, over its radius, that is no longer taken for motion.
+/// Way of a particle in one time step, over its radius, that counts as an error instead of motion.
 const RUNAWAY: f64 = 0.5;
 
 /// Cohesion energy density over effective modulus from which contacts collapse.

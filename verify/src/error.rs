@@ -29,7 +29,7 @@ pub enum VerifyError {
         /// What was found and what would be right.
         message: String,
     },
-    /// A `samples.csv` that is no trajectory of the case.
+    /// A `samples.csv` that is not a trajectory of the case.
     #[error("{}, line {line}: {message}", path.display())]
     Samples {
         /// The file.

@@ -11,7 +11,7 @@ const GROWTH: f64 = 1e4;
 const STEPS: u32 = 2000;
 
 /// Looks at the energy on the way: often enough to see it grow. A motion that has grown until contacts open may turn back in each
-/// step, which is no motion at whole steps.
+/// step, which is not a motion at whole steps.
 const LOOKS: u32 = 400;
 
 /// How exactly the border is found, over itself.

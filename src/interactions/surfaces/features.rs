@@ -165,7 +165,7 @@ impl FeatureContacts {
         self.behind.clear();
     }
 
-    /// Writes the bits of all contacts when the law has acted: a saddle is no contact of its own.
+    /// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
     fn finish(&mut self) {
         for ((flags, [weight, _]), behind) in self.flags.iter_mut().zip(&self.weight).zip(&self.behind) {
             let kept = if *weight > 0.0 { *flags & (TOUCHING | SLIDING) } else { 0 };

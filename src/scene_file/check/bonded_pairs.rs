@@ -7,7 +7,7 @@ use crate::packing::overlaps::for_each_overlap;
 use crate::quantity::BoundaryIndex;
 use crate::scene::{Bond, Particle, Scene};
 
-/// Which pairs are bonded at the start, so that their overlap is no mistake.
+/// Which pairs are bonded at the start, so that their overlap is not a mistake.
 pub(super) struct Bonded<'a> {
     /// The scene.
     scene: &'a Scene,

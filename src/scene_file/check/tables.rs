@@ -57,7 +57,7 @@ fn columns(bytes: &[u8], keys: &FileKeys, word: &str) -> Result<(Vec<u64>, [Vec<
     Ok((lines, columns))
 }
 
-/// A line that is no line of the table.
+/// A line that is not a line of the table.
 fn unreadable(error: &csv::Error) -> Wrong {
     let line = error.position().map(csv::Position::line);
     match error.kind() {
