@@ -43,7 +43,7 @@ SCENES = [
     Scene("s3_incremental", (100, 1100), bonds="incremental", peers=("lammps", "yade")),
     Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation", peers=("lammps", "yade")),
     Scene("s1_20k_mesh", (100, 1100), facet=4.5e-3, peers=("liggghts",)),
-    Scene("s4_20k", (500, 5500), wide=3.0, factor=2.0, peers=("liggghts", "lammps", "yade")),
+    Scene("s4_20k", (500, 5500), wide=3.0, factor=1.5, peers=("liggghts", "lammps", "yade")),
 ]
 
 

@@ -118,9 +118,10 @@ impl fmt::Display for Report {
 
 /// What the scene uses and pays for.
 fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
-    let (particles, contacts) = (scene.particles.len(), simulation.contact_count());
-    let mut uses =
-        vec![format!("{particles} particles, {contacts} contacts at the start, {} threads", simulation.threads())];
+    let count = |number: usize, thing: &str| format!("{number} {thing}{}", if number == 1 { "" } else { "s" });
+    let particles = count(scene.particles.len(), "particle");
+    let contacts = count(simulation.contact_count(), "contact");
+    let mut uses = vec![format!("{particles}, {contacts} at the start, {}", count(simulation.threads(), "thread"))];
     uses.extend(scene.contacts.iter().map(contact_law));
     if scene.contacts.is_empty() {
         uses.push("no contact law: no neighbour search".to_owned());
