@@ -7,9 +7,10 @@ use super::Scene;
 use crate::bond::Law;
 use crate::bond::keys::KeyError;
 use crate::contact::PairProperties;
+use crate::document;
 use crate::quantity::{MaterialIndex, Positive};
-use serde::de::value::{Error, F64Deserializer, MapDeserializer};
-use serde::de::{Deserialize, DeserializeOwned, IntoDeserializer};
+use serde::de::value::{Error, F64Deserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer};
 
 /// A number of the text that is a parameter of the unit.
 #[derive(Clone, Debug)]
@@ -82,15 +83,14 @@ impl Scene {
 
     /// The properties of two materials with these values of the tunable parameters.
     pub(crate) fn tuned_pair(&self, pair: [MaterialIndex; 2], tuned: &[f64]) -> Option<PairProperties> {
-        let (mut tuned, mut properties) = (tuned.iter(), Vec::new());
+        let (mut tuned, mut properties) = (tuned.iter(), String::new());
         for parameter in &self.parameters {
             let value = if parameter.tunable { *tuned.next()? } else { parameter.value };
             if self.pair_of(&parameter.name) == Some(pair) {
-                properties.push((parameter.name.rsplit('.').next()?, value));
+                properties += &format!("{} = {value:?}\n", parameter.name.rsplit('.').next()?);
             }
         }
-        let properties: MapDeserializer<_, Error> = MapDeserializer::new(properties.into_iter());
-        PairProperties::deserialize(properties).ok()
+        document::read_text(&properties)
     }
 
     /// A bond law with these values of the tunable parameters, or what they contradict.
