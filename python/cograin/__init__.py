@@ -1,9 +1,10 @@
 """Couples units of grains with structures and with other units.
 
-A `Unit` is a ``.fmu``. An `Interface` is what of it is moved from outside, and what force answers. A `Partner` is the
-other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An `Exchange` says how
-both agree on a communication step: `GaussSeidel`, `Jacobi`, `Verlet`, or repeated: `FixedPoint`, `Aitken`, `Secant`,
-`QuasiNewton`, `Newton`. `couple` takes them through time and gives a `Record`.
+A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
+`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An
+`Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit;
+`FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step. `couple` runs both sides and returns a
+`Record`.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
 """

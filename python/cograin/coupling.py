@@ -1,4 +1,4 @@
-"""The master: takes units and partner through time, shortens steps where it has to, and keeps the record."""
+"""The master: steps units and partner through time, shortens steps if necessary, and keeps the record."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class StepControl:
     """When a communication step is repeated with half the length, and when the length grows again.
 
     A step that a unit discards is always halved. ``energy`` is the largest interface energy residual that a step may
-    have \\[J\\]: the difference between the force and the one that the exchange began with, times the way. For an
-    explicit exchange that is the energy that the step makes or loses, for a repeated one what repeating took away.
-    ``unconverged`` says what becomes of a step whose sides do not agree. ``halvings`` is how often a length is halved.
+    have \\[J\\]: the difference between the force and the one with which the exchange began, times the displacement. An
+    explicit exchange creates or loses this energy in the step; a repeated exchange removes it.
+    ``unconverged`` says what happens to a step whose sides do not agree. ``halvings`` is how often a length is halved.
 
     Lengths are the given one over powers of two and stay on its grid: every multiple of the given length is met.
     """
@@ -37,16 +37,16 @@ class StepControl:
     halvings: int = 6
 
     def objection(self, outcome: Outcome, defect: float, level: int) -> str:
-        """Why a step is not accepted; empty where it is."""
+        """Why a step is not accepted; empty if it is accepted."""
         if not outcome.converged and self.unconverged != "accept":
             return outcome.reason
-        # The shortest step is taken as it is, and said.
+        # The shortest step is accepted as it is, and the record says so.
         if self.energy is not None and abs(defect) > self.energy and level < self.halvings:
             return f"the interface energy residual is {defect:.1e} J, {self.energy:g} J are allowed"
         return ""
 
     def may_grow(self, defect: float) -> bool:
-        """Whether the next step may be twice as long: a residual goes with the square of the length, at least."""
+        """Whether the next step may be twice as long: a residual grows at least with the square of the length."""
         return self.energy is None or abs(defect) < 0.125 * self.energy
 
 
@@ -101,18 +101,18 @@ class Coupling:
 
     @property
     def time(self) -> float:
-        """Where the run stands \\[s\\]."""
+        """Present time of the run \\[s\\]."""
         return self._start + self.step * self._place
 
     def run(self, end: float, *, progress: bool | None = None) -> Record:
-        """Goes on to a time; a line of progress is shown on a terminal, or as is said."""
+        """Continues to a time; ``progress`` shows or hides a line of progress (default: on a terminal only)."""
         shown = Progress(self.time, end, shown=progress)
         for row in self.steps(end):
             shown.step(row.time, row.evaluations)
         return self.record
 
     def steps(self, end: float) -> Iterator[Row]:
-        """The rows until a time, which is a multiple of the step, as they come."""
+        """The rows until a time, which is a multiple of the step, one after the other."""
         count = (end - self._start) / self.step
         if abs(count - round(count)) > 1e-6:
             raise ValueError(f"end: {end:g} s is {count:.6g} steps of {self.step:g} s; a whole number is right")
@@ -120,7 +120,7 @@ class Coupling:
             yield self.advance()
 
     def advance(self) -> Row:
-        """Makes one step, as long as the control lets it be."""
+        """Makes one step, of the length that the control permits."""
         refusals = evaluations = 0
         while True:
             step = self._next()
@@ -148,7 +148,7 @@ class Coupling:
         return Step(self.time, self._start + self.step * (self._place + part), self.step * part)
 
     def _attempt(self, step: Step) -> tuple[Outcome | None, float, str]:
-        """What the units come to, its interface energy residual, and why it is not accepted."""
+        """The outcome of the units, its interface energy residual, and why it is not accepted."""
         begin = self.interface.displacement
         expected = self._expected(step.length)
         try:
@@ -160,7 +160,7 @@ class Coupling:
         return outcome, defect, self.control.objection(outcome, defect, self._level)
 
     def _expected(self, length: float) -> Vector:
-        """The force of the next step, if it goes on changing as it did."""
+        """The force of the next step, extrapolated from the last two."""
         older, newer = self._lengths
         share = (length + newer) / (newer + older) if self.exchange.force == "mean" else length / newer
         return self._force + share * (self._force - self._before)
@@ -200,7 +200,7 @@ class Coupling:
         return row
 
     def _work_on_units(self) -> float:
-        """Work on the particles in the step just made, by the units' account or by the mean force \\[J\\]."""
+        """Work on the particles in the last step, by the account of the units or by the mean force \\[J\\]."""
         moved = self.interface.displacement - self._stood
         self._stood = self.interface.displacement
         total = self.interface.work
@@ -210,7 +210,7 @@ class Coupling:
         return total - before
 
     def _together(self) -> None:
-        """Both sides have to stand at the same place."""
+        """Refuses sides whose displacements differ."""
         apart = np.abs(self.interface.displacement - self.partner.displacement)
         if apart.shape != self._force.shape or len(self.interface.names) != len(self.partner.displacement):
             there = len(self.partner.displacement)
@@ -222,7 +222,7 @@ class Coupling:
             )
 
     def _reading(self, watch: Watch) -> dict[str, Callable[[], float]]:
-        """What gives the value of each watched name."""
+        """A function for each watched name that returns its value."""
         if isinstance(watch, Mapping):
             return dict(watch)
         units = {unit.name: unit for unit in getattr(self.interface, "units", [])}
@@ -247,12 +247,12 @@ def couple(
     watch: Watch = (),
     progress: bool | None = None,
 ) -> Record:
-    """Couples units and partner from where they stand to a time \\[s\\]; gives the record."""
+    """Couples units and partner from their present state to a time \\[s\\]; returns the record."""
     return Coupling(interface, partner, exchange, step, control=control, watch=watch).run(end, progress=progress)
 
 
 def _force_name(name: str, kind: str) -> str:
-    """Column of the force that answers a displacement."""
+    """Column of the force that belongs to a displacement."""
     for given, answer in (("displacement", "force"), ("rotation", "moment")):
         if f".{given}." in name:
             return name.replace(f".{given}.", f".{'mean_' if kind == 'mean' else ''}{answer}.")

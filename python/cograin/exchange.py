@@ -10,7 +10,7 @@ from cograin.vector import Matrix, Vector
 
 
 class Side(Protocol):
-    """What an exchange needs of the side of the particles; `Interface` is one, another program may be another."""
+    """What an exchange needs of the side of the particles. `Interface` provides it; another program may do so, too."""
 
     displacement: Vector  # where it stands [m, rad]
 
@@ -20,35 +20,35 @@ class Side(Protocol):
 
     @property
     def time(self) -> float:
-        """Where it stands in time \\[s\\]."""
+        """Its present time \\[s\\]."""
 
     @property
     def work(self) -> float | None:
-        """Work of the interface on the particles since the start \\[J\\]; none where the side keeps no account."""
+        """Work of the interface on the particles since the start \\[J\\]; ``None`` if the side does not know it."""
 
     @property
     def can_restore(self) -> bool:
-        """Whether it can go back to a saved state."""
+        """Whether it can restore a saved state."""
 
     @property
     def keeps_itself(self) -> bool:
-        """Whether a step that it discards leaves it as it was, without help."""
+        """Whether it returns to the beginning of a step that it discards by itself."""
 
     @property
     def has_derivatives(self) -> bool:
-        """Whether `derivative` can be asked for."""
+        """Whether it has `derivative`."""
 
     def force(self, kind: Force) -> Vector:
         """Force of the particles on the interface \\[N, N m\\]."""
 
     def advance(self, displacement: Vector, step: Step, kind: Force) -> Vector:
-        """Moves the interface there during this step; gives the force of this kind \\[N, N m\\]."""
+        """Moves the interface to this displacement during the step; returns the force of this kind \\[N, N m\\]."""
 
     def save(self) -> None:
-        """Remembers the present state."""
+        """Saves the present state."""
 
     def restore(self) -> None:
-        """Goes back to the remembered state."""
+        """Restores the saved state."""
 
     def derivative(self, displacement: Vector, kind: Force) -> Matrix:
         """Change of the force per change of displacement in the next step \\[N/m\\]."""
@@ -68,10 +68,10 @@ class Taker(Protocol):
 
 
 class Exchange(ABC):
-    """One way to agree. `evaluate` steps the units and leaves the partner alone; `commit` lets the partner follow.
+    """One way to agree. `evaluate` steps the units and does not change the partner; `commit` then steps the partner.
 
-    Where `evaluate` raises, the partner is as it was. ``force`` is the kind that is exchanged. An exchange remembers
-    slopes from step to step and belongs to one run.
+    If `evaluate` raises, the partner is unchanged. ``force`` is the kind of force that is exchanged. An exchange stores
+    slopes from step to step, so use each instance for one run only.
     """
 
     force: Force = "mean"
@@ -88,11 +88,11 @@ class Exchange(ABC):
 
 
 class GaussSeidel(Exchange):
-    """One after the other: the partner takes the force of the last step, the units go where it went.
+    """The two sides take turns: the partner takes the force of the last step, then the units follow its displacement.
 
-    One evaluation a step, first order. An error of the force comes back multiplied by stiffness of the particles over
-    the step × compliance of the partner over the step, and grows above 1. With the force of the end the delay is half
-    a step less than with the mean.
+    One evaluation for each step, first order. An error of the force returns multiplied by the gain: stiffness of the
+    particles × compliance of the partner, both over the step. It grows if the gain is above 1. With the force at the
+    end of the step the delay is half a step less than with the mean.
     """
 
     def __init__(self, force: Force = "end") -> None:
@@ -106,9 +106,10 @@ class GaussSeidel(Exchange):
 
 
 class Jacobi(Exchange):
-    """Both at once, with what the other had at the begin: the units lag a step behind the partner.
+    """Both sides step at once, with the values of the other at the beginning: the units lag a step behind the partner.
 
-    Both sides can run at the same time; nothing else speaks for it. It loses or makes energy in proportion to the step.
+    Its only advantage is that both sides can run at the same time. It creates or loses energy in proportion to the
+    step.
     """
 
     def __init__(self, force: Force = "end") -> None:
@@ -125,9 +126,9 @@ class Jacobi(Exchange):
 
 
 class Verlet(Exchange):
-    """Velocity Verlet across the interface: half a kick by the force of now, drift, the force of then, half a kick.
+    """Velocity Verlet across the interface: half a kick by the present force, drift, the new force, half a kick.
 
-    Second order with one evaluation a step; it is what one program would do that held both sides. Stable while the
+    Second order with one evaluation for each step, as if one program computed both sides. Stable while the
     step is below the stability limit of partner and particles together; the partner needs a mass at every degree of
     freedom. The work of both sides differs by the change of the force within a step.
     """
@@ -147,7 +148,7 @@ class Verlet(Exchange):
 
 
 def partner_difference(partner: Taker, force: Vector, step: Step) -> Vector:
-    """How much further a change of the force takes the partner; not known is said as not a number."""
+    """Change of the partner's displacement by a change of the force; NaN if the partner cannot tell."""
     try:
         return partner.compliance(step) @ force
     except ValueError:

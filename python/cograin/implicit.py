@@ -31,7 +31,7 @@ class Trial:
 
 @dataclass
 class Search:
-    """Where the repetitions of one step stand."""
+    """The repetitions of one step so far."""
 
     side: Side
     partner: Taker
@@ -74,9 +74,10 @@ class Search:
 class Implicit(Exchange):
     """The loop that all repeated exchanges share; they differ in `correct`.
 
-    Ramp and mean force make impulse and work of both sides the same, whatever is left of the residual: the partner
-    takes the force that the units found and stands where they stand. With ``force="end"`` that does not hold.
-    ``limit`` is the largest number of evaluations of the units in a step; then the best one is kept, and said.
+    With the ramp and the mean force, impulse and work of both sides are the same, whatever residual is left: the
+    partner takes the force that the units found, and then stands where they stand. With ``force="end"`` this does not
+    hold. ``limit`` is the largest number of evaluations in a step; after it the best one is kept, and the record says
+    so.
     """
 
     repeats = True
@@ -88,7 +89,7 @@ class Implicit(Exchange):
 
     @abstractmethod
     def correct(self, search: Search) -> Vector | None:
-        """The displacement to try next; none where nothing better can be had, with `why` set."""
+        """The displacement to try next; ``None`` if no better one exists, with the reason in `why`."""
 
     def begin(self, search: Search) -> None:
         """Called before the first trial of a step."""
@@ -118,7 +119,7 @@ class Implicit(Exchange):
         return self._kept(search, left)
 
     def _try(self, search: Search, displacement: Vector) -> Trial:
-        """A trial; one that a unit discards is taken nearer to the best one, or to where the interface stands."""
+        """A trial; if a unit discards it, the next is nearer to the best one or to the present displacement."""
         anchor = search.best.displacement if search.trials else search.partner.displacement
         for _ in range(8):
             try:
@@ -149,10 +150,10 @@ class Implicit(Exchange):
 
 
 class FixedPoint(Implicit):
-    """Repeats with what the partner answered, or a part of it (``relaxation``).
+    """Repeats the step with the displacement that the partner predicted, or a part of the change (``relaxation``).
 
-    Converges only while stiffness of the particles × compliance of the partner over the step is below 1, or below
-    2/relaxation − 1; each repetition leaves that part of the residual.
+    Converges only while the gain (stiffness of the particles × compliance of the partner over the step) is below 1, or
+    below 2/relaxation − 1; each repetition multiplies the residual by 1 − relaxation · (1 + gain).
     """
 
     def __init__(
@@ -171,7 +172,7 @@ class FixedPoint(Implicit):
 
 
 class Aitken(FixedPoint):
-    """Fixed point with a relaxation that follows from the last two residuals; a step begins with that of the last one.
+    """Fixed point with a relaxation from the last two residuals; a step begins with the relaxation of the step before.
 
     One factor for all directions: in one direction it is the secant, in several it is slower than `QuasiNewton`.
     """
@@ -191,9 +192,9 @@ class Secant(Implicit):
     """One direction: secant of the last two trials, kept in a bracket; a step begins with the slope of the last one.
 
     The residual falls as the displacement grows, by at least as much, as long as the particles resist. So the first
-    trial brackets the solution already, and no stiffness of the particles or lightness of the partner can make it run
-    away. Where the particles' force jumps (a contact that closes or not within the step) there may be no solution: the
-    bracket closes on the jump, the better side is kept, and the residual is said.
+    trial already brackets the solution, and no stiff bed or light partner can make the iteration diverge. If the force
+    of the particles jumps (a contact that closes or does not close within the step), there may be no solution: the
+    bracket closes on the jump, the better side is kept, and the record gives the residual.
 
     ``stiffness`` is a guess for the particles over the first step \\[N/m\\].
     """
@@ -264,7 +265,7 @@ class Secant(Implicit):
                 self._low = None
 
     def _secant(self, search: Search) -> float:
-        """Slope of the residual by the last two trials; the last good one where they are too near to tell."""
+        """Slope of the residual by the last two trials; if they are too close together, the slope before."""
         if len(search.trials) > 1:
             before, now = search.trials[-2:]
             moved = float(now.displacement[0] - before.displacement[0])
@@ -278,8 +279,8 @@ class Secant(Implicit):
 class QuasiNewton(Implicit):
     """Several directions without derivatives: interface quasi-Newton with an inverse from least squares (IQN-ILS).
 
-    The answer of the partner is taken for linear in the differences of the trials of this step and of the last
-    ``reuse`` steps (Degroote, Bathe & Vierendeels 2009). ``relaxation`` serves the very first correction.
+    The response of the partner is assumed to be linear in the differences of the trials of this step and of the last
+    ``reuse`` steps (Degroote, Bathe & Vierendeels 2009). ``relaxation`` is used for the very first correction.
     """
 
     def __init__(
@@ -315,14 +316,14 @@ class QuasiNewton(Implicit):
 
     @staticmethod
     def _differences(search: Search) -> list[tuple[Vector, Vector]]:
-        """Of the last trial to the ones before it, newest first."""
+        """Differences of the last trial to the ones before it, newest first."""
         now = search.last
         earlier = reversed(search.trials[:-1])
         return [(now.residual - one.residual, now.displacement - one.displacement) for one in earlier]
 
     @staticmethod
     def _independent(columns: list[tuple[Vector, Vector]]) -> tuple[Matrix, Matrix]:
-        """Columns that say something new, newest first, at most as many as there are directions."""
+        """Linearly independent columns, newest first, at most as many as there are directions."""
         kept: list[tuple[Vector, Vector]] = []
         directions: list[Vector] = []
         for residual, answer in columns:
@@ -342,10 +343,10 @@ class QuasiNewton(Implicit):
 class Newton(Implicit):
     """Newton's method with the derivative of the particles' force and the compliance of the partner.
 
-    ``derivative="unit"`` takes the units' directional derivatives and refuses units that give none. ``"differences"``
-    moves each direction by ``perturbation`` \\[m, rad\\] and restores the state: one evaluation more for each
-    direction, counted. It is kept, over steps too, until a correction leaves more than a tenth of the residual; a
-    derivative of the units is taken anew for every correction.
+    ``derivative="unit"`` takes the directional derivatives of the units and refuses units that have none.
+    ``"differences"`` moves each direction by ``perturbation`` \\[m, rad\\] and restores the state, which is one more
+    evaluation for each direction. It keeps this derivative, over steps too, until a correction leaves more than a tenth
+    of the residual; a derivative of the units is computed again for every correction.
     """
 
     def __init__(

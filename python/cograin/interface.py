@@ -1,4 +1,4 @@
-"""Where units of grains meet the other side: driven displacements in, forces out."""
+"""The interface of units with a partner: driven displacements in, forces out."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class _Part:
 
 
 class Interface:
-    """Driven directions of the boundaries of one unit, and the forces that answer.
+    """Driven directions of the boundaries of one unit, and the forces that belong to them.
 
     ``Interface(bed, "floor.displacement.z")`` couples one direction; give a list for several. The forces follow from
     the names: ``floor.force.z`` at the end of a step, ``floor.mean_force.z`` as its mean; a unit of another tool that
@@ -78,7 +78,7 @@ class Interface:
         return both
 
     def _refresh(self) -> None:
-        """Reads where the units stand."""
+        """Reads the present displacements of the units."""
         self.displacement = np.concatenate([part.unit.get(part.displacements) for part in self._parts])
         self._saved = self.displacement
         #: Every unit, once.
@@ -91,23 +91,23 @@ class Interface:
 
     @property
     def names(self) -> list[str]:
-        """Names of the displacements; with the unit's name before them where there are several units."""
+        """Names of the displacements; after the name of the unit if there are several units."""
         several = len(self.units) > 1
         return [f"{part.unit.name}.{name}" if several else name for part in self._parts for name in part.displacements]
 
     @property
     def time(self) -> float:
-        """Where the units stand in time \\[s\\]."""
+        """Present time of the units \\[s\\]."""
         return self.units[0].time
 
     @property
     def keeps_itself(self) -> bool:
-        """Whether a step that a unit discards leaves all of them as they were, without help."""
+        """Whether all units return to the beginning of a step that one discards by themselves."""
         return self.substeps == 1 and len(self.units) == 1
 
     @property
     def can_restore(self) -> bool:
-        """Whether every unit can go back to a saved state."""
+        """Whether every unit can restore a saved state."""
         return all(unit.can_restore for unit in self.units)
 
     @property
@@ -122,13 +122,13 @@ class Interface:
 
     @property
     def work(self) -> float | None:
-        """Work on the particles since the start, by the units' own account \\[J\\]; none without one."""
+        """Work on the particles since the start, by the account of the units \\[J\\]; ``None`` without one."""
         if not self._accounts:
             return None
         return sum(float(sum(unit.get(names))) for unit, names in self._accounts)
 
     def advance(self, displacement: Vector, step: Step, kind: Force) -> Vector:
-        """Moves the interface there during this step; gives the force of this kind \\[N, N m\\]."""
+        """Moves the interface to this displacement during the step; returns the force of this kind \\[N, N m\\]."""
         if self.substeps == 1:
             self._move(displacement, step.length, step.end)
             self.displacement = displacement
@@ -154,13 +154,13 @@ class Interface:
             unit.step(length, until=end)
 
     def save(self) -> None:
-        """Remembers the state of every unit; the one remembered before is forgotten."""
+        """Saves the state of every unit, in place of the one saved before."""
         for part in {id(part.unit): part for part in self._parts}.values():
             part.state = part.unit.save(part.state)
         self._saved = self.displacement
 
     def restore(self) -> None:
-        """Goes back to it."""
+        """Restores the saved states."""
         for part in {id(part.unit): part for part in self._parts}.values():
             if part.state is not None:
                 part.unit.restore(part.state)
@@ -183,7 +183,7 @@ def _several(names: str | Sequence[str]) -> tuple[str, ...]:
 
 
 def _answer(name: str, kind: int) -> str:
-    """Name of the force (0) or mean force (1) that answers a displacement."""
+    """Name of the force (0) or mean force (1) that belongs to a displacement."""
     parts = name.split(".")
     if len(parts) < 3 or parts[-2] not in _ANSWERS:
         expected = "<boundary>.displacement.<axis> or <boundary>.rotation.<axis>"
@@ -194,7 +194,7 @@ def _answer(name: str, kind: int) -> str:
 def stiffness(interface: Interface, length: float, displacement: float = 1e-6) -> Vector:
     """Change of the mean force with which each direction resists a ramp of one step, from the present state \\[N/m\\].
 
-    Each direction is moved for itself by ``displacement`` \\[m, rad\\] and taken back.
+    Moves each direction separately by ``displacement`` \\[m, rad\\], and restores the state afterwards.
     """
     begin = interface.units[0].time
     step = Step(begin, begin + length, length)

@@ -1,4 +1,4 @@
-"""The other side of an interface: what a partner has to offer, and partners that are not structures."""
+"""The other side of an interface: what a partner provides, and partners that are not structures."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from cograin.vector import Matrix, Vector, vector
 
 
 class Partner(Protocol):
-    """What takes the force of the particles and says where the interface goes."""
+    """The other side of an interface: takes the force of the particles and determines the displacement."""
 
     @property
     def displacement(self) -> Vector:
-        """Where the interface is now \\[m, rad\\]."""
+        """Present displacement of the interface \\[m, rad\\]."""
 
     def predict(self, force: Vector, step: Step) -> Vector:
-        """Where the interface would be at the end of this step under this force \\[N, N m\\]; changes nothing."""
+        """Displacement of the interface at the end of this step under this force \\[N, N m\\]; changes nothing."""
 
     def compliance(self, step: Step) -> Matrix:
         """Change of that displacement per change of the force \\[m/N\\]."""
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
-        """Takes the step under this force, and stands where the units stand: at this displacement."""
+        """Makes the step under this force, and then stands where the units stand: at this displacement."""
 
 
 @runtime_checkable
@@ -34,18 +34,18 @@ class KickedPartner(Partner, Protocol):
     """A partner that velocity Verlet can step: half a kick, drift, half a kick."""
 
     def drift(self, force: Vector, step: Step) -> Vector:
-        """Where the interface is at the end after half a kick of the begin's force; changes nothing."""
+        """Displacement at the end, after half a kick of the force at the beginning; changes nothing."""
 
     def kick(self, begin: Vector, end: Vector, step: Step) -> None:
-        """Takes the step with the forces of its begin and end."""
+        """Makes the step with the forces at its beginning and its end."""
 
 
 class UnitPartner:
-    """Another unit that takes forces and gives displacements, of any tool.
+    """Another unit, of any tool, whose inputs are forces and whose outputs are displacements.
 
     It has to restore states unless the exchange is explicit. Its compliance is needed by Newton's exchange and by a
     tolerance of the force alone: ``compliance="differences"`` measures it from two predictions a direction, once for
-    each length of the step; the unit is then taken for linear.
+    each length of the step; the unit is then assumed to be linear.
     """
 
     def __init__(
@@ -71,11 +71,11 @@ class UnitPartner:
 
     @property
     def displacement(self) -> Vector:
-        """Where the interface is now \\[m, rad\\]."""
+        """Present displacement of the interface \\[m, rad\\]."""
         return self._here
 
     def predict(self, force: Vector, step: Step) -> Vector:
-        """Takes the step on trial; the unit goes back before the next trial."""
+        """Makes the step on trial; the state of the unit is restored before the next trial."""
         if self._tried is not None:
             tried, taken, found = self._tried
             if tried == step and np.array_equal(taken, force):
@@ -103,13 +103,13 @@ class UnitPartner:
         return self._compliances[step.length]
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
-        """Keeps the trial with this force; the unit stands where it came to, at the displacement to the tolerance."""
+        """Keeps the trial with this force; the unit is then at the displacement, to the tolerance."""
         self._here = self.predict(force, step)
         self._tried = None
 
 
 class Partners:
-    """Several partners beside each other: the first takes the first directions of the interface, and so on."""
+    """Several partners: the first has the first directions of the interface, and so on."""
 
     def __init__(self, *partners: Partner) -> None:
         self.partners = partners
@@ -123,15 +123,15 @@ class Partners:
 
     @property
     def displacement(self) -> Vector:
-        """Where the interface is now \\[m, rad\\]."""
+        """Present displacement of the interface \\[m, rad\\]."""
         return np.concatenate([partner.displacement for partner in self.partners])
 
     def predict(self, force: Vector, step: Step) -> Vector:
-        """What each would do."""
+        """The displacements of all."""
         return np.concatenate([partner.predict(force[place], step) for partner, place in self._each()])
 
     def compliance(self, step: Step) -> Matrix:
-        """Blocks of each \\[m/N\\]."""
+        """A matrix with a block for each \\[m/N\\]."""
         size = self._places[-1].stop
         found = np.zeros((size, size))
         for partner, place in self._each():
@@ -139,6 +139,6 @@ class Partners:
         return found
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
-        """Every one takes the step."""
+        """Makes the step with all."""
         for partner, place in self._each():
             partner.advance(force[place], displacement[place], step)

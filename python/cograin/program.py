@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 class ProgramError(Exception):
-    """The command ended with an error; the message is its own."""
+    """The command ended with an error, whose message this is."""
 
 
 class Program:
@@ -18,7 +18,7 @@ class Program:
         self.path = Path(path)
 
     def __call__(self, *arguments: str | Path) -> str:
-        """Runs the command with these arguments; gives what it printed."""
+        """Runs the command with these arguments; returns what it printed."""
         # A path from here is no name to look for, however it is written.
         command = str(self.path.resolve()) if os.sep in str(self.path) else str(self.path)
         try:
@@ -30,11 +30,11 @@ class Program:
         return done.stdout
 
     def settle(self, scene: str | Path, checkpoint: str | Path) -> str:
-        """Brings a scene to rest; gives what is said of it."""
+        """Brings a scene to rest; returns what the command printed."""
         return self("settle", scene, "-o", checkpoint)
 
     def export(self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None) -> Path:
-        """Packages a scene as a unit, from a settled state where one is given; gives the unit's path."""
+        """Packages a scene as a unit, in a settled state if one is given; returns the path of the unit."""
         settled = () if start is None else ("--from", start)
         self("export", scene, *settled, "-o", unit)
         return Path(unit)

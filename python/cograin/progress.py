@@ -1,4 +1,4 @@
-"""One line on a terminal that says how far a run is."""
+"""One line on a terminal that shows the progress of a run."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 
 
 class Progress:
-    """Writes at most ten times a second, over and over on one line; nothing where nobody watches."""
+    """Writes at most ten times a second, always on the same line; nothing if the output is not a terminal."""
 
     def __init__(self, begin: float, end: float, *, shown: bool | None = None) -> None:
         self._begin, self._end = begin, end

@@ -1,4 +1,4 @@
-"""What a coupled run came to, step by step."""
+"""The results of a coupled run, step by step."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Record:
 
     @property
     def interface_energy(self) -> float:
-        """What the exchange made (above 0) or lost until now \\[J\\]."""
+        """Energy that the exchange has created (above 0) or lost so far \\[J\\]."""
         return float(sum(row.interface_energy for row in self.rows))
 
     @property

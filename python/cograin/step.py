@@ -1,4 +1,4 @@
-"""A communication step, and what it came to."""
+"""A communication step and its outcome."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Literal
 
 from cograin.vector import Vector
 
-#: Which force of a step is exchanged: its mean (impulse over length) or that of its end.
+#: Which force of a step is exchanged: its mean (impulse over length) or that at its end.
 Force = Literal["mean", "end"]
 
 
@@ -27,7 +27,7 @@ class Step:
 
 @dataclass
 class Outcome:
-    """What both sides came to in one communication step, before the partner takes it."""
+    """The outcome of one communication step, before the partner makes it."""
 
     displacement: Vector  # of the interface at the end, as the units have it [m or rad]
     force: Vector  # of the particles on the interface, of the exchange's kind [N or N m]

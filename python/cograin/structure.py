@@ -13,7 +13,7 @@ from scipy.sparse.linalg import splu
 from cograin.step import Step
 from cograin.vector import Matrix, Vector, is_sparse, vector
 
-#: Forces of the outside on the degrees of freedom at a time [s] [N].
+#: External forces on the degrees of freedom at a time [s] [N].
 Load = Callable[[float], ArrayLike]
 
 
@@ -21,7 +21,7 @@ class Structure:
     """M ẍ + C ẋ + K x = forces of the particles + ``load``, in the degrees of freedom x.
 
     ``mass``, ``stiffness`` and ``damping`` are numbers, diagonals, or matrices, dense or sparse, as scikit-fem
-    assembles them. ``at`` says which degrees of freedom the interface moves (all of them where it is not given), or
+    assembles them. ``at`` says which degrees of freedom the interface moves (all of them if it is not given), or
     is a matrix with a column for each direction of the interface: the displacement there is atᵀ x, and a force f
     there acts as at f. ``fixed`` are degrees of freedom that stay 0. ``load(time)`` are the other forces on all
     degrees of freedom.
@@ -32,8 +32,8 @@ class Structure:
     nor damping is static: x = K⁻¹ f at the end of the step. ``substeps`` of equal length make a communication step,
     all under its one force.
 
-    After a step the interface stands where the unit stands. What is left of the displacement, at most the tolerance of
-    the exchange, goes into the structure along its own response to the interface's force; momentum is not touched.
+    After a step the interface stands where the unit stands. The displacement that is left, at most the tolerance of the
+    exchange, moves the structure along its own response to the force of the interface; its momentum does not change.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class Structure:
         return found
 
     def place(self, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
-        """Puts the free degrees of freedom there \\[m\\], with these velocities \\[m/s\\]."""
+        """Sets the positions \\[m\\] and velocities \\[m/s\\] of the free degrees of freedom."""
         if position is not None:
             self.position = np.broadcast_to(vector(position), self.position.shape).copy()
         if velocity is not None:
@@ -107,7 +107,7 @@ class Structure:
     # The partner of an exchange
 
     def predict(self, force: Vector, step: Step) -> Vector:
-        """Where the interface would be at the end of this step under this force; changes nothing."""
+        """Displacement of the interface at the end of this step under this force; changes nothing."""
         return self._at_interface(self._end_unforced(step)) + self._response(step.length)[1] @ force
 
     def compliance(self, step: Step) -> Matrix:
@@ -115,7 +115,7 @@ class Structure:
         return self._response(step.length)[1]
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
-        """Takes the step under this force, and stands at this displacement of the interface."""
+        """Makes the step under this force, and then has this displacement of the interface."""
         begin = self.displacement
         if self.substeps == 1:
             # What was predicted is what happens: no second solution of the equations.
@@ -132,7 +132,7 @@ class Structure:
         self.work += float(force @ (displacement - begin))
 
     def _take(self, end: Vector, middle: float, length: float) -> None:
-        """Goes there in a substep, and books what that costs."""
+        """Moves to these positions in a substep, and books the energy for it."""
         moved = end - self.position
         if self.static:
             self.loss += 0.5 * float(moved @ (self.stiffness @ moved))
@@ -146,7 +146,7 @@ class Structure:
         self.position = end
 
     def _stand(self, displacement: Vector, force: Vector, step: Step) -> None:
-        """Moves the interface to where the units are; the energy that this makes or takes is booked."""
+        """Moves the interface to the displacement of the units; books the energy that this creates or takes."""
         off = displacement - self._at_interface(self.position)
         self.displacement = displacement
         if not off.any():
@@ -159,11 +159,11 @@ class Structure:
     # Velocity Verlet
 
     def drift(self, force: Vector, step: Step) -> Vector:
-        """Where the interface is at the end after half a kick of the begin's force; changes nothing."""
+        """Displacement at the end, after half a kick of the force at the beginning; changes nothing."""
         return self._at_interface(self.position + step.length * self._half_kicked(force, step))
 
     def kick(self, begin: Vector, end: Vector, step: Step) -> None:
-        """Takes the step with the forces of its begin and end."""
+        """Makes the step with the forces at its beginning and its end."""
         half, before = self._half_kicked(begin, step), self.displacement
         self.position = self.position + step.length * half
         self.displacement = self._at_interface(self.position)
@@ -199,7 +199,7 @@ class Structure:
         return [(step.begin + (count + 0.5) * length, length) for count in range(self.substeps)]
 
     def _loads(self, time: float) -> Vector:
-        """Forces of the outside on the free degrees of freedom \\[N\\]."""
+        """External forces on the free degrees of freedom \\[N\\]."""
         if self._load is None:
             return np.zeros(len(self.free))
         return vector(np.broadcast_to(vector(self._load(time)), (self.degrees_of_freedom,))[self.free])
@@ -243,7 +243,7 @@ class Structure:
         return self._responses[length]
 
     def _factorised(self, matrix: Any, otherwise: str) -> Any:
-        """Solves with a matrix; `otherwise` is said where it is singular."""
+        """Solves with a matrix; `otherwise` is the message if it is singular."""
         if self._sparse:
             try:
                 return splu(matrix.tocsc()).solve
@@ -303,7 +303,7 @@ class Modal(Structure):
 
 
 def _size(matrix: Any) -> int:
-    """Degrees of freedom that a matrix, a diagonal or a number speaks of."""
+    """Number of degrees of freedom of a matrix, a diagonal or a number."""
     return int(matrix.shape[0]) if is_sparse(matrix) else (1 if np.ndim(matrix) == 0 else len(np.asarray(matrix)))
 
 

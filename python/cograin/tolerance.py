@@ -12,11 +12,11 @@ from cograin.vector import Matrix, Vector
 
 @dataclass(frozen=True)
 class Tolerance:
-    """What may be left between both sides when a repeated step is accepted; all that are given have to hold.
+    """How much may be left between both sides when a repeated step is accepted. All limits that are given must hold.
 
-    ``displacement``: largest difference between where the partner would go under the force that the units found, and
-    where the units went \\[m, rad\\]. ``force``: the force that would close this difference, by the partner's
-    compliance \\[N, N m\\]. ``energy``: the work of the units' force along it \\[J\\].
+    ``displacement``: largest difference between the displacement of the partner under the force that the units found,
+    and the displacement of the units \\[m, rad\\]. ``force``: the force that would close this difference, by the
+    partner's compliance \\[N, N m\\]. ``energy``: the work of the units' force along it \\[J\\].
     """
 
     displacement: float | None = 1e-9
@@ -29,7 +29,7 @@ class Tolerance:
             raise ValueError("a tolerance of displacement, force or energy above 0 is needed")
 
     def open(self, residual: Vector, force: Vector, compliance: Callable[[], Matrix]) -> str:
-        """What does not hold yet, in words; empty where all holds. Compliance is asked for only if it is needed."""
+        """Which limit does not hold yet, in words; empty if all hold. `compliance` is called only if it is needed."""
         said = []
         left = float(np.abs(residual).max())
         if not np.isfinite(left):

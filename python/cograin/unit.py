@@ -1,4 +1,4 @@
-"""One unit: an FMU for co-simulation, by names instead of references, with states that can be taken back."""
+"""One unit: an FMU for co-simulation, by names instead of references, with states that can be restored."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class StepDiscarded(UnitError):
 
 
 class State:
-    """A saved state of a unit. It belongs to the instance that gave it out and dies with it."""
+    """A saved state of a unit. It belongs to the instance that saved it and ends with it."""
 
     __slots__ = ("handle", "time")
 
@@ -97,7 +97,7 @@ class Unit:
             raise
 
     def _listening(self) -> Any:
-        """Callbacks that keep what the unit says until somebody asks."""
+        """Callbacks that keep the messages of the unit until they are read."""
 
         def listen(_environment: Any, _name: bytes, status: int, category: bytes, message: bytes) -> None:
             text = (message or b"").decode(errors="replace")
@@ -230,7 +230,7 @@ class Unit:
         self.time = self._origin + self._count * length
 
     def _refused(self, status: int, length: float) -> UnitError:
-        """What is raised for a step that was not made."""
+        """The exception for a step that was not made."""
         reason = "; ".join(self._messages) or "it gives no reason"
         text = f"{self.name}: the step from {self.time:g} s of {length:g} s was not made: {reason}"
         if status != _DISCARD:
@@ -245,27 +245,27 @@ class Unit:
         inputs: Mapping[str, Value] | None = None,
         start: float = 0.0,
     ) -> None:
-        """Begins anew; all saved states of it are gone."""
+        """Resets the unit; all its saved states are lost."""
         self._call(self.slave.reset)
         self._initialise(parameters or {}, inputs or {}, start)
 
     # States
 
     def save(self, into: State | None = None) -> State:
-        """Saves everything that changes; into a state that was saved before, where one is given."""
+        """Saves everything that changes; into an earlier saved state if one is given."""
         state = into or State(ctypes.c_void_p(), self.time)
         self._call(self.slave.fmi2GetFMUstate, self.slave.component, ctypes.byref(state.handle))
         state.time = self.time
         return state
 
     def restore(self, state: State) -> None:
-        """Goes back to a saved state. It continues bit for bit, and the state can be restored again."""
+        """Restores a saved state. The unit continues from it bit for bit, and the state can be restored again."""
         self._call(self.slave.fmi2SetFMUstate, self.slave.component, state.handle)
         self.time = state.time
         self._origin, self._length, self._count = state.time, 0.0, 0
 
     def free(self, state: State) -> None:
-        """Gives the room of a state back."""
+        """Frees the memory of a state."""
         self._call(self.slave.fmi2FreeFMUstate, self.slave.component, ctypes.byref(state.handle))
 
     def serialise(self, state: State) -> bytes:
