@@ -16,7 +16,7 @@ macro_rules! choices {
 
         /// What to do with the model once its type is known.
         pub trait $visitor {
-            /// What comes of it.
+            /// The type of the result.
             type Output;
             /// Called once, with the type that the scene named.
             fn take<M: $kind>(self, keys: &M::Keys) -> Self::Output;

@@ -12,10 +12,10 @@ pub(super) struct ChartArguments {
     /// Names of charts; or scene files, whose outputs are charted over the time step
     #[arg(required_unless_present_any = ["list", "all"], conflicts_with_all = ["list", "all"], value_name = "NAME|SCENE")]
     names: Vec<String>,
-    /// A value of the scenes instead of what their files say, as run.end=0.5; may be given several times
+    /// Another value for a key of the scenes, for example run.end=0.5; may be given several times
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<Setting>,
-    /// Error of a scene's outputs, over the largest value of each quantity, for which a step is recommended
+    /// Error of the outputs of a scene, over the largest value of each quantity, for which to recommend a step
     #[arg(long, value_name = "ERROR", default_value_t = 0.01)]
     wanted: f64,
     /// Name all charts, what they show and what they cost

@@ -57,7 +57,7 @@ enum Command {
 struct SceneArguments {
     /// The scene file
     scene: PathBuf,
-    /// A value of the scene instead of what the file says, as pair.glass.glass.friction=0.4; may be given several times
+    /// Another value for a key of the scene, for example pair.glass.glass.friction=0.4; may be given several times
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<Setting>,
 }
@@ -68,7 +68,7 @@ struct ComputeArguments {
     /// The scene.
     #[command(flatten)]
     scene: SceneArguments,
-    /// Threads, instead of what the scene says
+    /// Number of threads, instead of that in the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 }
@@ -79,10 +79,10 @@ struct CheckArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
-    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
-    /// Tell the condensed static stiffness of every boundary instead, which is that of a packing at rest
+    /// Print the condensed static stiffness of every boundary instead; the packing should be at rest
     #[arg(long)]
     stiffness: bool,
 }
@@ -93,13 +93,13 @@ struct RunArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
-    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
     #[arg(long, value_name = "CHECKPOINT", conflicts_with = "resume")]
     from: Option<PathBuf>,
     /// Folder of the results
     #[arg(short, long, value_name = "DIR", default_value = "output")]
     output: PathBuf,
-    /// Go on from a checkpoint: this one, or the last one in the folder of the results
+    /// Continue from a checkpoint: this one, or the last one in the folder of the results
     #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
     /// Replace the results of an earlier run in that folder
@@ -116,13 +116,13 @@ struct SettleArguments {
     /// The scene and how it is computed.
     #[command(flatten)]
     scene: ComputeArguments,
-    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
     /// File of the settled state
     #[arg(short, long, value_name = "CHECKPOINT")]
     output: PathBuf,
-    /// Time steps after which it gives up
+    /// Largest number of time steps
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     steps: u64,
 }
@@ -133,13 +133,13 @@ struct ExportArguments {
     /// The scene.
     #[command(flatten)]
     scene: SceneArguments,
-    /// Begin with this checkpoint, which may be another scene's: particles, contacts and bonds are taken along
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
     /// The unit's file
     #[arg(short, long, value_name = "FMU")]
     output: PathBuf,
-    /// The unit's library, if it does not stand beside this program
+    /// The unit's library, if it is not in the folder of this program
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
 }
@@ -156,10 +156,10 @@ struct VerifyArguments {
     /// Folder that gets the trajectories
     #[arg(long, value_name = "OUT")]
     write: Option<PathBuf>,
-    /// Run cases of bonds from their start, not from each sample to the next
+    /// Run cases of bonds from their start, instead of from each sample to the next
     #[arg(long)]
     free: bool,
-    /// Formulation of bonds; the others than engine_exact run from the start of a case
+    /// Formulation of bonds; all except engine_exact run from the start of a case
     #[arg(long, value_name = "NAME", default_value = "engine_exact", value_parser = formulation)]
     formulation: FormulationChoice,
 }
@@ -364,7 +364,7 @@ fn package(arguments: &ExportArguments) -> Result<(), Ending> {
     Ok(())
 }
 
-/// Tells what could not be taken along from the checkpoint of another scene.
+/// Prints what could not be taken over from the checkpoint of another scene.
 fn say_left_behind(left_behind: &[String]) {
     for left in left_behind {
         say(format_args!("not taken along: {left}"));

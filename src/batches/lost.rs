@@ -26,7 +26,7 @@ impl Sums {
         self.parted += held;
     }
 
-    /// What the piece came to.
+    /// The losses of the piece.
     pub(super) fn end(&self) -> Lost {
         Lost { kinds: self.columns.map(|column| column.iter().sum()), parted: self.parted }
     }

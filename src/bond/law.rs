@@ -23,7 +23,7 @@ pub struct Law {
     pub damping: Option<DampingChoice>,
     /// Rules of breakage, in the order of their list.
     pub breakage: Vec<Rule>,
-    /// What compression adds to the normal stress that is told of a bond, over |N|/A: 1 where compression breaks, −1 where
+    /// What compression adds to the reported normal stress of a bond, over |N|/A: 1 where compression breaks, −1 where
     /// it relieves.
     pub compression_share: f64,
 }

@@ -102,7 +102,7 @@ struct Slab<'a, 'b, F> {
     buffer: &'b mut PipelineBuffer,
     /// What relaxation and damping took.
     energies: &'b mut [Energies; 2],
-    /// What else it came to.
+    /// The other results.
     done: &'b mut Done,
     /// The formulation.
     formulation: PhantomData<F>,

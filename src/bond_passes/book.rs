@@ -1,4 +1,4 @@
-//! What a pass over bonds came to: energies, and the bonds that broke.
+//! Results of a pass over bonds: energies, and the bonds that broke.
 
 use crate::bond::{Carried, Reaction};
 use crate::neighbours::bonds::remove;
@@ -37,7 +37,7 @@ pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Ite
     outcome
 }
 
-/// What a part of a list came to.
+/// Results of a part of a list.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Done {
     /// Elastic energy that relaxation took \[J\].

@@ -56,7 +56,7 @@ pub(crate) struct BondPass {
     pairs: Vec<[u32; 2]>,
     /// Pairs that may be near, where bonds are made in every step.
     near: Mutex<PairCache>,
-    /// Room for what each slab came to.
+    /// Working space for the results of each slab.
     results: Mutex<Vec<Done>>,
 }
 

@@ -98,7 +98,7 @@ pub(super) struct Answer {
     pub(super) breaks: bool,
 }
 
-/// What is under way: three registers' worth of pairs, and two of what comes of them.
+/// Work in progress: three registers' worth of pairs, and two of their results.
 #[repr(align(64))]
 pub(super) struct PipelineBuffer {
     /// Pairs.

@@ -44,11 +44,11 @@ pub(crate) struct WallBondPass {
     normal: Vector,
     /// Point about which the moment is taken, at time 0 \[m\].
     reference: Vector,
-    /// Room for what each piece of the list came to.
+    /// Working space for the results of each piece of the list.
     pieces: Mutex<Vec<Piece>>,
 }
 
-/// What a piece of a list came to.
+/// Results of a piece of a list.
 struct Piece {
     /// Energies and breakage.
     done: Done,

@@ -83,7 +83,7 @@ struct Change {
 #[derive(Default)]
 pub(crate) struct Changes(Vec<Change>);
 
-/// Changes a text. One that cannot be read is left as it is: its mistakes are told when it is read.
+/// Changes a text. A text that cannot be parsed stays as it is; its mistakes are reported when the scene is read.
 pub(crate) fn apply(text: &mut String, settings: &[Setting]) -> Changes {
     let mut changes = Changes::default();
     for setting in settings {

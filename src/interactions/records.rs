@@ -1,4 +1,4 @@
-//! What is told of the contacts and bonds at work.
+//! Records of the present contacts and bonds, for outputs.
 
 use crate::bond::Carried;
 use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};

@@ -45,7 +45,7 @@ pub(crate) struct Found {
     pub of_law: Vec<u32>,
 }
 
-/// What is looked through, and for what.
+/// The search: its input and its criteria.
 pub(crate) struct Look<'a> {
     /// The cells.
     pub grid: &'a Grid,
@@ -74,7 +74,7 @@ pub(crate) fn find(look: &Look, found: &mut Vec<Found>, context: &Context) {
 
 /// The search in one slab.
 struct InSlab<'a, 'b> {
-    /// What is looked through.
+    /// The particles that are searched.
     look: &'a Look<'a>,
     /// Which slab.
     slab: usize,

@@ -1,5 +1,5 @@
 //! The usual rules of thumb for the time step, beside the computed bound: Rayleigh time, Hertz time, steps in a collision,
-//! and the inertial number. They are told and not trusted (`docs/stability.md`).
+//! and the inertial number. The report shows them for comparison only (`docs/stability.md`).
 
 use crate::number::Vector;
 use crate::scene::Scene;

@@ -17,10 +17,10 @@ const PATIENCE: Duration = Duration::from_millis(100);
 /// Trials of each, in turn; the least counts.
 const ROUNDS: u32 = 3;
 
-/// The least saving that is told, over the time of a step: less is not measured by so short trials.
+/// The smallest saving that is reported, over the time of a step: short trials cannot measure less.
 const LEAST: f64 = 0.03;
 
-/// Part of the stable step below which a given step is told: the automatic one is longer by more than half.
+/// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
 const SHORT: f64 = 0.6;
 
 /// Something that a scene could drop.

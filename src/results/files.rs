@@ -155,7 +155,7 @@ impl Checkpoint {
 pub struct TakenOver {
     /// The scene in motion.
     pub simulation: Simulation,
-    /// What could not be taken along, in words.
+    /// What could not be taken over, in words.
     pub left_behind: Vec<String>,
     /// Whether the scene differs from that of the checkpoint in its end and its outputs at most: it goes on bit for bit.
     pub goes_on: bool,

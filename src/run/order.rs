@@ -18,7 +18,7 @@ pub enum Start {
     From(PathBuf),
 }
 
-/// What becomes of the results of an earlier run in the folder, where another run begins.
+/// What happens to the results of an earlier run in the folder when a new run begins there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EarlierResults {
     /// They stay, and the run is refused.
@@ -38,7 +38,7 @@ pub struct RunOrder<'a> {
     pub folder: &'a Path,
     /// Where it begins.
     pub start: &'a Start,
-    /// What becomes of the results of an earlier run.
+    /// What happens to the results of an earlier run.
     pub earlier_results: EarlierResults,
     /// A table of the driven boundaries' displacements over time; without one they stay where they are.
     pub inputs: Option<&'a Path>,

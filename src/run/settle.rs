@@ -67,7 +67,7 @@ pub struct Settled {
     pub kinetic_energy: f64,
     /// Wall time \[s\].
     pub wall_time: f64,
-    /// What could not be taken along from the checkpoint of another scene.
+    /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
 }
 

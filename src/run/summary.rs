@@ -17,7 +17,7 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
-    /// It came to its end.
+    /// It reached its end.
     Completed,
     /// Someone asked to stop.
     Interrupted,
@@ -102,7 +102,7 @@ pub struct Summary {
     pub scene: String,
     /// How it ended.
     pub ended: Ending,
-    /// Why, unless it came to its end.
+    /// The reason, unless it reached its end.
     pub reason: Option<String>,
     /// Where this session began \[s\].
     pub start: f64,
@@ -140,7 +140,7 @@ pub struct Summary {
     pub momentum: MomentumBalance,
     /// What is legal but risky in the scene.
     pub remarks: Vec<String>,
-    /// What could not be taken along from the checkpoint of another scene.
+    /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
 }
 

@@ -203,7 +203,7 @@ impl Particles {
         rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
     }
 
-    /// Whether they are these particles somewhere else. Both have been looked through.
+    /// Whether they are these particles somewhere else. Both have been checked.
     fn check_same(&self, other: &Self) -> Result<(), StateFault> {
         let right = "one for each of the scene's particles";
         demand(self.len() == other.len(), "particles", self.len(), right)?;

@@ -1,4 +1,4 @@
-//! What stops a run before its numbers are nonsense, and how it is told.
+//! What stops a run before its numbers become meaningless, and the messages for it.
 
 use super::{RunError, Simulation};
 use crate::motion::InputCourse;

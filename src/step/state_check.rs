@@ -1,4 +1,4 @@
-//! States from outside: looked through before anything is done with them.
+//! States from outside are checked before they are used.
 
 use super::{LONGEST_AUTOMATIC_STEP, Simulation};
 use crate::scene::Step;

@@ -1,4 +1,4 @@
-//! A column of grains that settles behind a gate and collapses when the gate is drawn: what comes of it over the time step.
+//! A column of grains that settles behind a gate and collapses when the gate is drawn: its measures over the time step.
 //!
 //! Grains that fall and roll are chaotic: a trajectory does not converge, its measures do, up to what another packing would
 //! change. So each step is run from several packings, and the picture shows each of them.

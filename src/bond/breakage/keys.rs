@@ -132,7 +132,7 @@ macro_rules! breakage_rules {
 
         /// What is to be done with a rule once its type is known.
         pub trait TakeRule {
-            /// What comes of it.
+            /// The type of the result.
             type Output;
             /// Called once. What the rule answers lies this far above its place among the causes of all rules.
             fn take<B: Breakage>(self, rule: B, before: f64) -> Self::Output;

@@ -90,7 +90,7 @@ fn by_share(shares: &Parts, stiffness: Parts) -> [Parts; 2] {
 
 /// What is to be done with a damping model once its type is known.
 pub trait TakeDamping {
-    /// What comes of it.
+    /// The type of the result.
     type Output;
     /// Called once.
     fn take<D: Damping>(self, damping: D) -> Self::Output;

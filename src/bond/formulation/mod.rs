@@ -68,7 +68,7 @@ pub struct Asked {
 
 /// What is to be done with a formulation once its type is known.
 pub trait TakeFormulation {
-    /// What comes of it.
+    /// The type of the result.
     type Output;
     /// Called once.
     fn take<F: Formulation>(self) -> Self::Output;
