@@ -286,7 +286,7 @@ fn what_losses_leave_unaccounted_is_of_the_second_order_where_springs_are_carrie
             simulation.physical_residual().expect("a book").abs() / sum(&simulation)
         };
         let residuals = [of(8e-6), of(4e-6), of(2e-6)];
-
+        println!("{}: {:.1e} {:.1e} {:.1e}", law.replace('\n', " "), residuals[0], residuals[1], residuals[2]);
         assert!(residuals[2] < 1e-5, "{law}: {residuals:?}");
         assert!(residuals[0] > 11.0 * residuals[2], "{law}: {residuals:?}, second order divides by 16");
     }
@@ -386,4 +386,17 @@ fn a_scene_has_the_outputs_of_the_losses_that_it_can_have() {
     expected.push("energy.physical_residual".to_owned());
     assert_eq!(names("losses = true"), expected);
     assert!(names("energy = true").is_empty());
+}
+
+#[test]
+fn energy_out_of_nothing_stops_a_run_of_a_cohesive_scene_too() {
+    let mut simulation = grains(4e-6, "engine", LAWS[8].0, "losses = true");
+    simulation.advance(8e-3).expect("it runs");
+    let mut state = simulation.state().clone();
+    for [x, y, z, _] in &mut state.particles.velocity {
+        (*x, *y, *z) = (3.0 * *x, 3.0 * *y, 3.0 * *z);
+    }
+    simulation.restore(&state).expect("it may be");
+    let stopped = (0..100).find_map(|_| simulation.advance(4e-4).err()).expect("it is stopped").to_string();
+    assert!(stopped.starts_with("contacts and bonds gave "), "{stopped}");
 }

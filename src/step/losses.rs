@@ -48,4 +48,19 @@ impl Simulation {
         let grown = kinetic - book.initial_kinetic + elastic - book.initial_elastic + potential;
         Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies)
     }
+
+    /// Energy that came out of nothing by the book of losses, and all that was turned over \[J\]: what nothing accounts for, and
+    /// what dashpots gave instead of taking it. What a law gains by its equations is booked under its name, and is not meant.
+    pub(super) fn gain_by_losses(&self) -> Option<[f64; 2]> {
+        let (book, losses) = (self.state.losses.as_ref()?, self.losses()?);
+        let (kinetic, elastic) = (self.kinetic_energy(), self.elastic_energy());
+        let residual = self.physical_residual_beside(kinetic, elastic, &losses)?;
+        let damping = [Loss::NormalDamping, Loss::TangentialDamping, Loss::BondDamping, Loss::GlobalDamping];
+        let given: f64 = damping.into_iter().map(|loss| (-losses[loss as usize]).max(0.0)).sum();
+        let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
+        let works = self.state.boundaries.iter().map(|boundary| boundary.work);
+        let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies];
+        let scale = parts.into_iter().chain(works).chain(losses).map(f64::abs).sum();
+        Some([residual + given, scale])
+    }
 }

@@ -85,23 +85,26 @@ impl Simulation {
         self.check_energy()
     }
 
-    /// Stops where a scene that keeps an energy book sees more energy come out of contacts and bonds than went in. The
-    /// potential of an attraction is in no book: scenes with cohesion are not judged.
+    /// Stops where a scene that keeps an energy book sees more energy come out of contacts and bonds than went in.
     fn check_energy(&self) -> Result<(), RunError> {
-        let Some(ledger) = &self.state.ledger else { return Ok(()) };
-        let cohesive = self.scene.contacts.iter().any(|law| law.cohesion.name() != "none");
         // A boundary that jumps loads contacts by a way that no force went along.
         let jumps = self.scene.boundaries.iter().any(|boundary| boundary.input == InputCourse::Hold);
-        if cohesive || jumps || ledger.turnover <= 0.0 {
-            return Ok(());
+        let found = if jumps { None } else { self.gain_by_losses().or_else(|| self.gain_by_ledger()) };
+        match found.filter(|[gained, scale]| *scale > 0.0 && *gained > LARGEST_GAIN * scale) {
+            None => Ok(()),
+            Some([gained, turnover]) => {
+                Err(RunError::EnergyGain { gained, turnover, time: self.time(), cause: self.step_or_unseen() })
+            }
         }
+    }
+
+    /// Energy that came out of nothing by the book of forces, and all that was turned over \[J\]. The potential of an attraction is
+    /// not in it: scenes with cohesion are not judged.
+    fn gain_by_ledger(&self) -> Option<[f64; 2]> {
+        let ledger = self.state.ledger.as_ref()?;
+        let cohesive = self.scene.contacts.iter().any(|law| law.cohesion.name() != "none");
         let scale = ledger.turnover.max(ledger.initial_kinetic + ledger.initial_elastic);
-        let gained = -self.dissipated_energy().unwrap_or(0.0);
-        if gained <= LARGEST_GAIN * scale {
-            return Ok(());
-        }
-        let cause = self.step_or_unseen();
-        Err(RunError::EnergyGain { gained, turnover: ledger.turnover, time: self.time(), cause })
+        (!cohesive && ledger.turnover > 0.0).then_some([-self.dissipated_energy()?, scale])
     }
 
     /// Finds what is not finite.
