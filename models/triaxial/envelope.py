@@ -77,10 +77,12 @@ def picture(path, curves, peaks, line):
     import matplotlib.pyplot as plt
 
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
-    for (pressure, _), (strain, ratio, swelling, *_) in curves.items():
-        colour = {25e3: "C0", 50e3: "C1", 100e3: "C2"}.get(pressure, "C3")
-        left.plot(100 * strain, ratio, colour, lw=0.8)
+    pressures = sorted({pressure for pressure, _ in curves})
+    for (pressure, seed), (strain, ratio, swelling, *_) in curves.items():
+        colour = f"C{pressures.index(pressure)}"
+        left.plot(100 * strain, ratio, colour, lw=0.8, label=f"{pressure / 1e3:.0f} kPa" if seed == 1 else None)
         middle.plot(100 * strain, 100 * swelling, colour, lw=0.8)
+    left.legend(loc="lower right", frameon=False)
     left.set(xlabel="axial strain [%]", ylabel="axial over lateral stress")
     middle.set(xlabel="axial strain [%]", ylabel="growth of volume [%]")
     turn = np.linspace(0.0, np.pi, 60)
