@@ -4,14 +4,15 @@ use std::fs;
 use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
-const ROWS: [&[&str]; 17] = [
+const ROWS: [&[&str]; 18] = [
     &["choices", "memory", "quantity", "number", "run_error"],
-    &["geometry", "lanes", "document", "vtk_reader"],
+    &["geometry", "lanes", "document", "vtk_reader", "dual"],
     &["threads", "import", "packing"],
     &["contact", "bond", "motion", "surface"],
     &["scene"],
     &["scene_file"],
     &["state"],
+    &["tangent"],
     &["neighbours", "boundaries", "batches"],
     &["integration", "interactions"],
     &["bond_passes"],

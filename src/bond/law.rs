@@ -6,6 +6,7 @@ use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
 use super::keys::{KeyError, Keys};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
+use crate::dual::Dual;
 use crate::number::Vector;
 use crate::quantity::Positive;
 
@@ -76,6 +77,9 @@ pub struct Carried {
     pub power: f64,
 }
 
+/// What a formulation makes of the law at a step, the bodies and the rows of a bond.
+type Respond<N> = fn(&Coefficients<N>, &Pair<N>, &Rows<N>) -> (Motion<N>, Elastic<N>);
+
 /// A formulation for one bond at a time, its type forgotten.
 #[derive(Clone, Copy, Debug)]
 pub struct OneBond {
@@ -88,7 +92,9 @@ pub struct OneBond {
     /// [`Formulation::create`]
     pub create: fn(&Coefficients, &Pair) -> Rows,
     /// [`Formulation::respond`]
-    pub respond: fn(&Coefficients, &Pair, &Rows) -> (Motion, Elastic<f64>),
+    pub respond: Respond<f64>,
+    /// The same with slopes.
+    pub(super) respond_with_slopes: Respond<Dual>,
 }
 
 /// Takes the functions of a formulation.
@@ -103,6 +109,7 @@ impl TakeFormulation for TakeFunctions {
             needs_orientations: F::NEEDS_ORIENTATIONS,
             create: F::create::<f64>,
             respond: F::respond::<f64>,
+            respond_with_slopes: F::respond::<Dual>,
         }
     }
 }

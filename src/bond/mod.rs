@@ -34,6 +34,7 @@ pub mod list;
 pub mod motion;
 mod pair;
 mod part_keys;
+mod slopes;
 
 pub use crate::geometry::Quaternion;
 pub use elasticity::{Coefficients, Elasticity};
@@ -41,6 +42,7 @@ pub use formulation::Formulation;
 pub use law::{Carried, Law, OneBond, Reaction, remembered, rows};
 pub use motion::{Lengths, Motion, Opening, Rates};
 pub use pair::{Body, Pair, Section};
+pub use slopes::Sloped;
 
 use crate::number::{Number, Vector};
 

@@ -7,6 +7,7 @@ use super::{Done, begin_losses, body_of, book, link_of, shared_damping, stretche
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
+use crate::dual::Dual;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link};
@@ -17,15 +18,16 @@ use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Particles, Row, State, StateFault};
+use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one bond law at a plane.
 pub(crate) struct WallBondPass {
     /// Which list of the state is its own; also the law's index in the scene.
-    index: usize,
+    pub(super) index: usize,
     /// The law in numbers.
-    law: Law,
+    pub(super) law: Law,
     /// Its formulation.
     one_bond: OneBond,
     /// When bonds are made.
@@ -37,13 +39,13 @@ pub(crate) struct WallBondPass {
     /// The set that is bonded.
     set: SetIndex,
     /// The plane.
-    boundary: BoundaryIndex,
+    pub(super) boundary: BoundaryIndex,
     /// A point on it at time 0 \[m\].
     point: Vector,
     /// Unit normal towards the particles.
     normal: Vector,
     /// Point about which the moment is taken, at time 0 \[m\].
-    reference: Vector,
+    pub(super) reference: Vector,
     /// Working space for the results of each piece of the list.
     pieces: Mutex<Vec<Piece>>,
 }
@@ -87,7 +89,7 @@ impl WallBondPass {
     }
 
     /// The foot of a bond as its second body.
-    fn foot(&self, foot: Row, plane: &BoundaryState) -> Body {
+    pub(super) fn foot(&self, foot: Row, plane: &BoundaryState) -> Body {
         Body {
             position: Vector::from(foot) + plane.displacement.into(),
             velocity: plane.velocity.into(),
@@ -264,6 +266,10 @@ impl Pass for WallBondPass {
             piece.done.release(context.step, |bond| self.carried(state, bond));
         }
         book(state, self.index, pieces.iter().map(|piece| &piece.done))
+    }
+
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        self.add_bond_slopes(state, tangent, step);
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {

@@ -5,16 +5,90 @@ use super::normal::TakeNormal;
 use super::rolling::TakeRolling;
 use super::tangential::TakeTangential;
 use super::{
-    Adhesion, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce, NormalForm, Onset,
-    Response, Rolling, RollingStiffness, Switches, Tangential,
+    Adhesion, Coefficients, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce,
+    NormalForm, Onset, Response, Rolling, RollingStiffness, Switches, Tangential,
 };
-use crate::number::{Row, Vector};
+use crate::dual::Dual;
+use crate::number::{Number, Row, Vector};
 
-/// Normal force of coefficients, switches, contact, history and step, and what is to be remembered.
-type NormalFunction = fn(&[f64], Switches, &Contact, Row, f64) -> (NormalForce, Row);
+/// Coefficients that a sub-model has at most.
+const MOST: usize = 16;
+
+/// Normal force of coefficients, contact, history and step, and what is to be remembered.
+type NormalFunction<N> = fn(&[f64], &Contact<N>, [N; 4], N) -> (NormalForce<N>, [N; 4]);
+
+/// Friction of coefficients, contact, normal force, history and step.
+type TangentialFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
 
 /// Rolling torque of coefficients, contact, normal force, history and step, and what is to be remembered.
-type RollingFunction = fn(&[f64], &Contact, &NormalForce, Row, f64) -> (Vector, Row);
+type RollingFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
+
+/// Adds the attraction of coefficients and contact to a normal force.
+type CohesionFunction<N> = fn(&[f64], &Contact<N>, &mut NormalForce<N>);
+
+/// What the sub-models of a law do to one contact, in one kind of number.
+#[derive(Clone, Copy)]
+pub struct Acting<N: Number> {
+    /// [`NormalForm::force`], of coefficients with the switches behind them.
+    pub(super) normal: NormalFunction<N>,
+    /// [`Tangential::force`].
+    pub(super) tangential: TangentialFunction<N>,
+    /// [`Rolling::torque`].
+    pub(super) rolling: RollingFunction<N>,
+    /// [`CohesionForm::force`], added.
+    pub(super) cohesion: CohesionFunction<N>,
+}
+
+/// The coefficients that stand first in a row, in this kind of number.
+#[inline(always)]
+pub(super) fn lanes<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
+    const { assert!(A::COUNT <= MOST) };
+    let mut numbers = [N::zero(); MOST];
+    for (number, value) in numbers.iter_mut().zip(row) {
+        *number = N::splat(*value);
+    }
+    A::lanes(&numbers)
+}
+
+/// [`NormalForm::force`] of one contact.
+fn normal<A: NormalForm, N: Number>(
+    row: &[f64],
+    contact: &Contact<N>,
+    history: [N; 4],
+    step: N,
+) -> (NormalForce<N>, [N; 4]) {
+    let roots = A::roots(contact.overlap, contact.radius, contact.mass);
+    let switches = lanes::<Switches, N>(&row[A::COUNT..]);
+    A::force(lanes::<A, N>(row), switches, contact, roots, history, step)
+}
+
+/// [`Tangential::force`] of one contact.
+fn tangential<B: Tangential, N: Number>(
+    row: &[f64],
+    contact: &Contact<N>,
+    normal: &NormalForce<N>,
+    history: [N; 4],
+    step: N,
+) -> Friction<N> {
+    B::force(lanes::<B, N>(row), contact, normal, history, step)
+}
+
+/// [`Rolling::torque`] of one contact.
+fn rolling<C: Rolling, N: Number>(
+    row: &[f64],
+    contact: &Contact<N>,
+    normal: &NormalForce<N>,
+    history: [N; 4],
+    step: N,
+) -> (Vector<N>, [N; 4]) {
+    C::torque(lanes::<C, N>(row), contact, normal, history, step)
+}
+
+/// [`CohesionForm::force`] of one contact, added.
+fn cohesion<D: CohesionForm, N: Number>(row: &[f64], contact: &Contact<N>, normal: &mut NormalForce<N>) {
+    let law = lanes::<D, N>(row);
+    D::add(law, D::force(law, contact), normal);
+}
 
 /// A normal model as functions of its coefficients.
 #[derive(Clone, Copy)]
@@ -33,8 +107,8 @@ pub(super) struct NormalModel {
     pub(super) onset: Onset,
     /// Whether it keeps a number of each pair.
     pub(super) has_pair_constant: bool,
-    /// [`NormalForm::force`].
-    pub(super) force: NormalFunction,
+    /// [`NormalForm::force`], alone and with slopes.
+    pub(super) force: (NormalFunction<f64>, NormalFunction<Dual>),
     /// [`NormalForm::response`].
     pub(super) response: fn(&[f64], &Contact) -> Response,
     /// [`NormalForm::pair_constant`].
@@ -58,10 +132,7 @@ impl NormalModel {
             undeformed_arms,
             onset,
             has_pair_constant: A::HAS_PAIR_CONSTANT,
-            force: |row, switches, contact, history, step| {
-                let roots = A::roots(contact.overlap, contact.radius, contact.mass);
-                A::force(A::lanes(row), switches, contact, roots, history, step)
-            },
+            force: (normal::<A, f64>, normal::<A, Dual>),
             response: |row, contact| A::response(A::lanes(row), contact),
             pair_constant: |row, radius, mass| A::read(row).pair_constant(radius, mass),
             elastic_energy: |row, contact, offset, history| A::read(row).elastic_energy(contact, offset, history),
@@ -92,8 +163,8 @@ pub(super) struct TangentialModel {
     pub(super) projects: bool,
     /// [`Tangential::stiffness`].
     pub(super) stiffness: fn(&[f64], f64) -> f64,
-    /// [`Tangential::force`].
-    pub(super) force: fn(&[f64], &Contact, &NormalForce, Row, f64) -> Friction,
+    /// [`Tangential::force`], alone and with slopes.
+    pub(super) force: (TangentialFunction<f64>, TangentialFunction<Dual>),
 }
 
 impl TangentialModel {
@@ -109,7 +180,7 @@ impl TangentialModel {
             limits_dashpot: B::LIMITS_DASHPOT,
             projects: B::PROJECTS,
             stiffness: |row, from_normal_model| B::read(row).stiffness(from_normal_model),
-            force: |row, contact, normal, history, step| B::force(B::lanes(row), contact, normal, history, step),
+            force: (tangential::<B, f64>, tangential::<B, Dual>),
         }
     }
 }
@@ -129,8 +200,8 @@ pub(super) struct RollingModel {
     pub(super) stiffness: fn(&[f64], &Contact, &Response) -> RollingStiffness,
     /// [`Rolling::elastic_energy`].
     pub(super) elastic_energy: fn(&[f64], &Contact, &Response, Row) -> f64,
-    /// [`Rolling::torque`].
-    pub(super) torque: RollingFunction,
+    /// [`Rolling::torque`], alone and with slopes.
+    pub(super) torque: (RollingFunction<f64>, RollingFunction<Dual>),
 }
 
 impl RollingModel {
@@ -143,7 +214,7 @@ impl RollingModel {
             needs: C::NEEDS,
             stiffness: |row, contact, response| C::read(row).stiffness(contact, response),
             elastic_energy: |row, contact, response, history| C::read(row).elastic_energy(contact, response, history),
-            torque: |row, contact, normal, history, step| C::torque(C::lanes(row), contact, normal, history, step),
+            torque: (rolling::<C, f64>, rolling::<C, Dual>),
         }
     }
 }
@@ -158,9 +229,13 @@ pub(super) struct CohesionModel {
     /// What of a contact it looks at.
     pub(super) needs: Needs,
     /// [`CohesionForm::force`].
+    #[cfg(test)]
     pub(super) force: fn(&[f64], &Contact) -> f64,
     /// [`CohesionForm::add`].
+    #[cfg(test)]
     pub(super) add: fn(&[f64], f64, &mut NormalForce),
+    /// Both, alone and with slopes.
+    pub(super) pull: (CohesionFunction<f64>, CohesionFunction<Dual>),
 }
 
 impl CohesionModel {
@@ -170,8 +245,11 @@ impl CohesionModel {
             count: D::COUNT,
             active: D::ACTIVE,
             needs: D::NEEDS,
+            #[cfg(test)]
             force: |row, contact| D::force(D::lanes(row), contact),
+            #[cfg(test)]
             add: |row, pull, normal| D::add(D::lanes(row), pull, normal),
+            pull: (cohesion::<D, f64>, cohesion::<D, Dual>),
         }
     }
 }

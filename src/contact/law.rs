@@ -1,13 +1,14 @@
 //! Four sub-models as one law: the functions of each, called one after another on one contact.
 
-use super::functions::{CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
+use super::functions::{Acting, CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
 #[cfg(test)]
 use super::pressing_force;
 use super::{
     Adhesion, Booked, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction,
     Response, RollingStiffness, Scheme, Switches,
 };
-use crate::number::{Row, Vector};
+use crate::dual::Dual;
+use crate::number::{Number, Row, Vector};
 
 /// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
 /// the last evaluation, if the contact was then suppressed \[N\], and the overlap from which its normal force is taken \[m\].
@@ -61,6 +62,34 @@ pub struct CoefficientPlaces {
     pub cohesion: usize,
     /// How many there are in all.
     pub count: usize,
+}
+
+/// The numbers that a law takes one contact at a time: alone or with slopes.
+pub trait OneContact: Number<Mask = bool> {
+    /// What the sub-models of a law do, in this kind of number.
+    fn acting(law: &Law) -> Acting<Self>;
+}
+
+impl OneContact for f64 {
+    fn acting(law: &Law) -> Acting<Self> {
+        Acting {
+            normal: law.normal.force.0,
+            tangential: law.tangential.force.0,
+            rolling: law.rolling.torque.0,
+            cohesion: law.cohesion.pull.0,
+        }
+    }
+}
+
+impl OneContact for Dual {
+    fn acting(law: &Law) -> Acting<Self> {
+        Acting {
+            normal: law.normal.force.1,
+            tangential: law.tangential.force.1,
+            rolling: law.rolling.torque.1,
+            cohesion: law.cohesion.pull.1,
+        }
+    }
 }
 
 /// A contact law: what the four sub-models that the scene named do to one contact.
@@ -241,20 +270,24 @@ impl Law {
     }
 
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\].
-    pub fn react(&self, row: &[f64], contact: &Contact, history: &mut [Row], step: f64) -> Reaction {
+    pub fn react<N: OneContact>(
+        &self,
+        row: &[f64],
+        contact: &Contact<N>,
+        history: &mut [[N; 4]],
+        step: N,
+    ) -> Reaction<N> {
         let mut contact = if self.undeformed_arms() { contact.with_undeformed_arms() } else { *contact };
         let carry = self.carry(&mut contact, history, step);
-        let contact = &contact;
-        let (mut normal, remembered) = match self.history_places.normal {
-            Some(place) => (self.normal.force)(row, self.switches(row), contact, history[place], step),
-            None => (self.normal.force)(row, self.switches(row), contact, [0.0; 4], step),
-        };
-        if let Some(place) = self.history_places.normal {
+        let (contact, acting) = (&contact, N::acting(self));
+        let place = self.history_places.normal;
+        let before = place.map_or([N::zero(); 4], |place| history[place]);
+        let (mut normal, remembered) = (acting.normal)(row, contact, before, step);
+        if let Some(place) = place {
             history[place] = remembered;
         }
         if self.cohesion.active {
-            let row = &row[self.places.cohesion..];
-            (self.cohesion.add)(row, (self.cohesion.force)(row, contact), &mut normal);
+            (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
         }
         let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, (step, carry));
         let rolling = self.roll(row, contact, &normal, history, (step, carry));
@@ -293,7 +326,7 @@ impl Law {
     }
 
     /// How a contact was carried, where the scheme asks for it; it gets the velocities that dashpots see.
-    fn carry(&self, contact: &mut Contact, history: &mut [Row], step: f64) -> Option<Carry> {
+    fn carry<N: OneContact>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> Option<Carry<N>> {
         if !self.scheme.carries() {
             return None;
         }
@@ -306,25 +339,25 @@ impl Law {
     }
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
-    fn friction(
+    fn friction<N: OneContact>(
         &self,
         row: &[f64],
-        contact: &Contact,
-        normal: &NormalForce,
-        along: f64,
-        history: &mut [Row],
-        (mut step, carry): (f64, Option<Carry>),
-    ) -> (Vector, Vector, bool) {
+        contact: &Contact<N>,
+        normal: &NormalForce<N>,
+        along: N,
+        history: &mut [[N; 4]],
+        (mut step, carry): (N, Option<Carry<N>>),
+    ) -> (Vector<N>, Vector<N>, bool) {
         let force = contact.normal * along;
         if !self.tangential.active {
             return (force, Vector::zero(), false);
         }
         let place = self.history_places.tangential;
-        let mut before = place.map_or([0.0; 4], |place| history[place]);
+        let mut before = place.map_or([N::zero(); 4], |place| history[place]);
         if let Some(carry) = carry.filter(|_| self.tangential.has_spring) {
-            (before, step) = (carry.spring(contact.normal, before), 0.0);
+            (before, step) = (carry.spring(contact.normal, before), N::zero());
         }
-        let friction = (self.tangential.force)(&row[self.places.tangential..], contact, normal, before, step);
+        let friction = (N::acting(self).tangential)(&row[self.places.tangential..], contact, normal, before, step);
         if let Some(place) = place {
             history[place] = friction.history;
         }
@@ -332,26 +365,27 @@ impl Law {
     }
 
     /// Rolling torque from i to j.
-    fn roll(
+    fn roll<N: OneContact>(
         &self,
         row: &[f64],
-        contact: &Contact,
-        normal: &NormalForce,
-        history: &mut [Row],
-        (mut step, carry): (f64, Option<Carry>),
-    ) -> Vector {
+        contact: &Contact<N>,
+        normal: &NormalForce<N>,
+        history: &mut [[N; 4]],
+        (mut step, carry): (N, Option<Carry<N>>),
+    ) -> Vector<N> {
         if !self.rolling.active {
             return Vector::zero();
         }
         let place = self.history_places.rolling;
-        let (mut before, mut contact) = (place.map_or([0.0; 4], |place| history[place]), *contact);
+        let (mut before, mut contact) = (place.map_or([N::zero(); 4], |place| history[place]), *contact);
         let (mut pressed, carry) = (*normal, carry.filter(|_| place.is_some()));
         if let Some(carry) = carry {
             pressed = carry.mean_stiffness(normal, before[3]);
             before = carry.torque(contact.normal, before);
             (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
         }
-        let (torque, mut after) = (self.rolling.torque)(&row[self.places.rolling..], &contact, &pressed, before, step);
+        let (torque, mut after) =
+            (N::acting(self).rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
         if carry.is_some() {
             after[3] = normal.response.normal_stiffness;
         }

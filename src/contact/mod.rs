@@ -26,9 +26,10 @@ pub mod tangential;
 pub use choice::{LawChoice, remembered};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
+pub use functions::Acting;
 #[cfg(test)]
 pub use law::Offset;
-pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
+pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET, OneContact};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
@@ -252,13 +253,13 @@ pub struct Objection {
 
 /// Force and torques of one contact on its two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reaction {
+pub struct Reaction<N = f64> {
     /// Force on i; j gets the opposite \[N\].
-    pub force: Vector,
+    pub force: Vector<N>,
     /// n × F_t, which turns both bodies against their arms \[N\].
-    pub couple: Vector,
+    pub couple: Vector<N>,
     /// Rolling torque taken from i and given to j \[N m\].
-    pub rolling: Vector,
+    pub rolling: Vector<N>,
     /// Whether friction is at its limit.
     pub sliding: bool,
 }

@@ -20,7 +20,7 @@ pub(crate) struct Fields {
     /// Applied force of each particle of the scene \[N\]; empty where there is none.
     applied: Vec<[f64; 3]>,
     /// Damping of each particle of the scene; empty where there is none.
-    damping: Vec<Damped>,
+    pub(super) damping: Vec<Damped>,
     /// Damping of surfaces that forces move.
     surfaces: Damped,
 }
@@ -30,11 +30,11 @@ pub(crate) struct Damping(Vec<Damped>, Damped);
 
 /// Cundall's damping of one particle.
 #[derive(Clone, Copy, Default)]
-struct Damped {
+pub(super) struct Damped {
     /// Fraction of the force.
-    linear: f64,
+    pub(super) linear: f64,
     /// Fraction of the torque.
-    angular: f64,
+    pub(super) angular: f64,
     /// Whether gravity is damped.
     gravity: bool,
     /// Whether applied forces are damped.
@@ -265,7 +265,7 @@ impl Fields {
     }
 
     /// What comes before the damping, and what after it \[N\].
-    fn split(&self, mass: f64, id: u32, damped: Damped) -> ([f64; 3], [f64; 3]) {
+    pub(super) fn split(&self, mass: f64, id: u32, damped: Damped) -> ([f64; 3], [f64; 3]) {
         let (mut before, mut after) = ([0.0; 3], [0.0; 3]);
         let (weight, applied) = (self.weight(mass), self.applied(id));
         for axis in 0..3 {

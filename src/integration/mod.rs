@@ -2,6 +2,7 @@
 
 mod braking;
 mod fields;
+mod slopes;
 
 pub(crate) use fields::Fields;
 

@@ -11,10 +11,12 @@ use crate::batches::SpherePair;
 use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::batches::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
+use crate::dual::Dual;
 use crate::lanes::{self, Lane, Shared};
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
+use crate::tangent::Tangent;
 use crate::threads::Context;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -81,6 +83,10 @@ impl Pass for ContactPass {
         });
         lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
         Ok(())
+    }
+
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        self.add_contact_slopes(state, tangent, step);
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {

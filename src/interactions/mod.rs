@@ -5,6 +5,7 @@ pub(crate) mod contacts;
 mod listed;
 mod pass;
 mod records;
+mod slopes;
 pub(crate) mod suppression;
 pub(crate) mod surfaces;
 

@@ -3,6 +3,7 @@
 mod assemble;
 mod coefficients;
 mod depth;
+mod derivatives;
 mod limits;
 mod losses;
 mod observe;
@@ -19,6 +20,7 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
+pub use derivatives::{BoundaryDerivatives, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -39,6 +41,7 @@ use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::ledger::{Loads, Source};
 use crate::state::{Foresight, State, StateFault};
+use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -76,6 +79,8 @@ pub struct Simulation {
     room: Room,
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
+    /// How the state changes with a few inputs, while that is followed.
+    tangent: Option<Box<Tangent>>,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -134,6 +139,7 @@ impl Simulation {
             state,
             room: Room::default(),
             way_back: WayBack::default(),
+            tangent: None,
             stop: None,
             watch: None,
         };
@@ -354,6 +360,7 @@ impl Simulation {
         self.state.clock.last_step = step;
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
+        self.drift_slopes(step);
         let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
@@ -384,8 +391,10 @@ impl Simulation {
         felt::clear_loads(&mut self.state, &mut self.room.loads);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
+        self.evaluate_slopes(&Progress { time, ..progress });
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
+        self.kick_slopes(step);
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);

@@ -30,6 +30,8 @@ pub(super) struct WayBack {
     intervals: Vec<f64>,
     /// What was given for them, boundary by boundary.
     given: Vec<Given>,
+    /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
+    close: bool,
 }
 
 impl WayBack {
@@ -41,7 +43,7 @@ impl WayBack {
     /// Notes that a communication step of this length \[s\] begins.
     fn note(&mut self, state: &State, interval: f64) {
         let recent = |earlier: &State| state.clock.steps - earlier.clock.steps < MOST_STEPS;
-        if !(self.holds && self.earlier.as_ref().is_some_and(recent)) {
+        if self.close || !(self.holds && self.earlier.as_ref().is_some_and(recent)) {
             match &mut self.earlier {
                 Some(earlier) => earlier.clone_from(state),
                 None => {
@@ -67,6 +69,16 @@ impl Simulation {
     pub fn advance_or_return(&mut self, interval: f64) -> Result<(), RunError> {
         self.way_back.note(&self.state, interval);
         self.advance(interval).inspect_err(|_| self.go_back())
+    }
+
+    /// Goes back to the beginning of the communication step that was noted last, and gives its length \[s\] if there is one.
+    /// From now on the beginning of the last one is kept.
+    pub(super) fn return_to_last(&mut self) -> Option<f64> {
+        self.way_back.close = true;
+        let length = self.way_back.intervals.last().copied().filter(|_| self.way_back.holds)?;
+        self.go_back();
+        self.way_back.holds = true;
+        Some(length)
     }
 
     /// Goes back to the beginning of the communication step that was noted last.

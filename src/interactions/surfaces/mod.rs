@@ -7,6 +7,7 @@
 mod features;
 mod history;
 mod plane;
+mod slopes;
 mod sphere;
 
 use super::ahead::{Ahead, Link};
@@ -16,6 +17,7 @@ use super::records::ContactRecord;
 use crate::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::batches::{CoefficientTable, Partners};
 use crate::contact::Response;
+use crate::dual::Dual;
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
@@ -23,6 +25,7 @@ use crate::scene::{Boundary, Scene, Shape};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, State, StateFault, WallContacts};
 use crate::surface;
+use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use features::FeatureContacts;
 use plane::{AtPlane, Plane, PlaneList};
@@ -250,6 +253,10 @@ impl Pass for SurfacePass {
             result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
         }
         result
+    }
+
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        self.surfaces.iter().for_each(|surface| surface.add_slopes(state, tangent, step));
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {

@@ -37,13 +37,18 @@ impl Plane {
 
     /// How far in front of the plane a centre is \[m\].
     #[inline(always)]
-    fn distance<N: Number>(&self, position: [N; 4]) -> N {
+    pub(super) fn distance<N: Number>(&self, position: [N; 4]) -> N {
         (vector(position) - lanes(self.point)).dot(lanes(self.normal))
     }
 
     /// Geometry and relative motion of a sphere at this distance, with this radius.
     #[inline(always)]
-    fn meet<N: Number>(&self, [distance, radius]: [N; 2], motion: [[N; 4]; 2], pair_constant: N) -> ContactGeometry<N> {
+    pub(super) fn meet<N: Number>(
+        &self,
+        [distance, radius]: [N; 2],
+        motion: [[N; 4]; 2],
+        pair_constant: N,
+    ) -> ContactGeometry<N> {
         let sphere = SphereAt { normal: lanes(self.normal), distance, radius };
         sphere.meet(motion, lanes(self.velocity), vector(motion[1]), pair_constant)
     }

@@ -1,0 +1,104 @@
+//! How bonds change with a few inputs.
+
+use super::BondPass;
+use super::walls::WallBondPass;
+use crate::bond::{Body, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows, Sloped};
+use crate::dual::Dual;
+use crate::number::{Number, Vector};
+use crate::state::{BondList, Particles, State};
+use crate::tangent::{ListSlopes, NONE, ParticleSlopes, Tangent};
+
+/// A particle as a body of a bond, with slopes.
+fn body(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> Body<Dual> {
+    let [position, velocity, spin] = moved.body(particles, slot);
+    let orientation = match (particles.orientation.get(slot), moved.orientation.get(slot)) {
+        (Some(row), Some(slopes)) => Quaternion::from_row(Dual::row(*row, slopes)),
+        _ => Quaternion::identity(),
+    };
+    Body {
+        position: Vector::of_row(position),
+        velocity: Vector::of_row(velocity),
+        spin: Vector::of_row(spin),
+        orientation,
+        radius: position[3],
+        mass: velocity[3],
+        inertia: spin[3],
+    }
+}
+
+/// The numbers of a law at a time step of this length \[s\].
+fn at_step(law: &Law, step: Dual) -> Coefficients<Dual> {
+    Coefficients { step, ..law.elasticity.at_step(step.value) }
+}
+
+/// What a bond does, with slopes; those of its rows go on.
+fn react(
+    law: &Law,
+    coefficients: &Coefficients<Dual>,
+    pair: &Pair<Dual>,
+    (list, slopes, bond): (&BondList, &mut ListSlopes, usize),
+) -> Option<Sloped> {
+    let mut rows: Rows<Dual> = [[Dual::zero(); 4]; MOST_ROWS];
+    for (row, (values, slopes)) in rows.iter_mut().zip(list.rows.iter().zip(&slopes.rows)) {
+        *row = Dual::row(values[bond], &slopes[bond]);
+    }
+    let found = law.react_with_slopes(coefficients, pair, &rows);
+    let next = found.as_ref().map(|found| found.rows);
+    for (place, slopes) in slopes.rows.iter_mut().enumerate() {
+        slopes[bond] = next.map_or(NONE, |rows| Dual::slopes_of(rows[place]));
+    }
+    found
+}
+
+impl BondPass {
+    /// Adds the slopes of its loads to those of the particles.
+    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        let (list, particles) = (&state.bonds[self.index], &state.particles);
+        let (slopes, moved) = (&mut tangent.bonds[self.index], &mut tangent.particles);
+        let coefficients = at_step(&self.law, step);
+        for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
+            let (i, j) = (i as usize, j as usize);
+            if !moved.reached[i] && !moved.reached[j] {
+                continue;
+            }
+            let pair = Pair::of_spheres(&body(moved, particles, i), &body(moved, particles, j));
+            if let Some(found) = react(&self.law, &coefficients, &pair, (list, slopes, bond)) {
+                moved.load(i, found.force, found.torque_i);
+                moved.load(j, -found.force, found.torque_j);
+            }
+        }
+    }
+}
+
+impl WallBondPass {
+    /// Adds the slopes of its loads to those of the particles and the plane.
+    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        let (list, particles) = (&state.bonds[self.index], &state.particles);
+        let Tangent { particles: moved, bonds, boundaries, .. } = tangent;
+        let (slopes, boundary) = (&mut bonds[self.index], &mut boundaries[self.boundary.index()]);
+        let (coefficients, moves) = (at_step(&self.law, step), boundary.is_moved());
+        for (bond, &slot) in list.first.iter().enumerate() {
+            let slot = slot as usize;
+            if !moves && !moved.reached[slot] {
+                continue;
+            }
+            let at = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
+            let foot = Body {
+                position: Dual::vector(at.position, &boundary.displacement),
+                velocity: Dual::vector(at.velocity, &boundary.velocity),
+                spin: Vector::zero(),
+                orientation: Quaternion::identity(),
+                radius: Dual::splat(at.radius),
+                mass: Dual::splat(at.mass),
+                inertia: Dual::splat(at.inertia),
+            };
+            let pair = Pair::at_wall(&body(moved, particles, slot), &foot);
+            if let Some(found) = react(&self.law, &coefficients, &pair, (list, slopes, bond)) {
+                moved.load(slot, found.force, found.torque_i);
+                let arm = Vector::from(list.foot[bond]) - self.reference;
+                let arm = Dual::vector(arm, &[[0.0; 4]; 3]);
+                boundary.load(&(-found.force).slopes(), &(found.torque_j - arm.cross(found.force)).slopes());
+            }
+        }
+    }
+}

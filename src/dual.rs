@@ -1,0 +1,201 @@
+//! A number and its slopes: how it changes with each of a few inputs.
+//!
+//! Laws are written over [`Number`]; over this one they give their values, bit for bit those of `f64`, and beside them
+//! the exact derivatives of what was computed. Decisions are made by values: which branch is taken does not change.
+
+use crate::number::{Number, Vector};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// How many inputs are followed at a time.
+pub const DIRECTIONS: usize = 4;
+
+/// How one number changes with each input that is followed.
+pub type Slopes = [f64; DIRECTIONS];
+
+/// How a row of four numbers changes.
+pub type RowSlopes = [Slopes; 4];
+
+/// A number and its slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual {
+    /// The number.
+    pub value: f64,
+    /// How it changes with each input.
+    pub slopes: Slopes,
+}
+
+/// Slopes made number by number.
+#[inline(always)]
+fn each(make: impl Fn(usize) -> f64) -> Slopes {
+    std::array::from_fn(make)
+}
+
+impl Dual {
+    /// A number with these slopes.
+    #[inline(always)]
+    pub fn new(value: f64, slopes: Slopes) -> Self {
+        Self { value, slopes }
+    }
+
+    /// A row of numbers with their slopes.
+    #[inline(always)]
+    pub fn row(values: [f64; 4], slopes: &RowSlopes) -> [Self; 4] {
+        std::array::from_fn(|place| Self::new(values[place], slopes[place]))
+    }
+
+    /// Three numbers with their slopes.
+    #[inline(always)]
+    pub fn vector(values: Vector, slopes: &[Slopes; 3]) -> Vector<Self> {
+        let [x, y, z] = *slopes;
+        Vector::new(Self::new(values.x, x), Self::new(values.y, y), Self::new(values.z, z))
+    }
+
+    /// The slopes of a row.
+    #[inline(always)]
+    pub fn slopes_of(row: [Self; 4]) -> RowSlopes {
+        row.map(|number| number.slopes)
+    }
+}
+
+impl Vector<Dual> {
+    /// The slopes of the components.
+    #[inline(always)]
+    pub fn slopes(self) -> [Slopes; 3] {
+        [self.x.slopes, self.y.slopes, self.z.slopes]
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.value + other.value, each(|k| self.slopes[k] + other.slopes[k]))
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.value - other.value, each(|k| self.slopes[k] - other.slopes[k]))
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let slopes = each(|k| self.slopes[k] * other.value + other.slopes[k] * self.value);
+        Self::new(self.value * other.value, slopes)
+    }
+}
+
+impl Div for Dual {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let (value, per) = (self.value / other.value, 1.0 / other.value);
+        Self::new(value, each(|k| (self.slopes[k] - value * other.slopes[k]) * per))
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.value, self.slopes.map(|slope| -slope))
+    }
+}
+
+impl Number for Dual {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self::new(value, [0.0; DIRECTIONS])
+    }
+
+    /// The root of 0 has no slope; it is taken to stay.
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let value = self.value.sqrt();
+        let per = if value > 0.0 { 0.5 / value } else { 0.0 };
+        Self::new(value, self.slopes.map(|slope| slope * per))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let slopes = if self.value < 0.0 { self.slopes.map(|slope| -slope) } else { self.slopes };
+        Self::new(self.value.abs(), slopes)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self.value > other.value { self } else { other }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self.value < other.value { self } else { other }
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> bool {
+        self.value > other.value
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn both(one: bool, other: bool) -> bool {
+        one && other
+    }
+
+    #[inline(always)]
+    fn either(one: bool, other: bool) -> bool {
+        one || other
+    }
+
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+
+    #[inline(always)]
+    fn cube_root(self) -> Self {
+        let value = Number::cube_root(self.value);
+        let per = if value > 0.0 { 1.0 / (3.0 * value * value) } else { 0.0 };
+        Self::new(value, self.slopes.map(|slope| slope * per))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x with slope 1 along the first input.
+    fn along(value: f64) -> Dual {
+        Dual::new(value, [1.0, 0.0, 0.0, 0.0])
+    }
+
+    #[test]
+    fn slopes_are_those_of_calculus() {
+        let (x, two) = (along(3.0), Dual::splat(2.0));
+        assert_eq!((x * x * x).slopes[0], 27.0);
+        assert_eq!((two / x).slopes[0], -2.0 / 9.0);
+        assert_eq!(along(4.0).sqrt().slopes[0], 0.25);
+        assert_eq!(Number::abs(-x).slopes[0], 1.0);
+        assert!((along(8.0).cube_root().slopes[0] - 1.0 / 12.0).abs() < 1e-16);
+        assert_eq!((x - two + x).slopes, [2.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn the_greater_of_two_keeps_its_own_slope() {
+        let (x, four) = (along(3.0), Dual::splat(4.0));
+        assert_eq!([Number::max(x, four).slopes[0], Number::min(x, four).slopes[0]], [0.0, 1.0]);
+        assert_eq!(Dual::select(x.greater(four), x, four), four);
+    }
+}

@@ -1,0 +1,73 @@
+//! How contacts between particles change with a few inputs: the law over numbers with slopes.
+
+use super::contacts::ContactPass;
+use crate::batches::{ContactGeometry, SpherePair};
+use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};
+use crate::dual::Dual;
+use crate::number::Number;
+use crate::state::contacts::TOUCHING;
+use crate::state::{Row, State};
+use crate::tangent::{ListSlopes, NONE, Tangent};
+
+/// What a contact does, with slopes; those of what it remembers go on.
+pub(super) fn react(
+    law: &Law,
+    row: &[f64],
+    contact: &Contact<Dual>,
+    (history, slopes, entry): (&[Vec<Row>], &mut ListSlopes, usize),
+    step: Dual,
+) -> Reaction<Dual> {
+    let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
+    let count = law.history().len();
+    for (row, (values, slopes)) in rows.iter_mut().zip(history.iter().zip(&slopes.rows)).take(count) {
+        *row = Dual::row(values[entry], &slopes[entry]);
+    }
+    let reaction = law.react(row, contact, &mut rows, step);
+    for (slopes, row) in slopes.rows.iter_mut().zip(rows).take(count) {
+        slopes[entry] = Dual::slopes_of(row);
+    }
+    reaction
+}
+
+/// Nothing is remembered of a contact whose bodies are apart.
+pub(super) fn part(slopes: &mut ListSlopes, entry: usize) {
+    for rows in &mut slopes.rows {
+        rows[entry] = NONE;
+    }
+}
+
+/// How far beyond touch a contact holds its bodies together \[m\], if it may.
+pub(super) fn beyond(law: &Law, flags: u8, constant: f64) -> Option<f64> {
+    (law.holds_beyond_touch() && flags & TOUCHING != 0).then_some(constant)
+}
+
+impl ContactPass {
+    /// Adds the slopes of its forces to those of the particles.
+    pub(super) fn add_contact_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        let (list, particles, law) = (&state.contacts[self.index], &state.particles, &self.law.law);
+        let slopes = &mut tangent.contacts[self.index];
+        slopes.set_odd(law.history().iter().map(|row| row.odd));
+        let moved = &mut tangent.particles;
+        for (entry, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
+            let (i, j) = (i as usize, j as usize);
+            if !moved.reached[i] && !moved.reached[j] {
+                continue;
+            }
+            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
+            let near = SpherePair::of([particles.position[i], particles.position[j]]);
+            if !near.overlap(beyond(law, list.flags[entry], constant)) {
+                part(slopes, entry);
+                continue;
+            }
+            let ([p, v, w], [q, u, z]) = (moved.body(particles, i), moved.body(particles, j));
+            let [w, z] = [w, z].map(|spin| if self.law.needs.torque { spin } else { [Dual::zero(); 4] });
+            let geometry = SpherePair::of([p, q]).meet([v, u], [w, z], Dual::splat(constant));
+            let ContactGeometry { contact, first_arm, second_arm } = geometry;
+            let row = self.table.row(particles.material[i], particles.material[j]);
+            let Reaction { force, couple, rolling, .. } =
+                react(law, row, &contact, (&list.history, slopes, entry), step);
+            moved.load(i, force, -(couple * first_arm) - rolling);
+            moved.load(j, -force, rolling - couple * second_arm);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! How contacts with surfaces change with a few inputs.
+
+use super::plane::Plane;
+use super::{AtSurface, Touched};
+use crate::batches::ContactGeometry;
+use crate::contact::Reaction;
+use crate::dual::{Dual, Slopes};
+use crate::interactions::slopes::{beyond, part, react};
+use crate::number::{Number, Vector};
+use crate::state::State;
+use crate::tangent::Tangent;
+
+/// A row of a particle as a boundary sees it whose own part has these slopes.
+fn seen(mut row: [Dual; 4], own: &[Slopes; 3]) -> [Dual; 4] {
+    for (number, own) in row.iter_mut().zip(own) {
+        *number = *number - Dual::new(0.0, *own);
+    }
+    row
+}
+
+impl AtSurface {
+    /// Adds the slopes of its forces to those of the particles and of its boundary.
+    pub(super) fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        match &self.touched {
+            Touched::Plane(plane) => {
+                let boundary = &state.boundaries[self.list(state).boundary as usize];
+                self.add_slopes_at(&plane.at(boundary), state, tangent, step);
+            }
+            // Scenes with others are refused before.
+            Touched::Features(_) => {}
+        }
+    }
+
+    /// The same of a plane that stands here.
+    fn add_slopes_at(&self, plane: &Plane, state: &State, tangent: &mut Tangent, step: Dual) {
+        let (list, particles, law) = (self.list(state), &state.particles, &self.law.law);
+        let Tangent { particles: moved, walls, boundaries, .. } = tangent;
+        let (slopes, boundary) = (&mut walls[self.index], &mut boundaries[list.boundary as usize]);
+        let pivot = self.reference + state.boundaries[list.boundary as usize].displacement.into();
+        let moves = boundary.is_moved();
+        for (entry, &slot) in list.particle.iter().enumerate() {
+            let slot = slot as usize;
+            if !moves && !moved.reached[slot] {
+                continue;
+            }
+            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
+            let reach = particles.position[slot][3] + beyond(law, list.flags[entry], constant).unwrap_or(0.0);
+            if plane.distance(particles.position[slot]) > reach {
+                part(slopes, entry);
+                continue;
+            }
+            let [position, velocity, spin] = moved.body(particles, slot);
+            let spin = if self.law.needs.torque { spin } else { [Dual::zero(); 4] };
+            let (position, velocity) = (seen(position, &boundary.displacement), seen(velocity, &boundary.velocity));
+            let at = [plane.distance(position), position[3]];
+            let ContactGeometry { contact, first_arm, .. } = plane.meet(at, [velocity, spin], Dual::splat(constant));
+            let row = self.row(state, slot as u32);
+            let Reaction { force, couple, rolling, .. } =
+                react(law, row, &contact, (&list.history, slopes, entry), step);
+            moved.load(slot, force, -(couple * first_arm) - rolling);
+            let away = Vector::from(particles.position[slot]) - pivot;
+            let [x, y, z, _] = position;
+            let away = Dual::vector(away, &[x.slopes, y.slopes, z.slopes]);
+            let moment = (away - contact.normal * first_arm).cross(force) - rolling;
+            boundary.load(&(-force).slopes(), &(-moment).slopes());
+        }
+    }
+}
