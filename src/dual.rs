@@ -165,6 +165,11 @@ impl Number for Dual {
     }
 
     #[inline(always)]
+    fn whole(self) -> Self {
+        Self::splat(Number::whole(self.value))
+    }
+
+    #[inline(always)]
     fn cube_root(self) -> Self {
         let value = Number::cube_root(self.value);
         let per = if value > 0.0 { 1.0 / (3.0 * value * value) } else { 0.0 };
@@ -189,6 +194,7 @@ mod tests {
         assert_eq!(along(4.0).sqrt().slopes[0], 0.25);
         assert_eq!(Number::abs(-x).slopes[0], 1.0);
         assert!((along(8.0).cube_root().slopes[0] - 1.0 / 12.0).abs() < 1e-16);
+        assert_eq!(Number::whole(x), Dual::splat(3.0));
         assert_eq!((x - two + x).slopes, [2.0, 0.0, 0.0, 0.0]);
     }
 

@@ -42,6 +42,12 @@ pub trait Number:
     fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask;
     /// Whether the mask holds in any lane.
     fn any(mask: Self::Mask) -> bool;
+    /// The nearest whole number, of one below 2⁵¹: adding and taking away 1.5 · 2⁵² rounds to it.
+    #[inline(always)]
+    fn whole(self) -> Self {
+        let rounder = Self::splat(6_755_399_441_055_744.0);
+        (self + rounder) - rounder
+    }
     /// Zero.
     #[inline(always)]
     fn zero() -> Self {

@@ -8,7 +8,7 @@ use crate::refusal::Refusal;
 use crate::saved::{BlobError, Course, Saved};
 use crate::types::{Reference, Status};
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Causality, Findings, Interface, Value, Variable};
+use cograin::interface::{Causality, Derivatives, Findings, Interface, Value, Variable};
 use cograin::scene::{Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
@@ -183,6 +183,8 @@ pub(crate) struct Instance {
     kept: BTreeMap<usize, Kept>,
     /// What has been found of the simulation since it last changed.
     findings: Findings,
+    /// What has been found of the derivatives of its last communication step.
+    derivatives: Derivatives,
     /// The values that are being handed out.
     values: Vec<Value>,
     /// Set to end the communication step under way.
@@ -205,6 +207,7 @@ impl Instance {
             course,
             kept: BTreeMap::new(),
             findings: Findings::default(),
+            derivatives: Derivatives::default(),
             values: Vec::new(),
             stop,
         };
@@ -215,6 +218,11 @@ impl Instance {
     /// What ends the communication step under way when it is set.
     pub(crate) fn stop(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
+    }
+
+    /// Forgets what has been found of the simulation.
+    fn changed(&mut self) {
+        (self.findings, self.derivatives) = (Findings::default(), Derivatives::default());
     }
 
     /// Before anything was set.
@@ -302,7 +310,7 @@ impl Instance {
     fn take(&mut self, Begun { simulation, start, given }: Begun) {
         (self.simulation, self.start, self.made_with) = (simulation, start, given);
         self.simulation.stop_when(&self.stop);
-        self.findings = Findings::default();
+        self.changed();
     }
 
     /// Makes the simulation anew where other parameters were given than it was made with.
@@ -320,7 +328,7 @@ impl Instance {
     fn place(&mut self) -> Result<(), Refusal> {
         if !self.course.placed {
             self.make()?;
-            self.findings = Findings::default();
+            self.changed();
             self.simulation.place(self.start.as_ref()).map_err(Refusal::Start)?;
             self.course.placed = true;
         }
@@ -383,7 +391,7 @@ impl Instance {
         }
         if !tuned.is_empty() {
             self.unit.interface.tune(&mut self.simulation, &tuned)?;
-            self.findings = Findings::default();
+            self.changed();
         }
         for (reference, value) in references.iter().zip(values.iter()) {
             let (index, value) = (reference as usize, value.into());
@@ -435,6 +443,46 @@ impl Instance {
         Ok(())
     }
 
+    /// `fmi2GetDirectionalDerivative`: change of each unknown, an output, per unit of a direction of inputs.
+    pub(crate) fn directional_derivatives(
+        &mut self,
+        unknowns: Items<Reference>,
+        knowns: Items<Reference>,
+        direction: Items<f64>,
+    ) -> Result<Vec<f64>, Refusal> {
+        self.unit.interface.check_derivatives(&self.unit.scene)?;
+        let mut changes = Vec::new();
+        for unknown in unknowns.iter() {
+            let (output, _) = self.variable(unknown, "Real")?;
+            let mut change = 0.0;
+            for (known, share) in knowns.iter().zip(direction.iter()) {
+                let (input, _) = self.variable(known, "Real")?;
+                let (interface, known) = (&self.unit.interface, &mut self.derivatives);
+                change += share * interface.derivative(&mut self.simulation, known, [output, input])?;
+            }
+            changes.push(change);
+        }
+        Ok(changes)
+    }
+
+    /// `fmi2GetRealOutputDerivatives`: of order 1.
+    pub(crate) fn output_derivatives(
+        &mut self,
+        references: Items<Reference>,
+        orders: Items<i32>,
+    ) -> Result<Vec<f64>, Refusal> {
+        self.unit.interface.check_rates(&self.unit.scene)?;
+        let mut rates = Vec::new();
+        for (reference, order) in references.iter().zip(orders.iter()) {
+            let (index, variable) = self.variable(reference, "Real")?;
+            if order != 1 {
+                return Err(Refusal::Order { order, reference, name: variable.name.clone() });
+            }
+            rates.push(self.unit.interface.rate(&mut self.simulation, &mut self.derivatives, index)?);
+        }
+        Ok(rates)
+    }
+
     /// `fmi2DoStep`
     pub(crate) fn step(&mut self, point: f64, length: f64) -> Result<(), Refusal> {
         let present = self.time();
@@ -460,7 +508,7 @@ impl Instance {
             return Err(Refusal::TooMany { length, count: length / step, step, most });
         }
         self.stop.store(false, Ordering::Relaxed);
-        self.findings = Findings::default();
+        self.changed();
         match self.simulation.advance_or_return(length) {
             Ok(()) => {
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);
@@ -507,7 +555,7 @@ impl Instance {
             self.take(begun);
         }
         self.given.clone_from(&self.made_with);
-        self.findings = Findings::default();
+        self.changed();
         self.simulation.restore(&self.kept[&address].saved.state).map_err(|fault| BlobError::State(fault.into()))?;
         self.course = course;
         Ok(())

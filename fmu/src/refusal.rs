@@ -68,12 +68,6 @@ pub(crate) enum Refusal {
         /// Its name.
         name: String,
     },
-    /// A capability that is declared absent.
-    #[error("this unit provides none: {flag} in modelDescription.xml")]
-    Absent {
-        /// The flag and its value.
-        flag: &'static str,
-    },
     /// A time that is not a finite number.
     #[error("{argument} is {value} s; {right} is right")]
     Time {

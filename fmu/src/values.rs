@@ -182,33 +182,52 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     })
 }
 
-/// `fmi2GetRealOutputDerivatives`: declared absent.
+/// `fmi2GetRealOutputDerivatives`: order 1.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetRealOutputDerivatives(
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     component: Component,
-    _references: *const Reference,
-    _count: usize,
-    _orders: *const c_int,
-    _values: *mut f64,
+    references: *const Reference,
+    count: usize,
+    orders: *const c_int,
+    values: *mut f64,
 ) -> Status {
-    call(component, &calls::GET_OUTPUT_DERIVATIVES, |_, _| {
-        Err(Refusal::Absent { flag: "maxOutputDerivativeOrder is 0" })
+    call(component, &calls::GET_OUTPUT_DERIVATIVES, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, orders, targets) = unsafe {
+            (
+                Items::new("vr", references, count)?,
+                Items::new("order", orders, count)?,
+                Target::array("value", values, count)?,
+            )
+        };
+        targets.put_all(&instance.output_derivatives(references, orders)?);
+        Ok(())
     })
 }
 
-/// `fmi2GetDirectionalDerivative`: declared absent.
+/// `fmi2GetDirectionalDerivative`
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetDirectionalDerivative(
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: Component,
-    _unknowns: *const Reference,
-    _unknown_count: usize,
-    _knowns: *const Reference,
-    _known_count: usize,
-    _directions: *const f64,
-    _derivatives: *mut f64,
+    unknowns: *const Reference,
+    unknown_count: usize,
+    knowns: *const Reference,
+    known_count: usize,
+    direction: *const f64,
+    derivatives: *mut f64,
 ) -> Status {
-    call(component, &calls::GET_DIRECTIONAL_DERIVATIVE, |_, _| {
-        Err(Refusal::Absent { flag: "providesDirectionalDerivative is false" })
+    call(component, &calls::GET_DIRECTIONAL_DERIVATIVE, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (unknowns, knowns, direction, targets) = unsafe {
+            (
+                Items::new("vUnknown_ref", unknowns, unknown_count)?,
+                Items::new("vKnown_ref", knowns, known_count)?,
+                Items::new("dvKnown", direction, known_count)?,
+                Target::array("dvUnknown", derivatives, unknown_count)?,
+            )
+        };
+        targets.put_all(&instance.directional_derivatives(unknowns, knowns, direction)?);
+        Ok(())
     })
 }
 

@@ -92,16 +92,6 @@ fn status_is_of_the_last_step() {
 }
 
 #[test]
-fn what_is_declared_absent_says_so() {
-    let unit = Unpacked::new();
-    let host = Host::started(&unit);
-    let derivatives = fmi2GetRealOutputDerivatives(host.component, null(), 0, null(), null_mut());
-    host.refused(derivatives, &["maxOutputDerivativeOrder is 0"]);
-    let directional = fmi2GetDirectionalDerivative(host.component, null(), 0, null(), 0, null(), null_mut());
-    host.refused(directional, &["providesDirectionalDerivative is false"]);
-}
-
-#[test]
 fn the_platform_and_version_are_those_of_the_standard() {
     // SAFETY: both strings are constants that end in a zero.
     let (platform, version) = unsafe { (CStr::from_ptr(fmi2GetTypesPlatform()), CStr::from_ptr(fmi2GetVersion())) };

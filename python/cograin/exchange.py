@@ -50,7 +50,7 @@ class Side(Protocol):
     def restore(self) -> None:
         """Restores the saved state."""
 
-    def derivative(self, displacement: Vector, kind: Force) -> Matrix:
+    def derivative(self, kind: Force) -> Matrix:
         """Change of the force per change of displacement in the next step \\[N/m\\]."""
 
 

@@ -345,14 +345,16 @@ class Newton(Implicit):
 
     ``derivative="unit"`` takes the directional derivatives of the units and refuses units that have none.
     ``"differences"`` moves each direction by ``perturbation`` \\[m, rad\\] and restores the state, which is one more
-    evaluation for each direction. It keeps this derivative, over steps too, until a correction leaves more than a tenth
-    of the residual; a derivative of the units is computed again for every correction.
+    evaluation for each direction. A derivative of the units is computed again for every correction, unless ``keep`` is
+    set. A kept derivative, as one by differences, serves over steps too, until a correction leaves more than a tenth of
+    the residual. ``derivatives`` counts how often the units were asked for theirs.
     """
 
     def __init__(
         self,
         derivative: Literal["unit", "differences"] = "unit",
         *,
+        keep: bool = False,
         perturbation: float = 1e-8,
         tolerance: Tolerance | None = None,
         force: Force = "mean",
@@ -362,7 +364,9 @@ class Newton(Implicit):
         if derivative not in ("unit", "differences"):
             raise ValueError(f"derivative: {derivative!r}; 'unit' or 'differences' is right")
         self.derivative = derivative
+        self.keep = keep or derivative == "differences"
         self.perturbation = perturbation
+        self.derivatives = 0
         self._known: Matrix | None = None
 
     def begin(self, search: Search) -> None:
@@ -374,16 +378,18 @@ class Newton(Implicit):
 
     def correct(self, search: Search) -> Vector:
         now = search.last
-        if self.derivative == "unit":
-            search.side.restore()
-            change = search.side.derivative(now.displacement, self.force)
-        else:
-            slow = len(search.trials) > 1 and now.size > 0.1 * search.trials[-2].size
-            if self._known is None or slow:
-                self._known = self._by_differences(search, now)
-            change = self._known
-        matrix = np.eye(len(now.residual)) - search.partner.compliance(search.step) @ change
+        slow = len(search.trials) > 1 and now.size > 0.1 * search.trials[-2].size
+        if self._known is None or slow or not self.keep:
+            self._known = self._change(search, now)
+        matrix = np.eye(len(now.residual)) - search.partner.compliance(search.step) @ self._known
         return now.displacement + np.linalg.solve(matrix, now.residual)
+
+    def _change(self, search: Search, now: Trial) -> Matrix:
+        """Change of the force per change of displacement about the last trial \\[N/m\\]."""
+        if self.derivative == "differences":
+            return self._by_differences(search, now)
+        self.derivatives += 1
+        return search.side.derivative(self.force)
 
     def _by_differences(self, search: Search, now: Trial) -> Matrix:
         """Change of the force per change of displacement about a trial \\[N/m\\]."""

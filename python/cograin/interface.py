@@ -166,14 +166,15 @@ class Interface:
                 part.unit.restore(part.state)
         self.displacement = self._saved
 
-    def derivative(self, displacement: Vector, kind: Force) -> Matrix:
-        """Change of the force per change of displacement at the end of the next step, by the units \\[N/m\\]."""
-        blocks, first = np.zeros((len(displacement), len(displacement))), 0
-        for part in self._parts:
-            place = slice(first, first + len(part.displacements))
-            part.unit.set(part.displacements, displacement[place])
-            blocks[place, place] = part.unit.derivative(part.forces[kind], part.displacements)
-            first += len(part.displacements)
+    def derivative(self, kind: Force) -> Matrix:
+        """Change of the force per change of displacement at the end of the last step, by the units \\[N/m\\]."""
+        ends = np.cumsum([len(part.displacements) for part in self._parts])
+        places = [slice(end - len(part.displacements), end) for part, end in zip(self._parts, ends, strict=True)]
+        blocks = np.zeros((ends[-1], ends[-1]))
+        for one, rows in zip(self._parts, places, strict=True):
+            for other, columns in zip(self._parts, places, strict=True):
+                if one.unit is other.unit:
+                    blocks[rows, columns] = one.unit.derivative(one.forces[kind], other.displacements)
         return blocks
 
 

@@ -277,7 +277,10 @@ class Unit:
         return State(self._call(self.slave.deSerializeFMUstate, data), time)
 
     def derivative(self, outputs: Sequence[str], inputs: Sequence[str]) -> Matrix:
-        """Change of outputs (rows) at the end of the next step per unit change of inputs (columns)."""
+        """Change of outputs (rows) at the end of the last step per unit change of inputs (columns) at that end.
+
+        The unit follows its own time steps, exactly and in one go for all inputs; its state stays as it is.
+        """
         if not self.has_derivatives:
             raise UnitError(f"{self.name}: gives no directional derivatives")
         unknown = [self.variable(name).valueReference for name in outputs]

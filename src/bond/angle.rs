@@ -98,9 +98,7 @@ pub fn twice_angle<N: Number>(x: N, y: N, flat: N::Mask, tangent: N) -> N {
 #[inline(always)]
 pub fn continued<N: Number>(angle: N, last: N) -> N {
     let double_turn = 2.0 * std::f64::consts::TAU;
-    // Adding and taking away 1.5 · 2⁵² rounds to the nearest whole number.
-    let rounder = N::splat(6_755_399_441_055_744.0);
-    let turns = ((last - angle) * N::splat(1.0 / double_turn) + rounder) - rounder;
+    let turns = ((last - angle) * N::splat(1.0 / double_turn)).whole();
     angle + turns * N::splat(double_turn)
 }
 

@@ -97,7 +97,7 @@ impl WallBondPass {
                 moved.load(slot, found.force, found.torque_i);
                 let arm = Vector::from(list.foot[bond]) - self.reference;
                 let arm = Dual::vector(arm, &[[0.0; 4]; 3]);
-                boundary.load(&(-found.force).slopes(), &(found.torque_j - arm.cross(found.force)).slopes());
+                boundary.add_load(&(-found.force).slopes(), &(found.torque_j - arm.cross(found.force)).slopes());
             }
         }
     }

@@ -6,6 +6,7 @@ pub(crate) mod implicit;
 mod inertia;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
+pub(crate) mod slopes;
 
 pub(crate) use inertia::sphere_inertia;
 pub(crate) use rigid_body::{RigidBody, Turning};

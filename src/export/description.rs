@@ -20,14 +20,12 @@ pub(super) struct Model<'a> {
 }
 
 /// What the library can do, as `fmu/` does it; what is not named here is `false` or 0.
-const CAPABILITIES: [(&str, &str); 7] = [
+const CAPABILITIES: [(&str, &str); 5] = [
     ("canHandleVariableCommunicationStepSize", "true"),
     ("canInterpolateInputs", "true"),
-    ("maxOutputDerivativeOrder", "0"),
     ("canNotUseMemoryManagementFunctions", "true"),
     ("canGetAndSetFMUstate", "true"),
     ("canSerializeFMUstate", "true"),
-    ("providesDirectionalDerivative", "false"),
 ];
 
 /// Categories of messages, with what they are.
@@ -46,6 +44,8 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let about = about(model.scene);
+    let derivatives = model.interface.check_derivatives(model.scene).is_ok();
+    let rates = model.interface.check_rates(model.scene).is_ok();
     xml.create_element("fmiModelDescription")
         .with_attributes([
             ("fmiVersion", "2.0"),
@@ -59,6 +59,8 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
             xml.create_element("CoSimulation")
                 .with_attribute(("modelIdentifier", model.identifier))
                 .with_attributes(CAPABILITIES)
+                .with_attribute(("maxOutputDerivativeOrder", if rates { "1" } else { "0" }))
+                .with_attribute(("providesDirectionalDerivative", if derivatives { "true" } else { "false" }))
                 .write_empty()?;
             units(xml, model.interface)?;
             xml.create_element("LogCategories").write_inner_content(|xml| {
@@ -73,7 +75,7 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
             xml.create_element("ModelVariables").write_inner_content(|xml| {
                 model.interface.variables().iter().enumerate().try_for_each(|(index, it)| variable(xml, index, it))
             })?;
-            structure(xml, model.interface)
+            structure(xml, model)
         })?;
     Ok(xml.into_inner())
 }
@@ -166,12 +168,18 @@ fn places<'a>(variables: impl Iterator<Item = (usize, &'a Variable)>) -> String 
     variables.map(|(index, _)| (index + 1).to_string()).collect::<Vec<_>>().join(" ")
 }
 
-/// `ModelStructure`. Setting an input changes no output before the next step; at the start it moves the boundary. What
-/// the unit is made of, the parameters, decides all that is calculated at the start.
-fn structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
+/// `ModelStructure`. An output depends on the inputs that it has derivatives by: those that were set for the communication step
+/// whose end it is of. Setting an input changes none before the next step; at the start it moves the boundary. What the unit is
+/// made of, the parameters, decides all that is calculated at the start.
+fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
+    let interface = model.interface;
+    let followed: Vec<usize> = interface.followed(model.scene);
+    let followed = followed.iter().map(|index| (index + 1).to_string()).collect::<Vec<_>>().join(" ");
+    let dependencies = |index: usize| if interface.has_slopes(index) { followed.as_str() } else { "" };
     let parameters = places(interface.of_causality(Causality::Parameter));
     let given = places(interface.inputs().chain(interface.of_causality(Causality::Parameter)));
-    let outputs: Vec<(String, &str)> = interface.outputs().map(|(index, _)| ((index + 1).to_string(), "")).collect();
+    let outputs: Vec<(String, &str)> =
+        interface.outputs().map(|(index, _)| ((index + 1).to_string(), dependencies(index))).collect();
     let initial: Vec<(String, &str)> = interface
         .outputs()
         .filter(|(_, variable)| variable.start.is_none())

@@ -259,7 +259,7 @@ impl Fields {
     }
 
     /// Weight and applied force \[N\].
-    fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
+    pub(super) fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
         let (weight, applied) = (self.weight(mass), self.applied(id));
         [weight[0] + applied[0], weight[1] + applied[1], weight[2] + applied[2]]
     }

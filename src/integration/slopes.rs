@@ -5,6 +5,11 @@ use crate::dual::RowSlopes;
 use crate::state::Particles;
 
 impl Fields {
+    /// Weight and applied force on a particle, by its slot \[N\].
+    pub(crate) fn weight_of(&self, particles: &Particles, slot: usize) -> [f64; 3] {
+        self.loads(particles.velocity[slot][3], particles.id[slot])
+    }
+
     /// Damps the slopes of forces and torques on free particles, whose loads are those behind the damping: a fraction of a load
     /// that works is taken away, of one that is worked against added.
     pub(crate) fn damp_slopes(&self, particles: &Particles, force: &mut [RowSlopes], torque: &mut [RowSlopes]) {

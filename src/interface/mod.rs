@@ -3,18 +3,20 @@
 //! Forces and moments are those *of the particles on the boundary*; moments are taken about the boundary's
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
+mod derivatives;
 mod findings;
 mod losses;
 mod parameters;
 mod quantity;
 mod rows;
 
+pub use derivatives::Derivatives;
 pub use findings::Findings;
 pub use quantity::Quantity;
 
 use crate::scene::{self, Scene, SceneErrors};
 use crate::state::State;
-use crate::step::{Simulation, TuneError};
+use crate::step::{NoDerivative, Simulation, TuneError};
 use parameters::Parameter;
 use rows::Present;
 use std::collections::BTreeMap;
@@ -153,6 +155,27 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
+    /// An output whose derivatives are not followed.
+    #[error(
+        "{index} ({name}): no derivative; displacement, velocity, force and moment of a boundary, and mean loads, have some by inputs; displacement, force and moment in time"
+    )]
+    NoSlope {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A derivative by what is no input.
+    #[error("{index} ({name}) is no input; derivatives are by inputs")]
+    NoInput {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// The scene or the moment has no derivatives.
+    #[error(transparent)]
+    NoDerivative(#[from] NoDerivative),
     /// Values of tunable parameters that contradict each other.
     #[error(transparent)]
     Tune(#[from] TuneError),

@@ -5,11 +5,12 @@
 
 use super::losses::{self, LOSSES};
 use super::{Causality, Findings, Quantity, Value, Variability, Variable};
+use crate::dual::Slopes;
 use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{BondList, BoundaryState, Loss, State};
-use crate::step::Simulation;
+use crate::step::{BoundaryDerivatives, Simulation};
 
 /// Names of the axes in variables.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -66,6 +67,8 @@ pub(super) struct Write {
     pub(super) held: fn(&State, At) -> f64,
     /// The value before anything is given.
     start: fn(&Scene, At) -> f64,
+    /// Which of the axes of its boundary: along x, y, z, then about them.
+    pub(super) axis: fn(At) -> (BoundaryIndex, usize),
 }
 
 /// A kind of variable.
@@ -92,6 +95,10 @@ pub(super) struct Row {
     pub(super) write: Option<Write>,
     /// Its present value.
     pub(super) read: fn(Present, At) -> Value,
+    /// How it changes with inputs, where that is followed.
+    pub(super) slopes: Option<fn(&[BoundaryDerivatives], At) -> Slopes>,
+    /// Whether its rate is known.
+    pub(super) has_rate: bool,
 }
 
 /// What most rows have in common: an output that every scene has.
@@ -107,6 +114,8 @@ const OUTPUT: Row = Row {
     constant: None,
     write: None,
     read: |_, _| Value::Real(0.0),
+    slopes: None,
+    has_rate: false,
 };
 
 /// An output of each boundary and axis.
@@ -122,6 +131,7 @@ const fn given<const FIRST: usize>() -> Option<Write> {
         set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis, rate),
         held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
         start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis].first_input(),
+        axis: |at| (at.boundary, FIRST + at.axis),
     })
 }
 
@@ -251,6 +261,8 @@ static OF_BOUNDARIES: [Row; 18] = [
         follows_inputs_at_start: false,
         exists: |scene, at| moves_by_itself(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).displacement[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis]),
+        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -269,6 +281,7 @@ static OF_BOUNDARIES: [Row; 18] = [
         follows_inputs_at_start: false,
         exists: |scene, at| is_free(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).velocity[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis]),
         ..OF_AXIS
     },
     Row {
@@ -285,6 +298,8 @@ static OF_BOUNDARIES: [Row; 18] = [
         description: "force of the particles on {boundary} along {axis}",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).force[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis]),
+        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -292,6 +307,8 @@ static OF_BOUNDARIES: [Row; 18] = [
         description: "moment of the particles on {boundary} about {axis} through its moved reference point",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).moment[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis]),
+        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -307,6 +324,7 @@ static OF_BOUNDARIES: [Row; 18] = [
         description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis]),
         ..OF_AXIS
     },
     Row {
@@ -314,6 +332,7 @@ static OF_BOUNDARIES: [Row; 18] = [
         description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis]),
         ..OF_AXIS
     },
     Row {

@@ -5,11 +5,13 @@
 
 use super::Simulation;
 use crate::bond::creation::{ContactPolicy, Due};
+use crate::boundaries::slopes;
 use crate::dual::{DIRECTIONS, Dual, Slopes};
-use crate::motion::{Progress, Way};
+use crate::motion::AxisMotion;
+use crate::motion::Progress;
 use crate::number::Number;
 use crate::quantity::BoundaryIndex;
-use crate::scene::{Boundary, Scene};
+use crate::scene::Scene;
 use crate::tangent::{BoundarySlopes, Tangent};
 
 /// How a boundary changes with each of some inputs: at the end of the last communication step, per unit of the input at that
@@ -18,6 +20,10 @@ use crate::tangent::{BoundarySlopes, Tangent};
 pub struct BoundaryDerivatives {
     /// Of the force of the particles \[N\].
     pub force: [Slopes; 3],
+    /// Of its displacement \[m\].
+    pub displacement: [Slopes; 3],
+    /// Of its velocity \[m/s\].
+    pub velocity: [Slopes; 3],
     /// Of their moment \[N m\].
     pub moment: [Slopes; 3],
     /// Of the mean force of the communication step \[N\].
@@ -50,7 +56,7 @@ impl Simulation {
     /// communication step. The state stays as it is. From the first call on the beginning of each communication step is
     /// kept; before it is found by making up to 64 time steps again.
     pub fn derivatives(&mut self, inputs: &[(BoundaryIndex, usize)]) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
-        self.check_derivatives(inputs)?;
+        refuse(&self.scene)?;
         let given: Vec<[[f64; 6]; 2]> =
             self.state.boundaries.iter().map(|boundary| [boundary.target, boundary.target_rate]).collect();
         let stop = self.stop.take();
@@ -59,9 +65,9 @@ impl Simulation {
         if let Some(length) = length {
             let mut tangent = Tangent::of(&self.state);
             for (direction, &(boundary, axis)) in inputs.iter().enumerate().take(DIRECTIONS) {
-                let steered = self.scene.boundaries[boundary.index()].axes[axis].takes_velocity();
-                let way = if steered { length } else { 1.0 };
-                tangent.boundaries[boundary.index()].end[axis][direction] = way;
+                let place = boundary.index();
+                let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
+                slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, direction), length);
             }
             self.tangent = Some(Box::new(tangent));
             self.advance(length).expect("a communication step that was made before can be made again");
@@ -76,19 +82,36 @@ impl Simulation {
         found
     }
 
-    /// Whether derivatives by these inputs are followed.
-    pub fn check_derivatives(&self, inputs: &[(BoundaryIndex, usize)]) -> Result<(), NoDerivative> {
-        refuse(&self.scene)?;
-        for &(boundary, axis) in inputs {
-            let boundary = &self.scene.boundaries[boundary.index()];
-            if axis >= 3 {
-                return Err(NoDerivative::Refused {
-                    what: format!("[boundary.{}] turned by an input", boundary.name),
-                    right: "an input along an axis",
-                });
+    /// Whether derivatives are followed in a scene.
+    pub fn follows(scene: &Scene) -> Result<(), NoDerivative> {
+        refuse(scene)
+    }
+
+    /// Whether rates of loads are known in a scene.
+    pub fn has_rates(scene: &Scene) -> Result<(), NoDerivative> {
+        refuse(scene)?;
+        match scene.bonds.iter().find(|bond| bond.keys.formulation.is_engine()) {
+            None => Ok(()),
+            Some(bond) => {
+                let what = format!("[bond.{}] formulation engine_exact in time", bond.name);
+                Err(NoDerivative::Refused { what, right: "another formulation" })
             }
         }
-        Ok(())
+    }
+
+    /// How force and moment of each boundary change in time at present, in the first of the directions \[N/s, N m/s\]: as
+    /// positions, velocities and springs go on. The state stays as it is.
+    pub fn rates(&self) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
+        Self::has_rates(&self.scene)?;
+        let mut tangent = Tangent::of(&self.state);
+        tangent.go_on(&self.state);
+        let passing = Dual::new(0.0, std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }));
+        for pass in &self.passes {
+            pass.add_slopes(&self.state, &mut tangent, passing);
+        }
+        let particles = &self.state.particles;
+        slopes::sum_groups(&self.scene, &self.state, &mut tangent, |slot| self.fields.weight_of(particles, slot));
+        Ok(tangent.boundaries.iter().map(|slopes| told(slopes, 1.0)).collect())
     }
 
     /// The first half of a kick and the drift.
@@ -105,86 +128,26 @@ impl Simulation {
     pub(super) fn evaluate_slopes(&mut self, progress: &Progress) {
         let Some(mut tangent) = self.tangent.take() else { return };
         tangent.follow(&self.state);
-        for (boundary, slopes) in self.scene.boundaries.iter().zip(&mut tangent.boundaries) {
-            lead(boundary, slopes, progress);
-            (slopes.force, slopes.moment) = Default::default();
-        }
-        self.carry_groups(&mut tangent);
+        slopes::advance(&self.scene, &self.bodies, &self.state, &mut tangent, progress);
         for pass in &self.passes {
             pass.add_slopes(&self.state, &mut tangent, Dual::splat(progress.step));
         }
-        self.sum_groups(&mut tangent);
         self.tangent = Some(tangent);
     }
 
     /// The second half of a kick, after forces have been evaluated.
-    pub(super) fn kick_slopes(&mut self, step: f64) {
+    pub(super) fn kick_slopes(&mut self, weighed: bool, step: f64) {
         if let Some(tangent) = &mut self.tangent {
+            let particles = &self.state.particles;
+            let weight = |slot: usize| if weighed { self.fields.weight_of(particles, slot) } else { [0.0; 3] };
+            slopes::sum_groups(&self.scene, &self.state, tangent, weight);
             tangent.follow_bonds(&self.state);
             let particles = &mut tangent.particles;
             self.fields.damp_slopes(&self.state.particles, &mut particles.force, &mut particles.torque);
             tangent.kick(&self.state, step);
+            slopes::kick_again(&self.bodies, &self.state, tangent, step);
             for boundary in &mut tangent.boundaries {
                 boundary.book(0.5 * step);
-            }
-        }
-    }
-
-    /// The particles of groups go with their boundaries.
-    fn carry_groups(&self, tangent: &mut Tangent) {
-        for (boundary, slopes) in self.scene.boundaries.iter().zip(&tangent.boundaries) {
-            for &member in boundary.shape.members().iter().filter(|_| slopes.is_moved()) {
-                let slot = self.state.particles.slot[member as usize] as usize;
-                let particles = &mut tangent.particles;
-                particles.position[slot][..3].copy_from_slice(&slopes.displacement);
-                particles.velocity[slot][..3].copy_from_slice(&slopes.velocity);
-                particles.reached[slot] = true;
-            }
-        }
-    }
-
-    /// Loads on the particles of groups are loads on their boundaries. The particles go as the boundary does, so their arms
-    /// stay.
-    fn sum_groups(&self, tangent: &mut Tangent) {
-        for ((boundary, moved), slopes) in
-            self.scene.boundaries.iter().zip(&self.state.boundaries).zip(&mut tangent.boundaries)
-        {
-            for &member in boundary.shape.members() {
-                let slot = self.state.particles.slot[member as usize] as usize;
-                let particles = &tangent.particles;
-                if particles.reached[slot] {
-                    let position = self.state.particles.position[slot];
-                    let arm: [f64; 3] = std::array::from_fn(|axis| position[axis] - moved.pivot[axis]);
-                    let ([f, g, h, _], [a, b, c, _]) = (particles.force[slot], particles.torque[slot]);
-                    let moment = std::array::from_fn(|direction| {
-                        let across = [
-                            arm[1] * h[direction] - arm[2] * g[direction],
-                            arm[2] * f[direction] - arm[0] * h[direction],
-                            arm[0] * g[direction] - arm[1] * f[direction],
-                        ];
-                        [across[0] + a[direction], across[1] + b[direction], across[2] + c[direction]]
-                    });
-                    slopes.load(&[f, g, h], &turned(moment));
-                }
-            }
-        }
-    }
-}
-
-/// Slopes by component, from those by direction.
-fn turned(by_direction: [[f64; 3]; DIRECTIONS]) -> [Slopes; 3] {
-    std::array::from_fn(|axis| std::array::from_fn(|direction| by_direction[direction][axis]))
-}
-
-/// A boundary goes on its way as it is led: in proportion to where it is to be at the end.
-fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, progress: &Progress) {
-    for axis in (0..3).filter(|&axis| boundary.axes[axis].is_driven()) {
-        for direction in 0..DIRECTIONS {
-            let (target, before) = (slopes.end[axis][direction], slopes.displacement[axis][direction]);
-            let way = Way { start: 0.0, target, before, course: boundary.input };
-            if let Some([displacement, velocity]) = boundary.axes[axis].lead(&way, progress) {
-                slopes.displacement[axis][direction] = displacement;
-                slopes.velocity[axis][direction] = velocity;
             }
         }
     }
@@ -194,6 +157,8 @@ fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, progress: &Progress) {
 fn told(slopes: &BoundarySlopes, length: f64) -> BoundaryDerivatives {
     let mean = |impulse: &[Slopes; 3]| impulse.map(|impulse| impulse.map(|impulse| impulse / length));
     BoundaryDerivatives {
+        displacement: slopes.displacement,
+        velocity: slopes.velocity,
         force: slopes.force,
         moment: slopes.moment,
         mean_force: mean(&slopes.impulse),
@@ -207,16 +172,16 @@ fn refuse(scene: &Scene) -> Result<(), NoDerivative> {
     for boundary in &scene.boundaries {
         let name = &boundary.name;
         if boundary.axes.iter().any(|axis| axis.servo().is_some()) {
-            return refused(
-                format!("[boundary.{name}] moved by a servo"),
-                "a boundary that an input or the scene leads",
-            );
+            return refused(format!("[boundary.{name}] moved by a servo"), "one that is driven or loaded");
         }
-        if boundary.axes.iter().any(|axis| axis.is_free()) {
-            return refused(
-                format!("[boundary.{name}] moved by forces"),
-                "a boundary that an input or the scene leads",
-            );
+        if boundary.axes[3..].iter().any(AxisMotion::is_free) {
+            return refused(format!("[boundary.{name}] turned by forces"), "one that forces move along its axes alone");
+        }
+        let free = boundary.axes.iter().any(AxisMotion::is_free);
+        let damped = |member: &u32| scene.damping.iter().any(|set| set.linear[*member as usize] != 0.0);
+        if free && boundary.shape.members().iter().any(damped) {
+            let what = format!("[boundary.{name}] moved by forces under [damping]");
+            return refused(what, "one without global damping");
         }
         if boundary.shape.material().is_some() && boundary.shifting_plane().is_none() {
             return refused(format!("[boundary.{name}] a surface of features"), "a plane, or a group of particles,");

@@ -394,7 +394,7 @@ impl Simulation {
         self.evaluate_slopes(&Progress { time, ..progress });
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
-        self.kick_slopes(step);
+        self.kick_slopes(gravity.is_none(), step);
         books::book(&mut self.state, &self.fields, &self.bodies, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);

@@ -4,6 +4,7 @@
 
 mod boundary;
 mod list;
+pub(crate) mod rotation;
 
 pub(crate) use boundary::BoundarySlopes;
 pub(crate) use list::ListSlopes;
@@ -107,6 +108,32 @@ impl Tangent {
         for (slopes, list) in self.bonds.iter_mut().zip(&state.bonds) {
             let second = |bond: usize| list.second.get(bond).map_or(u32::MAX, |&slot| id(slot));
             slopes.follow(list.first.iter().enumerate().map(|(bond, &slot)| [id(slot), second(bond)]));
+        }
+    }
+
+    /// Everything goes on in time: the first of the directions is time itself.
+    pub(crate) fn go_on(&mut self, state: &State) {
+        let (slopes, particles) = (&mut self.particles, &state.particles);
+        for slot in 0..particles.len() {
+            let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+            for axis in 0..3 {
+                slopes.position[slot][axis][0] = velocity[axis];
+                if particles.owner[slot] == 0 {
+                    slopes.velocity[slot][axis][0] = particles.force[slot][axis] / velocity[3];
+                    slopes.spin[slot][axis][0] = particles.torque[slot][axis] / spin[3];
+                }
+            }
+            if let Some(row) = slopes.orientation.get_mut(slot) {
+                let passing = Dual::new(0.0, std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }));
+                let orientation = Quaternion::from_row(Dual::row(particles.orientation[slot], &NONE));
+                *row = Dual::slopes_of(orientation.turned(Vector::of_row(spin.map(Dual::splat)), passing).to_row());
+            }
+        }
+        slopes.reached.fill(true);
+        for (slopes, boundary) in self.boundaries.iter_mut().zip(&state.boundaries) {
+            for axis in 0..3 {
+                slopes.displacement[axis][0] = boundary.velocity[axis];
+            }
         }
     }
 

@@ -62,7 +62,7 @@ impl AtSurface {
             let [x, y, z, _] = position;
             let away = Dual::vector(away, &[x.slopes, y.slopes, z.slopes]);
             let moment = (away - contact.normal * first_arm).cross(force) - rolling;
-            boundary.load(&(-force).slopes(), &(-moment).slopes());
+            boundary.add_load(&(-force).slopes(), &(-moment).slopes());
         }
     }
 }

@@ -1,0 +1,172 @@
+//! How boundaries, and the particles of groups, change with a few inputs.
+
+use super::{RigidBody, Turning};
+use crate::dual::{DIRECTIONS, Dual, Slopes};
+use crate::geometry::Quaternion;
+use crate::motion::{InputCourse, Progress, Way};
+use crate::number::{Number, Vector};
+use crate::scene::{Boundary, Scene};
+use crate::state::{BoundaryState, State};
+use crate::tangent::{BoundarySlopes, Tangent, rotation};
+
+/// Follows an input, an axis of a boundary, as one of the directions through a communication step of this length \[s\].
+pub(crate) fn begin(
+    boundary: &Boundary,
+    moved: &BoundaryState,
+    slopes: &mut BoundarySlopes,
+    (axis, direction): (usize, usize),
+    length: f64,
+) {
+    slopes.end[axis][direction] = if boundary.axes[axis].takes_velocity() { length } else { 1.0 };
+    if boundary.axes[axis].takes_load() {
+        slopes.load[axis][direction] = 1.0;
+    }
+    let driven = || (0..3).filter(|about| boundary.axes[3 + about].is_driven());
+    if axis < 3 || boundary.axes[axis].takes_velocity() || driven().count() == 1 {
+        if axis >= 3 {
+            slopes.turn[axis - 3][direction] = slopes.end[axis][direction];
+        }
+        return;
+    }
+    let mut target = [0.0; 3];
+    for about in driven() {
+        target[about] = moved.target[3 + about] + moved.target_rate[3 + about] * length;
+    }
+    let [.., a, b, c] = slopes.end;
+    let from = Quaternion::from(moved.orientation).to_row().map(Dual::splat);
+    let to = rotation::orientation(Dual::vector(target.into(), &[a, b, c]));
+    slopes.turn = rotation::between(Quaternion::from_row(from), to).slopes();
+}
+
+/// Moves every boundary, and the particles of groups with it, to the end of the present time step, where those of the state
+/// stand already. Loads begin anew.
+pub(crate) fn advance(
+    scene: &Scene,
+    bodies: &[Option<RigidBody>],
+    state: &State,
+    tangent: &mut Tangent,
+    progress: &Progress,
+) {
+    for (index, (boundary, body)) in scene.boundaries.iter().zip(bodies).enumerate() {
+        let (moved, slopes) = (&state.boundaries[index], &mut tangent.boundaries[index]);
+        if let Some(body) = body.as_ref().filter(|body| body.is_free()) {
+            kick(body, moved, slopes, progress.step);
+        }
+        for axis in 0..3 {
+            lead(boundary, slopes, axis, progress);
+        }
+        if body.as_ref().is_some_and(|body| body.turning == Turning::Led) {
+            turn(boundary, moved, slopes, progress);
+        }
+        (slopes.force, slopes.moment) = Default::default();
+        if slopes.is_moved() {
+            carry(scene, (boundary, index), state, tangent);
+        }
+    }
+}
+
+/// An axis goes on its way: in proportion to where it is to be at the end, or by its velocity.
+fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, axis: usize, progress: &Progress) {
+    let motion = &boundary.axes[axis];
+    for direction in 0..DIRECTIONS {
+        let (target, before) = (slopes.end[axis][direction], slopes.displacement[axis][direction]);
+        if motion.is_driven() {
+            let way = Way { start: 0.0, target, before, course: boundary.input };
+            if let Some([displacement, velocity]) = motion.lead(&way, progress) {
+                slopes.displacement[axis][direction] = displacement;
+                slopes.velocity[axis][direction] = velocity;
+            }
+        } else if motion.is_free() {
+            slopes.displacement[axis][direction] += progress.step * slopes.velocity[axis][direction];
+        }
+    }
+}
+
+/// A boundary that the outside turns goes on its way.
+fn turn(boundary: &Boundary, moved: &BoundaryState, slopes: &mut BoundarySlopes, progress: &Progress) {
+    let whole = Dual::vector(moved.turn.into(), &slopes.turn);
+    let course = boundary.input;
+    let (before, share) = (progress.share_before(course), progress.share(course));
+    let from = Quaternion::from(moved.start_orientation).to_row().map(Dual::splat);
+    let on_the_way = rotation::orientation(whole * Dual::splat(share)) * Quaternion::from_row(from);
+    slopes.orientation = Dual::slopes_of(on_the_way.to_row());
+    let rate = match course {
+        InputCourse::Ramp => 1.0 / progress.length,
+        InputCourse::Smooth => (share - before) / progress.step,
+        InputCourse::Hold => 0.0,
+    };
+    slopes.angular_velocity = slopes.turn.map(|turn| turn.map(|slope| slope * rate));
+}
+
+/// The particles of a group go with their boundary.
+fn carry(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, tangent: &mut Tangent) {
+    let (moved, slopes) = (&state.boundaries[index], &tangent.boundaries[index]);
+    let particles = &mut tangent.particles;
+    let orientation =
+        Quaternion::from_row(Dual::row(Quaternion::from(moved.orientation).to_row(), &slopes.orientation));
+    let (pivot, velocity) = (Dual::vector(moved.pivot.into(), &slopes.displacement), &slopes.velocity);
+    let velocity = Dual::vector(moved.velocity.into(), velocity);
+    let spin = Dual::vector(moved.angular_velocity.into(), &slopes.angular_velocity);
+    for &member in boundary.shape.members() {
+        let slot = state.particles.slot[member as usize] as usize;
+        let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
+        let place = pivot + orientation.turn(Dual::vector(home, &[[0.0; DIRECTIONS]; 3]));
+        particles.position[slot][..3].copy_from_slice(&place.slopes());
+        particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(place - pivot)).slopes());
+        particles.spin[slot][..3].copy_from_slice(&slopes.angular_velocity);
+        if let Some(row) = particles.orientation.get_mut(slot) {
+            *row = slopes.orientation;
+        }
+        particles.reached[slot] = true;
+    }
+}
+
+/// Loads on the particles of groups are loads on their boundaries. `weight` says what is among the forces on a particle, by
+/// its slot, that no pass gave \[N\].
+pub(crate) fn sum_groups(scene: &Scene, state: &State, tangent: &mut Tangent, weight: impl Fn(usize) -> [f64; 3]) {
+    let particles = &tangent.particles;
+    for ((boundary, moved), slopes) in scene.boundaries.iter().zip(&state.boundaries).zip(&mut tangent.boundaries) {
+        let pivot = Dual::vector(moved.pivot.into(), &slopes.displacement);
+        for &member in boundary.shape.members() {
+            let slot = state.particles.slot[member as usize] as usize;
+            if !particles.reached[slot] {
+                continue;
+            }
+            let force = Vector::from(state.particles.force[slot]) - weight(slot).into();
+            let [[f, g, h, _], [a, b, c, _]] = [particles.force[slot], particles.torque[slot]];
+            let force = Dual::vector(force, &[f, g, h]);
+            let place = Dual::row(state.particles.position[slot], &particles.position[slot]);
+            let torque = Dual::vector(Vector::zero(), &[a, b, c]);
+            let moment = (Vector::of_row(place) - pivot).cross(force) + torque;
+            slopes.add_load(&force.slopes(), &moment.slopes());
+        }
+    }
+}
+
+/// The whole load on boundaries that forces move, and the second half of their kick.
+pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &State, tangent: &mut Tangent, step: f64) {
+    for ((body, moved), slopes) in bodies.iter().zip(&state.boundaries).zip(&mut tangent.boundaries) {
+        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+        for axis in 0..3 {
+            let [stiffness, damping] = body.ground(axis);
+            for direction in 0..DIRECTIONS {
+                let given = if body.moves[axis] { slopes.end[axis][direction] } else { 0.0 };
+                let held =
+                    stiffness * slopes.displacement[axis][direction] + damping * slopes.velocity[axis][direction];
+                slopes.load[axis][direction] = slopes.force[axis][direction] + given - held;
+            }
+        }
+        kick(body, moved, slopes, step);
+    }
+}
+
+/// Half a kick.
+fn kick(body: &RigidBody, moved: &BoundaryState, slopes: &mut BoundarySlopes, step: f64) {
+    for direction in 0..DIRECTIONS {
+        let of = |slopes: &[Slopes; 3]| slopes.map(|slopes| slopes[direction]);
+        let shift = body.shift(moved, of(&slopes.load), step);
+        for (velocity, shift) in slopes.velocity.iter_mut().zip(shift) {
+            velocity[direction] += shift;
+        }
+    }
+}
