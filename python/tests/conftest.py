@@ -114,6 +114,12 @@ def drop(opened):
 
 
 @pytest.fixture
+def served(opened):
+    """The sphere above a plate that a servo moves."""
+    return opened(DROP.replace('driven = ["z"]', "servo = { z = { speed = 0.1 } }"))
+
+
+@pytest.fixture
 def chain(opened):
     """A free mass between two driven ends."""
     return opened(CHAIN)

@@ -22,6 +22,7 @@ from cograin import (
     StepDiscarded,
     Structure,
     Tolerance,
+    UnitError,
     UnitPartner,
     Verlet,
     couple,
@@ -117,11 +118,35 @@ def test_newton_needs_two_evaluations_where_the_particles_answer_linearly(chain)
     assert record["evaluations"][1:].max() <= 2
 
 
-def test_newton_asks_for_derivatives_and_never_takes_differences_by_itself(chain):
-    if Interface(chain, ENDS).has_derivatives:
-        pytest.skip("the units give derivatives")
-    with pytest.raises(ValueError, match=r"Newton\('differences'\) takes them from restored states"):
-        couple(Interface(chain, ENDS), Structure([1.0, 1.0], [0.0, 30.0]), Newton(), step=4e-3, end=0.2)
+@pytest.mark.parametrize("keep", [False, True])
+def test_newton_takes_the_derivatives_of_the_units_in_several_directions(chain, keep):
+    wall = Structure([1.0, 1.0], [0.0, 30.0])
+    wall.place(velocity=[0.0, 0.01])
+    exchange = Newton(keep=keep)
+    record = couple(Interface(chain, ENDS), wall, exchange, step=4e-3, end=0.2)
+    assert not record.unconverged
+    assert record["evaluations"].max() <= 2
+    # The chain is linear: one derivative serves all steps.
+    assert exchange.derivatives == (1 if keep else (record["evaluations"] - 1).sum())
+
+
+def test_a_derivative_of_a_unit_is_that_of_its_differences(chain):
+    interface = Interface(chain, ENDS)
+    place, step = np.array([1e-4, -2e-4]), Step(0.0, 4e-3, 4e-3)
+    interface.save()
+    base = interface.advance(place, step, "mean")
+    found = interface.derivative("mean")
+    for direction in range(2):
+        interface.restore()
+        moved = place + 1e-6 * np.eye(2)[direction]
+        difference = (interface.advance(moved, step, "mean") - base) / 1e-6
+        assert found[:, direction] == pytest.approx(difference, rel=1e-5, abs=1e-6 * np.abs(found).max())
+
+
+def test_a_unit_whose_scene_is_not_followed_gives_no_derivatives(served):
+    assert not served.has_derivatives
+    with pytest.raises(UnitError, match="gives no directional derivatives"):
+        served.derivative(["floor.force.z"], ["floor.target_force.z"])
 
 
 @pytest.mark.parametrize("mass", [1e-3, 0.0])

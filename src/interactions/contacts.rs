@@ -131,6 +131,10 @@ impl Pass for ContactPass {
         listed::records(self, state, step, tell);
     }
 
+    fn near_switch(&self, state: &State, step: f64, margin: f64) -> u64 {
+        listed::near_switch(self, state, step, margin)
+    }
+
     fn elastic_energy(&self, state: &State) -> f64 {
         listed::elastic_energy(self, state)
     }

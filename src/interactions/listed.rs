@@ -102,6 +102,24 @@ pub(crate) fn records(list: &impl Listed, state: &State, step: f64, tell: &mut d
     }
 }
 
+/// A change of the overlap, over itself, that a contact far from a switch does not feel.
+pub(crate) const SLIGHT: f64 = 1e-4;
+
+/// How many contacts are near a switch: they would begin or end to slide in a time step of this length \[s\] if their overlap were a
+/// little larger or smaller, or their bodies touch or miss each other by less than `margin` \[m\].
+pub(crate) fn near_switch(list: &impl Listed, state: &State, step: f64, margin: f64) -> u64 {
+    let (law, kept) = (list.law(), list.kept(state));
+    let is_near = |entry: &usize| {
+        let Some(Met { contact, row, .. }) = list.meet(state, *entry, margin, Motion::Present) else { return false };
+        let slides = |share: f64| {
+            let contact = Contact { overlap: share * contact.overlap, ..contact };
+            law.react(row, &contact, &mut records::history(kept.history, *entry), step).sliding
+        };
+        contact.overlap.abs() < margin || slides(1.0 - SLIGHT) != slides(1.0 + SLIGHT)
+    };
+    (0..kept.flags.len()).filter(is_near).count() as u64
+}
+
 /// What a suppressed contact did, as far as records tell it: the force that was kept, and whether friction slid.
 fn remembered(history: &[Vec<Row>], entry: usize, flags: u8) -> (Reaction, bool) {
     let force = history.last().map_or([0.0; 4], |rows| rows[entry]);

@@ -10,5 +10,6 @@ pub(crate) mod suppression;
 pub(crate) mod surfaces;
 
 pub(crate) use ahead::{Ahead, FASTER, Kind, Link};
+pub(crate) use listed::SLIGHT;
 pub(crate) use pass::Pass;
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

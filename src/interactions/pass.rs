@@ -63,6 +63,11 @@ pub(crate) trait Pass: Send + Sync {
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
+    /// How many contacts are near a switch (`listed::near_switch`): of planes and pairs of particles.
+    fn near_switch(&self, _state: &State, _step: f64, _margin: f64) -> u64 {
+        0
+    }
+
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;
 

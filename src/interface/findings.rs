@@ -1,6 +1,8 @@
 //! What a pass over particles or contacts is needed for, found once at a communication point.
 
 use crate::state::Loss;
+use crate::quantity::BoundaryIndex;
+use crate::statics;
 use crate::step::{ElasticEnergy, Simulation};
 use std::cell::OnceCell;
 
@@ -16,8 +18,12 @@ pub struct Findings {
     losses: OnceCell<[f64; Loss::COUNT]>,
     /// Number of contacts.
     contacts: OnceCell<u64>,
+    /// Number of contacts near a switch.
+    near_switch: OnceCell<u64>,
     /// Largest overlap over the smaller radius.
     largest_overlap: OnceCell<f64>,
+    /// Static stiffness of the boundaries along x, y, z, where it can be found \[N/m\].
+    stiffness: OnceCell<Vec<Option<[f64; 3]>>>,
 }
 
 impl Findings {
@@ -41,8 +47,27 @@ impl Findings {
         *self.contacts.get_or_init(|| simulation.contact_count() as u64)
     }
 
+    /// Number of contacts near a switch.
+    pub(super) fn near_switch(&self, simulation: &Simulation) -> u64 {
+        *self.near_switch.get_or_init(|| simulation.contacts_near_switch())
+    }
+
+    /// Static stiffness of a boundary along x, y, z, if it can be found \[N/m\].
+    pub(super) fn stiffness(&self, simulation: &Simulation, boundary: BoundaryIndex) -> Option<[f64; 3]> {
+        let all = self.stiffness.get_or_init(|| stiffnesses(simulation));
+        all.get(boundary.index()).copied().flatten()
+    }
+
     /// Largest overlap over the smaller radius.
     pub(super) fn largest_overlap(&self, simulation: &Simulation) -> f64 {
         *self.largest_overlap.get_or_init(|| simulation.largest_overlap())
     }
+}
+
+/// Static stiffness of all boundaries along x, y, z, each for itself; nothing where the network comes to no rest \[N/m\].
+fn stiffnesses(simulation: &Simulation) -> Vec<Option<[f64; 3]>> {
+    let all: Vec<BoundaryIndex> = (0..simulation.scene().boundaries.len() as u32).map(BoundaryIndex).collect();
+    let Ok(found) = statics::stiffness(simulation, &all) else { return Vec::new() };
+    let along = |matrix: &[[f64; 3]; 3]| std::array::from_fn(|axis| matrix[axis][axis]);
+    found.boundaries.iter().map(|boundary| Some(along(&boundary.matrix))).collect()
 }

@@ -184,7 +184,7 @@ fn mass(scene: &Scene, at: At) -> f64 {
 }
 
 /// Variables of each boundary, inputs first.
-static OF_BOUNDARIES: [Row; 18] = [
+static OF_BOUNDARIES: [Row; 19] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
@@ -345,6 +345,19 @@ static OF_BOUNDARIES: [Row; 18] = [
         ..OUTPUT
     },
     Row {
+        name: "stiffness",
+        description: "condensed static stiffness of {boundary} along {axis}: force it takes more for each metre further, when \
+                      everything else has come to rest again",
+        quantity: Quantity::Stiffness,
+        follows_inputs_at_start: false,
+        exists: |scene, at| scene.output.stiffness && !is_free(scene, at, 0),
+        read: |now, at| {
+            let found = now.findings.stiffness(now.simulation, at.boundary);
+            Value::Real(found.map_or(f64::NAN, |stiffness| stiffness[at.axis]))
+        },
+        ..OF_AXIS
+    },
+    Row {
         name: "mass",
         each: Each::Boundary,
         description: "mass of {boundary}; its weight and inertia are not in its force",
@@ -405,7 +418,7 @@ static OF_LOSSES: [Row; Loss::COUNT + 1] = [
 ];
 
 /// Variables of the scene as a whole.
-static OF_SCENE: [Row; 12] = [
+static OF_SCENE: [Row; 13] = [
     Row {
         name: "energy.kinetic",
         description: "kinetic energy of the particles and groups that move freely",
@@ -453,6 +466,14 @@ static OF_SCENE: [Row; 12] = [
         name: "contacts.count",
         description: "number of contacts, those with boundaries included",
         read: |now, _| count(now.findings.contacts(now.simulation)),
+        ..COUNT
+    },
+    Row {
+        name: "contacts.near_switch",
+        description: "number of contacts near a switch: a ten-thousandth of the overlap more or less would let them begin or end \
+                      to slide, or to touch",
+        exists: |scene, _| scene.output.near_switch,
+        read: |now, _| count(now.findings.near_switch(now.simulation)),
         ..COUNT
     },
     Row {

@@ -9,6 +9,7 @@ mod governing;
 mod output;
 mod parameters;
 mod source;
+mod statics;
 
 pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
 pub use crate::motion::{AxisMotion, InputCourse};

@@ -13,6 +13,10 @@ pub struct Output {
     pub energy: bool,
     /// Whether the physical energy book is kept: losses, each by itself.
     pub losses: bool,
+    /// Whether contacts near a switch are counted.
+    pub near_switch: bool,
+    /// Whether the static stiffness of boundaries is an output.
+    pub stiffness: bool,
     /// Time between checkpoints \[s\].
     pub checkpoint_interval: Option<f64>,
 }

@@ -16,10 +16,8 @@ mod columns;
 mod network;
 mod solution;
 
-use crate::bond::damping::DampingChoice;
 use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
-use crate::scene::Scene;
 use crate::state::State;
 use crate::step::{Displacement, Probe, ProbeBody, Simulation};
 use columns::Columns;
@@ -87,7 +85,9 @@ pub struct Stiffness {
 
 /// The stiffness of some boundaries at the present state of a simulation, which should be at rest.
 pub fn stiffness(simulation: &Simulation, boundaries: &[BoundaryIndex]) -> Result<Stiffness, StaticsError> {
-    refuse(simulation.scene())?;
+    if let Some((what, right)) = simulation.scene().without_statics() {
+        return Err(StaticsError::Refused { what, right });
+    }
     let mut probe = Probe::of(simulation);
     let network = Network::of(&probe);
     let way = way(simulation, probe.rest());
@@ -134,30 +134,4 @@ fn way(simulation: &Simulation, state: &State) -> f64 {
         Some(overlap) => (OF_OVERLAP * overlap).max(LEAST * least),
         None => OF_RADIUS * least,
     }
-}
-
-/// Refuses laws that depend on speed or time, however slow the motion.
-fn refuse(scene: &Scene) -> Result<(), StaticsError> {
-    let refused = |what: String, right| Err(StaticsError::Refused { what, right });
-    if let Some(law) = scene.contacts.iter().find(|law| law.rolling.name() == "cdt") {
-        return refused(format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none,");
-    }
-    for bond in &scene.bonds {
-        if bond.keys.formulation.is_engine() {
-            return refused(format!("[bond.{}] formulation engine_exact", bond.name), "another formulation");
-        }
-        if bond.keys.relaxation.is_some() {
-            return refused(format!("[bond.{}] relaxation", bond.name), "a bond that keeps its load");
-        }
-        if bond.keys.damping.is_some_and(|damping| !matches!(damping, DampingChoice::Viscous(_))) {
-            return refused(
-                format!("[bond.{}] damping by a share of the load", bond.name),
-                "damping.viscous, or none,",
-            );
-        }
-    }
-    if let Some(boundary) = scene.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free())) {
-        return refused(format!("[boundary.{}] moved by forces", boundary.name), "a boundary that is led or fixed");
-    }
-    Ok(())
 }

@@ -5,7 +5,7 @@ use crate::bond::Carried;
 use crate::books;
 use crate::boundaries::felt;
 use crate::integration;
-use crate::interactions::{BondRecord, ContactRecord};
+use crate::interactions::{BondRecord, ContactRecord, SLIGHT};
 use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::State;
@@ -34,6 +34,14 @@ impl Simulation {
         let touching = |flags: &Vec<u8>| flags.iter().filter(|flags| is_told(**flags)).count();
         let pairs = self.state.contacts.iter().map(|list| touching(&list.flags)).sum::<usize>();
         pairs + self.state.walls.iter().map(|list| touching(&list.flags)).sum::<usize>()
+    }
+
+    /// How many contacts, of pairs of particles and at planes, are near a switch: they would begin or end to slide in the next time
+    /// step if their overlap were a ten-thousandth larger or smaller, or touch or miss by less than that share of the mean overlap.
+    /// A derivative holds for changes that take none of them over its switch.
+    pub fn contacts_near_switch(&self) -> u64 {
+        let margin = SLIGHT * self.mean_overlap().unwrap_or(0.0);
+        self.passes.iter().map(|pass| pass.near_switch(&self.state, self.state.clock.last_step, margin)).sum()
     }
 
     /// Every contact at work, between particles first, then at planes.

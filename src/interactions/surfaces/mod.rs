@@ -334,6 +334,11 @@ impl Pass for SurfacePass {
         }
     }
 
+    fn near_switch(&self, state: &State, step: f64, margin: f64) -> u64 {
+        let lists = self.surfaces.iter().filter_map(|surface| surface.plane_list(state));
+        lists.map(|list| listed::near_switch(&list, state, step, margin)).sum()
+    }
+
     fn elastic_energy(&self, state: &State) -> f64 {
         let energy = |surface: &AtSurface| match surface.plane_list(state) {
             Some(list) => listed::elastic_energy(&list, state),

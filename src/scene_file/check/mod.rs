@@ -64,7 +64,8 @@ pub(super) fn scene(
         fingerprint: source.fingerprint(),
     };
     scene.parameters = parameters::of_scene(&scene, document);
-    for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
+    let findings = consistency::laws(&scene).into_iter().chain(consistency::places(&scene));
+    for finding in findings.chain(consistency::statics(&scene)) {
         report(finding, document, &mut faults);
     }
     faults.finish().map(|()| scene)
@@ -130,6 +131,8 @@ fn output(table: &OutputTable, faults: &mut Faults) -> Output {
         contacts: table.contacts,
         energy: table.energy,
         losses: table.losses,
+        near_switch: table.near_switch,
+        stiffness: table.stiffness,
         checkpoint_interval: table.checkpoint_interval.map(crate::quantity::Positive::get),
     }
 }

@@ -168,6 +168,12 @@ pub(in crate::scene_file) struct OutputTable {
     pub(in crate::scene_file) energy: bool,
     #[serde(default)]
     pub(in crate::scene_file) losses: bool,
+    /// Whether contacts near a switch are counted.
+    #[serde(default)]
+    pub(in crate::scene_file) near_switch: bool,
+    /// Whether the static stiffness of boundaries is an output.
+    #[serde(default)]
+    pub(in crate::scene_file) stiffness: bool,
     /// Time between checkpoints \[s\].
     pub(in crate::scene_file) checkpoint_interval: Option<Positive>,
 }

@@ -1,0 +1,119 @@
+"""Load steps of a tenth of the carried load on a bonded block and on a bed at rest: evaluations of each exchange.
+
+The other side is a light mass on a soft spring: the particles are ten times as stiff as the spring, and ten or a thousand
+times as heavy as the mass.
+"""
+
+import argparse
+import csv
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from cograin import (
+    Aitken,
+    Coupling,
+    FixedPoint,
+    Interface,
+    Newton,
+    Oscillator,
+    Program,
+    QuasiNewton,
+    Secant,
+    StepControl,
+    Tolerance,
+    Unit,
+    stiffness,
+)
+
+HERE = Path(__file__).resolve().parent
+EXCHANGES = {
+    "fixed point": FixedPoint,
+    "Aitken": Aitken,
+    "quasi-Newton": QuasiNewton,
+    "secant": Secant,
+    "Newton": Newton,
+    "Newton, kept": lambda **named: Newton(keep=True, **named),
+}
+STIFFNESS = 10.0  # of the particles over that of the spring
+MASSES = (10.0, 1000.0)  # of the particles over that of the other side
+SHARE = 0.1  # of the carried load in each load step
+LOADS, STEPS = 6, 20  # load steps, and communication steps in each
+
+
+@dataclass
+class Case:
+    """A unit whose boundary is carried."""
+
+    name: str
+    scene: str
+    displacement: str
+    mass: float  # of the particles [kg]
+    carried: float  # load that is carried at rest [N]
+    length: float  # of a communication step [s]
+    slow: float  # in which the unit answers as at rest [s]
+
+
+CASES = [
+    Case("bonded block", "block.toml", "top.displacement.z", 4.2e-3, 10.0, 1e-4, 2e-3),
+    Case("bed at rest", "bed.toml", "floor.displacement.z", 1.309, 12.841, 1e-3, 2e-2),
+]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    parser.add_argument("--program", default="cograin", help="the cograin command")
+    parser.add_argument("--output", type=Path, default=Path("out/coupling_set"), help="folder of all results")
+    return parser.parse_args()
+
+
+def course(unit, case, make, ratio, spring):
+    """Evaluations of each communication step, steps that did not converge, interface energy, processor time [s]."""
+    unit.reset()
+    interface = Interface(unit, case.displacement)
+    start = float(interface.force("end")[0])
+
+    def load(now):
+        steps = np.floor((now - 1e-9) / (STEPS * case.length))
+        return -start + SHARE * case.carried * max(steps, 0.0)
+
+    partner = Oscillator(case.mass / ratio, spring, load=load)
+    exchange = make(tolerance=Tolerance(None, force=1e-9 * case.carried))
+    control = StepControl(unconverged="accept", halvings=0)
+    coupling = Coupling(interface, partner, exchange, case.length, control=control)
+    began = time.process_time()
+    record = coupling.run(LOADS * STEPS * case.length, progress=False)
+    taken = time.process_time() - began
+    share = record.interface_energy / max(record.exchanged_work, 1e-300)
+    return record["evaluations"], len(record.unconverged), share, taken, getattr(exchange, "derivatives", 0)
+
+
+def main():
+    options = arguments()
+    options.output.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for case in CASES:
+        path = Program(options.program).export(HERE / case.scene, options.output / f"{Path(case.scene).stem}.fmu")
+        with Unit(path) as unit:
+            stiff = float(stiffness(Interface(unit, case.displacement), case.slow, 1e-7)[0])
+            print(f"{case.name}: {stiff:.4g} N/m in {case.slow} s", flush=True)
+            for ratio in MASSES:
+                for name, make in EXCHANGES.items():
+                    counts, left, share, taken, asked = course(unit, case, make, ratio, stiff / STIFFNESS)
+                    late = counts.reshape(LOADS, STEPS)[:, STEPS // 2 :]
+                    rows.append([case.name, ratio, name, np.median(counts), counts.mean(), counts.max()])
+                    rows[-1] += [np.median(late), left, share, asked, taken]
+                    print(
+                        f"{name:14} masses {ratio:6g}: median {np.median(counts):g}, mean {counts.mean():.2f}, most "
+                        f"{counts.max():g}, late in a load step {np.median(late):g}; {left} not converged, interface "
+                        f"{share:+.0e}, {asked} derivatives, {taken:.2f} s",
+                        flush=True,
+                    )
+    columns = ["case", "mass_ratio", "exchange", "median", "mean", "most", "median_late", "unconverged", "interface"]
+    with (options.output / "load_steps.csv").open("w", newline="") as text:
+        csv.writer(text).writerows([[*columns, "derivatives", "processor"], *rows])
+
+
+if __name__ == "__main__":
+    main()

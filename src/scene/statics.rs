@@ -1,0 +1,27 @@
+//! What has no static stiffness.
+
+use super::Scene;
+use crate::bond::damping::DampingChoice;
+
+impl Scene {
+    /// What depends on speed or time, however slow, or moves by itself, if anything; and what would be right.
+    pub fn without_statics(&self) -> Option<(String, &'static str)> {
+        if let Some(law) = self.contacts.iter().find(|law| law.rolling.name() == "cdt") {
+            return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none,"));
+        }
+        for bond in &self.bonds {
+            if bond.keys.formulation.is_engine() {
+                return Some((format!("[bond.{}] formulation engine_exact", bond.name), "another formulation"));
+            }
+            if bond.keys.relaxation.is_some() {
+                return Some((format!("[bond.{}] relaxation", bond.name), "a bond that keeps its load"));
+            }
+            if bond.keys.damping.is_some_and(|damping| !matches!(damping, DampingChoice::Viscous(_))) {
+                let what = format!("[bond.{}] damping by a share of the load", bond.name);
+                return Some((what, "damping.viscous, or none,"));
+            }
+        }
+        let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
+        Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
+    }
+}
