@@ -1,7 +1,7 @@
 //! What a pass over particles or contacts is needed for, found once at a communication point.
 
-use crate::state::Loss;
 use crate::quantity::BoundaryIndex;
+use crate::state::Loss;
 use crate::statics;
 use crate::step::{ElasticEnergy, Simulation};
 use std::cell::OnceCell;
