@@ -1,11 +1,17 @@
 //! What a run writes.
 
+use crate::quantity::Positive;
+use serde::{Deserialize, Deserializer};
+
 /// `[output]`: what a run writes; what is absent is not computed.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Time between rows of `history.csv` \[s\].
+    #[serde(deserialize_with = "positive")]
     pub history_interval: Option<f64>,
     /// Time between `.vtu` frames of the particles \[s\].
+    #[serde(deserialize_with = "positive")]
     pub frame_interval: Option<f64>,
     /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
     pub contacts: bool,
@@ -18,5 +24,11 @@ pub struct Output {
     /// Whether the static stiffness of boundaries is an output.
     pub stiffness: bool,
     /// Time between checkpoints \[s\].
+    #[serde(deserialize_with = "positive")]
     pub checkpoint_interval: Option<f64>,
+}
+
+/// A number above 0, where one is given.
+fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    Ok(Some(Positive::deserialize(deserializer)?.get()))
 }

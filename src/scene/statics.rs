@@ -24,4 +24,11 @@ impl Scene {
         let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
         Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
     }
+
+    /// What speaks against the stiffness that is asked for as an output: what was found, and what would be right.
+    pub(crate) fn stiffness_objection(&self) -> Option<[String; 2]> {
+        let (what, right) = self.without_statics().filter(|_| self.output.stiffness)?;
+        let found = format!("true beside {what}, which has no static stiffness,");
+        Some([found, format!("{right} or stiffness = false")])
+    }
 }

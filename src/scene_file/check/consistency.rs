@@ -59,16 +59,6 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
     findings
 }
 
-/// Whether the static stiffness that is asked for exists.
-pub(super) fn statics(scene: &Scene) -> Option<Finding> {
-    let (what, right) = scene.without_statics().filter(|_| scene.output.stiffness)?;
-    let mistake = Mistake::Wrong {
-        found: format!("true beside {what}, which has no static stiffness,"),
-        right: format!("{right} or stiffness = false"),
-    };
-    Some(Finding::at("output".to_owned(), "stiffness", mistake))
-}
-
 /// Pairs of materials (the first not after the second) of bodies that can touch.
 fn touching(scene: &Scene) -> Vec<(usize, usize)> {
     let count = scene.materials.len();

@@ -17,7 +17,7 @@ mod set_reader;
 mod tables;
 
 use super::parameters;
-use super::tables::{OutputTable, RunTable, StepKey};
+use super::tables::{RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
 use crate::scene::{Output, Run, Scene, Source, Step};
@@ -64,8 +64,10 @@ pub(super) fn scene(
         fingerprint: source.fingerprint(),
     };
     scene.parameters = parameters::of_scene(&scene, document);
-    let findings = consistency::laws(&scene).into_iter().chain(consistency::places(&scene));
-    for finding in findings.chain(consistency::statics(&scene)) {
+    if let Some([found, right]) = scene.stiffness_objection() {
+        faults.add("output", "stiffness", Mistake::Wrong { found, right });
+    }
+    for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
         report(finding, document, &mut faults);
     }
     faults.finish().map(|()| scene)
@@ -120,19 +122,10 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
 }
 
 /// `[output]`
-fn output(table: &OutputTable, faults: &mut Faults) -> Output {
+fn output(table: &Output, faults: &mut Faults) -> Output {
     if table.contacts && table.frame_interval.is_none() {
         let right = "contacts are written with the frames".to_owned();
         faults.add("output", "frame_interval", Mistake::Missing { right });
     }
-    Output {
-        history_interval: table.history_interval.map(crate::quantity::Positive::get),
-        frame_interval: table.frame_interval.map(crate::quantity::Positive::get),
-        contacts: table.contacts,
-        energy: table.energy,
-        losses: table.losses,
-        near_switch: table.near_switch,
-        stiffness: table.stiffness,
-        checkpoint_interval: table.checkpoint_interval.map(crate::quantity::Positive::get),
-    }
+    *table
 }

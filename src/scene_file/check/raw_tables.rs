@@ -9,10 +9,10 @@ use crate::contact::tangential::TangentialChoice;
 use crate::document::Mistake;
 use crate::document::messages;
 use crate::document::{Document, Faults};
-use crate::scene::AxisMotion;
+use crate::scene::{AxisMotion, Output};
 use crate::scene_file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, OutputTable, ParticlesTable,
-    RunTable, TABLES, Triple,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
+    TABLES, Triple,
 };
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub(in crate::scene_file) struct RawTables {
     /// `[domain]`
     pub(super) domain: Option<DomainTable>,
     /// `[output]`
-    pub(super) output: OutputTable,
+    pub(super) output: Output,
 }
 
 /// A contact law and its sub-models.

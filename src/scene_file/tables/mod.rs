@@ -151,29 +151,3 @@ pub(in crate::scene_file) struct DomainTable {
     #[serde(rename = "box")]
     pub(in crate::scene_file) corners: Corners,
 }
-
-/// `[output]`
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene_file) struct OutputTable {
-    /// Time between rows of the history \[s\].
-    pub(in crate::scene_file) history_interval: Option<Positive>,
-    /// Time between frames \[s\].
-    pub(in crate::scene_file) frame_interval: Option<Positive>,
-    /// Whether frames have contacts.
-    #[serde(default)]
-    pub(in crate::scene_file) contacts: bool,
-    /// Whether the algorithmic energy book is kept, and whether losses are booked.
-    #[serde(default)]
-    pub(in crate::scene_file) energy: bool,
-    #[serde(default)]
-    pub(in crate::scene_file) losses: bool,
-    /// Whether contacts near a switch are counted.
-    #[serde(default)]
-    pub(in crate::scene_file) near_switch: bool,
-    /// Whether the static stiffness of boundaries is an output.
-    #[serde(default)]
-    pub(in crate::scene_file) stiffness: bool,
-    /// Time between checkpoints \[s\].
-    pub(in crate::scene_file) checkpoint_interval: Option<Positive>,
-}
