@@ -1,15 +1,14 @@
 //! Contacts between particles: one pass for each contact law.
 //!
-//! Slabs of even and odd number share no particles among themselves; a slab of odd number is worked on when both its
-//! neighbours are done. The order in which a particle gets its loads is thus always the same.
+//! Slabs of even and odd number share no particles among themselves; one of odd number waits until both its neighbours are
+//! done. The order in which a particle gets its loads is thus always the same.
 
 use super::ahead::{Ahead, Link};
 use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
-use crate::batches::SpherePair;
 use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
-use crate::batches::{CoefficientTable, Partners};
+use crate::batches::{CoefficientTable, Partners, SpherePair};
 use crate::contact::{Contact, Law, Needs, Response};
 use crate::dual::Dual;
 use crate::lanes::{self, Lane, Shared};
