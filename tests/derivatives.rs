@@ -302,6 +302,16 @@ fn the_rate_of_a_pressed_spring_is_stiffness_times_velocity() {
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} N/s, not {expected} N/s");
 }
 
+#[test]
+fn derivatives_go_with_particles_and_contacts_into_new_lists() {
+    let law = "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]";
+    let mut simulation = loaded_by(&with_law(law, "").replace("[run]", "[run]\nskin = 2.0e-7"));
+    let before = simulation.state().clock.rebuilds;
+    let found = distance(&mut simulation, ("lid", 0), 2.0e-4, 1.0e-10);
+    assert!(simulation.state().clock.rebuilds > before + 3, "lists are made anew on the way");
+    assert!(found < 1e-6, "{found:e}");
+}
+
 /// Derivatives of a box whose lid moves like this, by the input of an axis, after some steps in which it gets these values.
 fn of_lid(motion: &str, axis: usize, value: f64, change: f64) -> f64 {
     let law = "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]";

@@ -138,7 +138,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("interactions", 14),
     ("bond_passes", 28),
     ("stability", 2),
-    ("fmu", 35),
+    ("fmu", 37),
 ];
 
 /// Lane widths and threads.

@@ -41,7 +41,7 @@ pub struct Acting<N: Number> {
 
 /// The coefficients that stand first in a row, in this kind of number.
 #[inline(always)]
-pub(super) fn lanes<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
+pub(super) fn numbers<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
     const { assert!(A::COUNT <= MOST) };
     let mut numbers = [N::zero(); MOST];
     for (number, value) in numbers.iter_mut().zip(row) {
@@ -58,8 +58,8 @@ fn normal<A: NormalForm, N: Number>(
     step: N,
 ) -> (NormalForce<N>, [N; 4]) {
     let roots = A::roots(contact.overlap, contact.radius, contact.mass);
-    let switches = lanes::<Switches, N>(&row[A::COUNT..]);
-    A::force(lanes::<A, N>(row), switches, contact, roots, history, step)
+    let switches = numbers::<Switches, N>(&row[A::COUNT..]);
+    A::force(numbers::<A, N>(row), switches, contact, roots, history, step)
 }
 
 /// [`Tangential::force`] of one contact.
@@ -70,7 +70,7 @@ fn tangential<B: Tangential, N: Number>(
     history: [N; 4],
     step: N,
 ) -> Friction<N> {
-    B::force(lanes::<B, N>(row), contact, normal, history, step)
+    B::force(numbers::<B, N>(row), contact, normal, history, step)
 }
 
 /// [`Rolling::torque`] of one contact.
@@ -81,12 +81,12 @@ fn rolling<C: Rolling, N: Number>(
     history: [N; 4],
     step: N,
 ) -> (Vector<N>, [N; 4]) {
-    C::torque(lanes::<C, N>(row), contact, normal, history, step)
+    C::torque(numbers::<C, N>(row), contact, normal, history, step)
 }
 
 /// [`CohesionForm::force`] of one contact, added.
 fn cohesion<D: CohesionForm, N: Number>(row: &[f64], contact: &Contact<N>, normal: &mut NormalForce<N>) {
-    let law = lanes::<D, N>(row);
+    let law = numbers::<D, N>(row);
     D::add(law, D::force(law, contact), normal);
 }
 

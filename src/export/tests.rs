@@ -225,7 +225,9 @@ fn the_structure_counts_from_one_and_knows_what_the_start_depends_on() {
     };
     let parameters = positions(&|it| it.get("causality") == Some("parameter")).join(" ");
     let given = format!("{} {} {parameters}", place("floor.displacement.x"), place("floor.displacement.z"));
-    assert_eq!(dependencies("Outputs", "floor.force.z"), "");
+    let inputs = format!("{} {}", place("floor.displacement.x"), place("floor.displacement.z"));
+    assert_eq!(dependencies("Outputs", "floor.force.z"), inputs, "the inputs that it has derivatives by");
+    assert_eq!(dependencies("Outputs", "floor.work"), "");
     assert_eq!(dependencies("InitialUnknowns", "floor.force.z"), given);
     assert_eq!(dependencies("InitialUnknowns", "floor.work"), parameters);
 }
