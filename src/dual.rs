@@ -84,6 +84,7 @@ impl Sub for Dual {
 impl Mul for Dual {
     type Output = Self;
     #[inline(always)]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the slope of a product is a sum")]
     fn mul(self, other: Self) -> Self {
         let slopes = each(|k| self.slopes[k] * other.value + other.slopes[k] * self.value);
         Self::new(self.value * other.value, slopes)

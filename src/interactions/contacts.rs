@@ -60,7 +60,7 @@ impl Pass for ContactPass {
         let slabs = ends.len().saturating_sub(1);
         let piece = |slab: usize| {
             // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
-            let next = slab + if slab % 2 == 0 { 2 } else { 4 };
+            let next = slab + if slab.is_multiple_of(2) { 2 } else { 4 };
             let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
             (ends[slab] as usize, ends[slab + 1] as usize, ahead)
         };

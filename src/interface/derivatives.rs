@@ -1,7 +1,7 @@
 //! How outputs change with inputs and in time.
 
 use super::{Causality, Interface, InterfaceError, Source, rows};
-use crate::dual::{DIRECTIONS, Slopes};
+use crate::dual::DIRECTIONS;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::step::{BoundaryDerivatives, NoDerivative, Simulation};
@@ -84,10 +84,7 @@ impl Interface {
     }
 
     /// How the derivatives of a variable are read.
-    fn slopes_of(
-        &self,
-        index: usize,
-    ) -> Result<(fn(&[BoundaryDerivatives], rows::At) -> Slopes, rows::At), InterfaceError> {
+    fn slopes_of(&self, index: usize) -> Result<(rows::ReadSlopes, rows::At), InterfaceError> {
         let variable = self.variable(index)?;
         match &variable.source {
             Source::Row(rows::Source { row: rows::Row { slopes: Some(slopes), .. }, at }) => Ok((*slopes, *at)),

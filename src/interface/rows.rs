@@ -71,6 +71,9 @@ pub(super) struct Write {
     pub(super) axis: fn(At) -> (BoundaryIndex, usize),
 }
 
+/// Reads how a variable of a boundary changes with inputs.
+pub(super) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> Slopes;
+
 /// A kind of variable.
 pub(super) struct Row {
     /// Its name, behind that of what it belongs to.
@@ -96,7 +99,7 @@ pub(super) struct Row {
     /// Its present value.
     pub(super) read: fn(Present, At) -> Value,
     /// How it changes with inputs, where that is followed.
-    pub(super) slopes: Option<fn(&[BoundaryDerivatives], At) -> Slopes>,
+    pub(super) slopes: Option<ReadSlopes>,
     /// Whether its rate is known.
     pub(super) has_rate: bool,
 }
