@@ -86,13 +86,15 @@ impl Kernel for CarryRun<'_, '_> {
             unsafe {
                 let mut contact = stage.contact(done, false);
                 let carry = Carry::of(&contact, step, stage.touches);
+                let mut along = [contact.normal_velocity, N::zero()];
                 if rates.is_some() {
                     let entries = stage.buffer.entry.as_ptr().add(done);
-                    let row = stage.remembered(true, rates, entries);
-                    let row = carry.foresee(&mut contact, row, step);
+                    let before = stage.remembered(true, rates, entries);
+                    let row = carry.foresee(&mut contact, before, step);
+                    along = [row[0], before[0]];
                     stage.remember(true, rates, row, entries);
                 }
-                carry.weigh(&mut contact, stage.onset, step);
+                carry.weigh(&mut contact, stage.onset, step, along);
                 stage.buffer.put_carry(done, &carry, &contact);
             }
             done += N::WIDTH;

@@ -331,10 +331,13 @@ impl Law {
             return None;
         }
         let carry = Carry::of(contact, step, !self.holds_beyond_touch());
+        let mut rates = [contact.normal_velocity, N::zero()];
         if let Some(place) = self.history_places.rates {
+            let before = history[place][0];
             history[place] = carry.foresee(contact, history[place], step);
+            rates = [history[place][0], before];
         }
-        carry.weigh(contact, self.normal.onset, step);
+        carry.weigh(contact, self.normal.onset, step, rates);
         Some(carry)
     }
 

@@ -56,6 +56,9 @@ impl Scheme {
     }
 }
 
+/// Part of an overlap below which a contact did not press a step ago.
+const SHALLOW: f64 = 1e-9;
+
 /// What happened to a contact from its last evaluation to this one: how its normal turned and how far its bodies slipped, as
 /// at the middle of the step.
 #[derive(Clone, Copy, Debug)]
@@ -156,30 +159,39 @@ impl<N: Number> Carry<N> {
     }
 
     /// Weighs the velocities that a dashpot sees of a contact which began within the step, or which ends within the next, so
-    /// that its force is that of the part of the time between both mid-steps in which the bodies touch.
+    /// that its force is that of the part of the time between both mid-steps in which the bodies touch. `rates` are the
+    /// velocities along the normal at the middle of this step and of the step before it, 0 where none is remembered \[m/s\]:
+    /// a contact that seemed to end and did not is weighed for what is left of its time.
     #[inline(always)]
-    pub fn weigh(&self, contact: &mut Contact<N>, onset: Onset, step: N) {
+    pub fn weigh(&self, contact: &mut Contact<N>, onset: Onset, step: N, [rate, before]: [N; 2]) {
         if onset == Onset::Unweighed {
             return;
         }
-        let (one, overlap) = (N::splat(1.0), contact.overlap);
-        let began = one.greater(self.share);
-        let leaving = contact.normal_velocity * step;
-        let ends = N::both(leaving.greater(overlap), overlap.greater(N::zero()));
-        let weighed = N::either(began, ends);
+        let (zero, half, one, overlap) = (N::zero(), N::splat(0.5), N::splat(1.0), contact.overlap);
+        let (leaving, left) = (rate * step, before * step);
+        let earlier = overlap + leaving;
+        // Also a contact that touched a step ago without pressing began in this step: the last bits are not to tell.
+        let began = N::either(one.greater(self.share), (overlap * N::splat(SHALLOW)).greater(earlier));
+        let ends = N::both(leaving.greater(overlap), overlap.greater(zero));
+        let stayed = N::both(left.greater(earlier), earlier.greater(overlap * N::splat(SHALLOW)));
+        // A plane touches what does not press on it yet: that dashpot begins with the next step.
+        let flat = N::splat(f64::MIN_POSITIVE).greater(overlap);
+        let weighed = N::either(N::either(began, ends), N::either(stayed, flat));
         if !N::any(weighed) {
             return;
         }
-        // ∫ of t^p from 0 to θ + ½, over θ^p
-        let part = N::select(began, self.share, overlap / N::select(ends, leaving, one));
-        let reach = part + N::splat(0.5);
-        let ratio = reach / part;
+        let since = N::select(stayed, one - earlier / N::select(stayed, left, one), half);
+        // ∫ of t^p over the time of touch, over the p-th power of the time between touch and now; with p = 0 in the midst of it
+        let part = N::select(began, self.share, N::select(ends, overlap / N::select(ends, leaving, one), half));
+        let reach = part + N::select(began, half, since);
+        let edge = N::either(began, ends);
+        let ratio = N::select(edge, reach / part, one);
         let weight = match onset {
             Onset::Unweighed | Onset::Constant => reach,
-            Onset::FourthRoot => reach * ratio.sqrt().sqrt() * N::splat(0.8),
-            Onset::SquareRoot => reach * ratio.sqrt() * N::splat(2.0 / 3.0),
+            Onset::FourthRoot => reach * ratio.sqrt().sqrt() * N::select(edge, N::splat(0.8), one),
+            Onset::SquareRoot => reach * ratio.sqrt() * N::select(edge, N::splat(2.0 / 3.0), one),
         };
-        let weight = N::select(weighed, weight, one);
+        let weight = N::select(flat, zero, N::select(weighed, weight, one));
         contact.normal_velocity = contact.normal_velocity * weight;
         contact.slip = contact.slip * weight;
     }

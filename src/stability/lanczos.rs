@@ -34,6 +34,9 @@ const AGREEMENT: f64 = 3e-3;
 /// Most certificates that are tried.
 const TRIALS: usize = 40;
 
+/// Part of the root that was tried above which what it certifies is taken; below it that is tried in its turn.
+const CLOSE: f64 = 0.98;
+
 /// Part of the certified root above which a root that was certified earlier is kept.
 const NEAR: f64 = 0.97;
 
@@ -62,14 +65,23 @@ pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, con
         }
     }
     let mut root = method.guessed(guess, counter) / (1.0 - share);
+    let mut best = None;
     for _ in 0..TRIALS {
         let (_, certain) = certify(&mut method, root, counter);
         if certain <= root {
+            // λ_max(S(μ)) grows with μ: what is certain at a larger root is so at this one.
+            best = Some(certain);
+            if certain >= CLOSE * root {
+                break;
+            }
+            root = certain;
+        } else if best.is_some() {
             break;
+        } else {
+            root = (1.01 * root).max(certain);
         }
-        root = (1.01 * root).max(certain);
     }
-    root
+    best.unwrap_or(root)
 }
 
 /// Products after which a value is certain but for the share.

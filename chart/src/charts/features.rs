@@ -31,7 +31,7 @@ const ROUNDS: u32 = 5;
 const ROUGH: &str = "[contact.c.tangential.history]";
 
 /// What is measured: its name, and what the scene has beside particles and planes.
-const FEATURES: [(&str, &str); 24] = [
+const FEATURES: [(&str, &str); 27] = [
     ("no law at all", ""),
     ("hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n"),
     ("hertz", "[contact.c.normal.hertz]\n"),
@@ -39,6 +39,9 @@ const FEATURES: [(&str, &str); 24] = [
     ("hertz + history", "[contact.c.normal.hertz]\nROUGH\n"),
     ("hertz + history of friction 0", "[contact.c.normal.hertz]\nROUGH\nSMOOTH"),
     ("hertz + turned_history", "[contact.c.normal.hertz]\n[contact.c.tangential.turned_history]\n"),
+    ("hertz + history, midway", "[contact.c.normal.hertz]\nROUGH\nMIDWAY"),
+    ("hertz + history, predicted", "[contact.c.normal.hertz]\nROUGH\nPREDICTED"),
+    ("hertz, predicted", "[contact.c.normal.hertz]\nPREDICTED"),
     ("hertz + history + cdt", "[contact.c.normal.hertz]\nROUGH\n[contact.c.rolling.cdt]\n"),
     ("hertz + history + epsd2", "[contact.c.normal.hertz]\nROUGH\n[contact.c.rolling.epsd2]\n"),
     ("hertz + history + sjkr", "[contact.c.normal.hertz]\nROUGH\n[contact.c.cohesion.sjkr]\n"),
@@ -66,10 +69,13 @@ fn text(feature: &str) -> String {
     let (spacing, high) = (0.999 * 2e-3, (EDGE as f64 - 0.5) * 0.999 * 2e-3);
     let friction = if feature.contains("SMOOTH") { 0.0 } else { 0.5 };
     let gravity = if feature.contains("GRAVITY") { "gravity = [0.0, 0.0, -9.81]\n" } else { "" };
+    let scheme = [("MIDWAY", "scheme = \"midway\""), ("PREDICTED", "scheme = \"predicted\"")];
+    let run = scheme.iter().find(|(word, _)| feature.contains(word)).map_or("", |(_, line)| line);
     let bond = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
                 tangential_stiffness = 4e11";
     let own = feature.replace("ROUGH", ROUGH).replace("BOND", bond);
-    let own = ["SMOOTH", "GRAVITY", "SINGLE"].iter().fold(own, |text, word| text.replace(word, ""));
+    let own =
+        ["SMOOTH", "GRAVITY", "SINGLE", "MIDWAY", "PREDICTED"].iter().fold(own, |text, word| text.replace(word, ""));
     let mut planes = String::new();
     for axis in 0..3 {
         for (side, at) in [("low", -0.5 * spacing), ("high", high)] {
@@ -81,7 +87,7 @@ fn text(feature: &str) -> String {
         }
     }
     format!(
-        "{gravity}[run]\nthreads = 1\nmax_overlap = 0.1\n\
+        "{gravity}[run]\nthreads = 1\nmax_overlap = 0.1\n{run}\n\
          [material.a]\ndensity = 2500.0\nyoungs_modulus = 1e8\npoissons_ratio = 0.25\n\
          [pair.a.a]\nrestitution = 0.5\nfriction = {friction:?}\nrolling_friction = 0.1\ncohesion_energy_density = 1e3\n\
          surface_energy = 1e-3\ndamping_coefficient = 1e3\ntangential_damping_ratio = 1.0\nunloading_stiffness_ratio = 2.0\n\

@@ -10,7 +10,11 @@ pub(super) struct Scheme {
 }
 
 /// Those that are charted, the default first.
-pub(super) const SCHEMES: &[Scheme] = &[Scheme { name: "", run: "" }];
+pub(super) const SCHEMES: &[Scheme] = &[
+    Scheme { name: "", run: "" },
+    Scheme { name: "midway", run: "scheme = \"midway\"" },
+    Scheme { name: "predicted", run: "scheme = \"predicted\"" },
+];
 
 impl Scheme {
     /// What a series or a diagram of this name is called with this scheme.

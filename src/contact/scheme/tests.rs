@@ -70,7 +70,7 @@ fn the_first_and_the_last_force_of_a_dashpot_stand_for_the_time_in_which_bodies_
     let at = |normal_velocity| Contact { overlap: 1.0, normal_velocity, per_distance: 0.0, ..contact() };
     let weight = |velocity, onset| {
         let mut contact = at(velocity);
-        Carry::of(&contact, 4.0, true).weigh(&mut contact, onset, 4.0);
+        Carry::of(&contact, 4.0, true).weigh(&mut contact, onset, 4.0, [velocity, 0.0]);
         contact.normal_velocity / velocity
     };
     // Half a step of touch before or after, and half a step beyond: as long as a whole one.
@@ -82,7 +82,27 @@ fn the_first_and_the_last_force_of_a_dashpot_stand_for_the_time_in_which_bodies_
         assert_close(weight(velocity, Onset::FourthRoot), 2.0_f64.sqrt().sqrt() / 1.25, 1e-15);
     }
     assert_eq!(weight(-1.0, Onset::Constant), 0.75);
+    assert_eq!(weight(-0.25, Onset::Constant), 1.5, "it touched a step ago, and did not press");
+    assert_eq!(weight(-0.125, Onset::Constant), 1.0, "it pressed a step ago");
+    let mut flat = Contact { overlap: 0.0, ..at(-1.0) };
+    Carry::of(&flat, 4.0, true).weigh(&mut flat, Onset::Constant, 4.0, [-1.0, 0.0]);
+    assert_eq!(flat.normal_velocity, 0.0, "it does not press yet");
     assert_eq!(weight(0.125, Onset::Constant), 1.0, "it touches in the next step, too");
+}
+
+#[test]
+fn a_contact_that_seemed_to_end_is_weighed_for_what_is_left_of_its_time() {
+    let weight = |velocity: f64, before: f64| {
+        let mut contact = Contact { overlap: 1.0, normal_velocity: velocity, per_distance: 0.0, ..contact() };
+        Carry::of(&contact, 4.0, true).weigh(&mut contact, Onset::Constant, 4.0, [velocity, before]);
+        contact.normal_velocity / velocity
+    };
+    // A step ago the overlap was 1.5 m: at 0.5 m/s it would have ended after ¾ of the step, for which it was weighed.
+    assert_close(weight(0.125, 0.5), 0.25 + 0.5, 1e-15);
+    // It was 2 m, and now it does end, after half of the step.
+    assert_close(weight(0.25, 1.0), 0.5 + 0.5, 1e-15);
+    assert_close(weight(0.5, 1.0), 0.25 + 0.5, 1e-15);
+    assert_eq!(weight(0.125, 0.25), 1.0, "a step ago nothing said that it would end");
 }
 
 #[test]
