@@ -6,7 +6,7 @@
 
 use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
 use super::liggghts;
-use super::schemes::{SCHEMES, Scheme};
+use super::schemes::{SCHEMES, Scheme, drawn};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -141,9 +141,9 @@ fn draw() -> Result<Drawing, ChartError> {
     if !has_peer {
         notes.push("LIGGGHTS is not installed: its points are left out".to_owned());
     }
-    let laws = models.iter().flat_map(|normal| SCHEMES.iter().map(|scheme| scheme.named(normal.name)));
+    let laws = models.iter().flat_map(|normal| drawn().map(|scheme| scheme.named(normal.name)));
     let panels = laws.map(panel).collect();
-    Ok(Drawing { table, picture: Picture { panels, ..Picture::default() }, notes })
+    Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })
 }
 
 /// What the default step costs in accuracy.

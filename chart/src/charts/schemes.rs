@@ -16,6 +16,11 @@ pub(super) const SCHEMES: &[Scheme] = &[
     Scheme { name: "predicted", run: "scheme = \"predicted\"" },
 ];
 
+/// Those of which pictures have diagrams: the curves of `midway` lie on those of `engine` or of `predicted`; tables have them.
+pub(super) fn drawn() -> impl Iterator<Item = &'static Scheme> {
+    SCHEMES.iter().filter(|scheme| scheme.name != "midway")
+}
+
 impl Scheme {
     /// What a series or a diagram of this name is called with this scheme.
     pub(super) fn named(&self, name: &str) -> String {

@@ -66,8 +66,10 @@ const WIDTH: f64 = 720.0;
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
-    /// Its diagrams, from above to below.
+    /// Its diagrams, row by row.
     pub panels: Vec<Panel>,
+    /// Diagrams beside each other; 0 stands for one.
+    pub columns: usize,
     /// Bars, below them.
     pub bars: Vec<Bars>,
 }
@@ -77,15 +79,27 @@ impl Picture {
     pub fn draw(&self, table: &Table) -> String {
         let mut bodies = String::new();
         let mut height = 0.0;
-        let panels = self.panels.iter().map(|panel| panel::draw(panel, table, WIDTH));
-        for (body, high) in panels.chain(self.bars.iter().map(|bars| bars::draw(bars, table, WIDTH))) {
-            write!(bodies, "<g transform=\"translate(0 {height})\">\n{body}</g>\n").expect("a text grows");
-            height += high;
+        let columns = self.columns.max(1);
+        let mut put = |row: Vec<(String, f64)>| {
+            let mut highest = 0.0_f64;
+            for (column, (body, high)) in row.into_iter().enumerate() {
+                let left = WIDTH * column as f64;
+                write!(bodies, "<g transform=\"translate({left} {height})\">\n{body}</g>\n").expect("a text grows");
+                highest = highest.max(high);
+            }
+            height += highest;
+        };
+        for row in self.panels.chunks(columns) {
+            put(row.iter().map(|panel| panel::draw(panel, table, WIDTH)).collect());
         }
+        for bars in &self.bars {
+            put(vec![bars::draw(bars, table, WIDTH)]);
+        }
+        let width = WIDTH * columns as f64;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
              font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"12\">\n\
-             <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"white\"/>\n{bodies}</svg>\n"
+             <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n{bodies}</svg>\n"
         )
     }
 
