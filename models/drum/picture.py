@@ -67,7 +67,13 @@ def draw(path, folder, rows, names):
     column = {name: rows[:, place] for place, name in enumerate(names)}
     right.plot(column["time"], 1e3 * column["torque"], color="#1b6ca8", label="torque of the motor")
     moment = np.convolve(-column["drum.mean_moment.x"], np.ones(20) / 20.0, "valid")
-    right.plot(column["time"][10:-9], 1e3 * moment, color="0.6", linewidth=1, label="moment of the grains, reversed, mean of 20 ms")
+    right.plot(
+        column["time"][10:-9],
+        1e3 * moment,
+        color="0.6",
+        linewidth=1,
+        label="moment of the grains, reversed, mean of 20 ms",
+    )
     right.set(xlabel="time [s]", ylabel="[mN m]")
     speed = right.twinx()
     speed.plot(column["time"], column["drum.angular_velocity.x"], color="#b5482a", linewidth=1)

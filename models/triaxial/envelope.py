@@ -28,7 +28,16 @@ def run(program, folder, seed, pressure):
     for axis in "xyz":
         for side, sign in (("low", -1), ("high", 1)):
             settings.append(f"boundary.{axis}_{side}.motion.servo.{axis}.target={sign * pressure * SIDE**2!r}")
-    command = [program, "run", HERE / "scene.toml", "--overwrite", "--inputs", folder / "input.csv", "-o", folder / "out"]
+    command = [
+        program,
+        "run",
+        HERE / "scene.toml",
+        "--overwrite",
+        "--inputs",
+        folder / "input.csv",
+        "-o",
+        folder / "out",
+    ]
     for setting in settings:
         command += ["--set", setting]
     subprocess.run([*map(str, command)], check=True, capture_output=True)

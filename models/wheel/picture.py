@@ -52,7 +52,9 @@ def draw(path, found, weight):
     figure.colorbar(grains, ax=left, label="speed [m/s]", shrink=0.8)
     slips = [one[0] for one in found]
     right.plot(slips, [one[2] / weight for one in found], "o-", color="#1b6ca8", label="pull over weight")
-    right.plot(slips, [one[3] / weight / 0.021 for one in found], "s-", color="0.5", label="torque over weight and radius")
+    right.plot(
+        slips, [one[3] / weight / 0.021 for one in found], "s-", color="0.5", label="torque over weight and radius"
+    )
     right.axhline(0.0, color="0.8", linewidth=0.8)
     right.set(xlabel="slip", ylabel="over the weight")
     sink = right.twinx()

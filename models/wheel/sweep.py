@@ -21,7 +21,9 @@ def run(program, slip, folder):
     speed = SPIN * RADIUS * (1.0 - slip)
     way = "boundary.wheel.motion.prescribed"
     settings = [f"{way}.x.trapezoid.speed={speed!r}", f"{way}.x.trapezoid.acceleration={speed / RAMP!r}"]
-    program("run", HERE / "scene.toml", "--overwrite", "-o", folder, *[word for one in settings for word in ("--set", one)])
+    program(
+        "run", HERE / "scene.toml", "--overwrite", "-o", folder, *[word for one in settings for word in ("--set", one)]
+    )
     rows = list(csv.reader((folder / "history.csv").open()))
     return dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
 

@@ -3,9 +3,6 @@
 use super::{Mesh, Sides};
 use crate::number::Vector;
 
-/// The reach of the first search, over the size of the surface.
-const FIRST_REACH: f64 = 1.0 / 64.0;
-
 /// The point of a surface that is nearest to a centre.
 struct Nearest {
     /// Distance \[m\].
@@ -32,25 +29,17 @@ impl Mesh {
 
     /// The nearest point of all triangles, or of those that count.
     fn nearest(&self, centre: Vector, all: bool) -> Option<Nearest> {
-        let size = 2.0 * self.topology.vertices.iter().map(|at| (*at - self.middle).length()).fold(0.0, f64::max);
-        let farthest = (centre - self.middle).length() + size;
-        let mut reach = FIRST_REACH * size;
-        loop {
-            let mut best: Option<Nearest> = None;
-            self.tree.near(centre, reach, |triangle| {
-                if all || self.counts(centre, triangle) {
-                    let found = self.nearest_of(centre, triangle);
-                    if best.as_ref().is_none_or(|best| found.distance < best.distance) {
-                        best = Some(found);
-                    }
+        let mut best: Option<Nearest> = None;
+        self.tree.search(centre, f64::INFINITY, |triangle| {
+            if all || self.counts(centre, triangle) {
+                let found = self.nearest_of(centre, triangle);
+                if best.as_ref().is_none_or(|best| found.distance < best.distance) {
+                    best = Some(found);
                 }
-            });
-            // What is not found within reach is farther away.
-            if reach > farthest || best.as_ref().is_some_and(|best| best.distance <= reach) {
-                return best;
             }
-            reach *= 2.0;
-        }
+            best.as_ref().map_or(f64::INFINITY, |best| best.distance)
+        });
+        best
     }
 
     /// The nearest point of a triangle.

@@ -63,23 +63,41 @@ impl Tree {
 
     /// Hands out the triangles whose leaf is within reach of a centre \[m\].
     pub(super) fn near(&self, centre: Vector, reach: f64, mut hand: impl FnMut(u32)) {
+        self.search(centre, reach, |triangle| {
+            hand(triangle);
+            reach
+        });
+    }
+
+    /// The same, the nearer half of each box first; who is handed a triangle says how far the search still reaches \[m\].
+    pub(super) fn search(&self, centre: Vector, mut reach: f64, mut hand: impl FnMut(u32) -> f64) {
         let centre = centre.to_array();
-        let mut waiting = [0_u32; 64];
+        let apart = |place: u32| {
+            let node = &self.nodes[place as usize];
+            let along = |axis: usize| (node.low[axis] - centre[axis]).max(centre[axis] - node.high[axis]).max(0.0);
+            along(0) * along(0) + along(1) * along(1) + along(2) * along(2)
+        };
+        let mut waiting = [(0_u32, 0.0); 64];
         let mut count = usize::from(!self.nodes.is_empty());
+        if count > 0 {
+            waiting[0].1 = apart(0);
+        }
         while count > 0 {
             count -= 1;
-            let node = &self.nodes[waiting[count] as usize];
-            let apart = |axis: usize| (node.low[axis] - centre[axis]).max(centre[axis] - node.high[axis]).max(0.0);
-            if apart(0) * apart(0) + apart(1) * apart(1) + apart(2) * apart(2) > reach * reach {
+            let (place, away) = waiting[count];
+            if away > reach * reach {
                 continue;
             }
+            let node = &self.nodes[place as usize];
             let [first, second] = node.below;
             if node.leaf {
-                self.order[first as usize..second as usize].iter().copied().for_each(&mut hand);
+                self.order[first as usize..second as usize].iter().for_each(|triangle| reach = hand(*triangle));
             } else {
                 // Halves of at most 2³² triangles: the way down is never longer than the room.
-                waiting[count] = first;
-                waiting[count + 1] = second;
+                let [one, other] = [first, second].map(|place| (place, apart(place)));
+                let [farther, nearer] = if one.1 > other.1 { [one, other] } else { [other, one] };
+                waiting[count] = farther;
+                waiting[count + 1] = nearer;
                 count += 2;
             }
         }
