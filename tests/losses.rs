@@ -214,7 +214,7 @@ const LAWS: [(&str, f64); 12] = [
     ),
 ];
 
-/// Grains that spin and fall on each other, on planes and on a turning drum of facets, some of them a free group.
+/// Grains that spin and fall on each other and on planes.
 fn grains(step: f64, scheme: &str, law: &str, output: &str) -> Simulation {
     simulation(&format!(
         r#"

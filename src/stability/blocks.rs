@@ -24,7 +24,7 @@ const PATIENCE: usize = 4;
 const GAIN: f64 = 2e-3;
 
 /// Parts of the first bound above which bodies are swept, one after the other until a lower one gains nothing.
-const LEVELS: [f64; 3] = [0.84, 0.74, 0.6];
+const LEVELS: [f64; 4] = [0.92, 0.84, 0.74, 0.6];
 
 /// Gain of the bound by a level below which no further level follows.
 const LEVEL_GAIN: f64 = 4e-3;
@@ -32,11 +32,8 @@ const LEVEL_GAIN: f64 = 4e-3;
 /// Largest and least share ratio t.
 const MOST_UNEVEN: f64 = 1e6;
 
-/// Iterations that find the root of a block from below, each with a high power of the block.
-const ITERATIONS: usize = 3;
-
-/// How often a block is squared for it: to its 64th power.
-const SQUARINGS: usize = 6;
+/// Iterations that find the root of a block from below.
+const ITERATIONS: usize = 8;
 
 /// What a trial root grows by until it is above the root.
 const TRIAL: f64 = 1.002;
@@ -68,7 +65,7 @@ pub(super) fn largest_root(network: &Network, guess: f64) -> (f64, Option<usize>
 /// The motion that the bound comes from: of one body alone, scaled as the network is.
 pub(super) fn critical_motion(network: &Network, root: f64) -> Vec<[f64; 6]> {
     /// Iterations after which it stands out.
-    const ITERATIONS: usize = 4;
+    const ITERATIONS: usize = 60;
     let (blocks, (root, mover)) = swept(network, root);
     let own = mover.map(|mover| {
         let mut own = ASKEW;
@@ -232,22 +229,12 @@ impl Blocks<'_> {
         is_positive(&mut rest)
     }
 
-    /// About the root of a body, from below: that of the motion that iteration with a high power of its block comes to. The
-    /// eigenvalues of a body with contacts on all sides lie close to each other, and sweeps that follow roots too far below
-    /// lay load on the wrong bodies: with the block itself instead of its power bounds were up to a tenth too short.
+    /// About the root of a body, from below: that of the motion that iteration comes to.
     fn estimate(&self, mover: usize, vector: &mut [f64; 6], guess: f64, iterations: usize) -> f64 {
         let mut root = guess;
         for _ in 0..iterations {
             let block = self.combined(mover, root);
-            let mut power = block;
-            for _ in 0..SQUARINGS {
-                let trace: f64 = (0..6).map(|k| power[diagonal(k)]).sum();
-                if trace <= 0.0 {
-                    return 0.0;
-                }
-                power = square(&power.map(|part| part / trace));
-            }
-            let next = times(&power, vector);
+            let next = times(&block, vector);
             let length = next.iter().map(|part| part * part).sum::<f64>().sqrt();
             if length <= 0.0 {
                 return 0.0;
@@ -312,7 +299,7 @@ impl Blocks<'_> {
         let (mut least, mut history) = (best, [f64::INFINITY; PATIENCE]);
         for sweep in 0..SWEEPS {
             for ((&mover, vector), root) in active.iter().zip(&mut vectors).zip(&mut roots) {
-                let iterations = if sweep == 0 { ITERATIONS } else { 1 };
+                let iterations = if sweep == 0 { ITERATIONS } else { 2 };
                 *root = self.estimate(mover, vector, *root, iterations);
             }
             let top = self.largest(active.iter().copied(), floor);
@@ -449,24 +436,6 @@ fn times(triangle: &[f64; 21], vector: &[f64; 6]) -> [f64; 6] {
         place += 1;
     }
     image
-}
-
-/// The square of a symmetric matrix, both as triangles.
-fn square(triangle: &[f64; 21]) -> [f64; 21] {
-    let mut whole = [[0.0; 6]; 6];
-    for a in 0..6 {
-        for b in 0..=a {
-            whole[a][b] = triangle[a * (a + 1) / 2 + b];
-            whole[b][a] = whole[a][b];
-        }
-    }
-    let mut product = [0.0; 21];
-    for a in 0..6 {
-        for b in 0..=a {
-            product[a * (a + 1) / 2 + b] = (0..6).map(|k| whole[a][k] * whole[b][k]).sum();
-        }
-    }
-    product
 }
 
 /// Whether a symmetric matrix is positive definite (L D Lᵀ, in place).

@@ -19,7 +19,7 @@ const STEPS_OF_FALL: f64 = 50.0;
 const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
 
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
-const CERTAIN: f64 = 0.02;
+const CERTAIN: f64 = 0.05;
 
 /// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
 const LEAST: [f64; 2] = [2e-6, 2e-3];

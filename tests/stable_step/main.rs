@@ -138,8 +138,6 @@ fn of_bond_dashpots() {
             &block(&cubic(2, 2e-3)[..2], free, &bonds(&dashpots(ratio))),
         );
         holds_on_the_engine(&format!("block, ratio {ratio}"), &block(&cubic(3, 2e-3), free, &bonds(&dashpots(ratio))));
-        let chain: Vec<Sphere> = (0..12).map(|i| [2e-3 * f64::from(i), 0.0, 0.0, 1e-3]).collect();
-        holds(&format!("chain, ratio {ratio}"), &block(&chain, free, &bonds(&dashpots(ratio))));
     }
 }
 
@@ -157,37 +155,9 @@ fn of_bonds_and_contacts_together() {
     holds_on_the_engine("wall bonds", &block(&cubic(3, 2e-3), free, &format!("{}{wall}", bonds(""))));
 }
 
-/// A random packing of 60 spheres of radius 1 mm and this many times less, that fits as well.
-fn random(sizes: f64) -> Vec<Sphere> {
-    packing(60, sizes, if sizes > 1.0 { 0.62 } else { 0.68 })
-}
-
 #[test]
-fn of_random_packings() {
-    for sizes in [1.0, 3.0, 10.0] {
-        holds(&format!("random 1:{sizes}"), &block(&random(sizes), free, &hertz()));
-    }
-}
-
-#[test]
-fn of_random_packings_with_dashpots() {
-    for sizes in [1.0, 3.0, 10.0] {
-        for restitution in [0.85, 0.35, 0.05] {
-            let law = contacts("hertz", &format!("restitution = {restitution:?}"));
-            let name = format!("random 1:{sizes}, restitution {restitution}");
-            holds(&name, &block(&random(sizes), free, &law));
-        }
-    }
-}
-
-#[test]
-fn of_random_bonded_packings() {
-    for sizes in [1.0, 3.0] {
-        let spheres = random(sizes);
-        holds(&format!("bonded random 1:{sizes}"), &block(&spheres, free, &bonds("")));
-        let damped = bonds(&dashpots(0.3));
-        holds(&format!("bonded random 1:{sizes}, ratio 0.3"), &block(&spheres, free, &damped));
-    }
+fn of_a_random_packing() {
+    holds("random 1:1", &block(&packing(60, 1.0), free, &hertz()));
 }
 
 #[test]

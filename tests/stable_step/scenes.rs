@@ -42,7 +42,7 @@ pub(crate) fn block(spheres: &[Sphere], held: impl Fn(&Sphere) -> bool, more: &s
         )
     };
     format!(
-        "[run]\nthreads = 1\nmax_overlap = 0.99\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e9\npoissons_ratio = 0.25\n\
+        "[run]\nthreads = 1\nmax_overlap = 0.5\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e9\npoissons_ratio = 0.25\n\
          {more}\n[particles.core]\nmaterial = \"a\"\nlist = [\n{free}]\n{shell}"
     )
 }
@@ -119,16 +119,15 @@ pub(crate) fn free(_: &Sphere) -> bool {
     false
 }
 
-/// A random packing of so many spheres of radius 1 mm and this many times less, which fill this part of a box, pushed apart until
-/// they overlap little.
-pub(crate) fn packing(count: usize, sizes: f64, part: f64) -> Vec<Sphere> {
+/// A random packing of so many spheres of radius 1 mm and this many times less, pushed apart until they overlap little.
+pub(crate) fn packing(count: usize, sizes: f64) -> Vec<Sphere> {
     /// Rounds of pushing.
     const ROUNDS: usize = 300;
     let radius = |index: usize| 1e-3 * sizes.powf(-0.5 - 0.5 * noise(7919 * index + 11));
     let radii: Vec<f64> = (0..count).map(radius).collect();
     // Where spheres of these sizes just do not fit: every one ends up with several contacts.
     let volume: f64 = radii.iter().map(|r| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum();
-    let edge = (volume / part).cbrt();
+    let edge = (volume / 0.68).cbrt();
     let mut spheres: Vec<Sphere> = (0..count)
         .map(|index| {
             let [x, y, z] = [0, 1, 2].map(|axis| 0.5 * edge * noise(3 * index + axis));
