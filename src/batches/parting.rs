@@ -14,26 +14,31 @@ pub(super) struct Parting<'a, 'b, B> {
 }
 
 impl<B: Bodies> Parting<'_, '_, B> {
-    /// Books what is lost with an entry that touches no more, where losses are booked: the last loads have acted for another half
-    /// step, and what the tangential spring still held is gone.
+    /// Whether losses are booked.
+    #[inline(always)]
+    pub(super) fn books(&self) -> bool {
+        self.work.law.books()
+    }
+
+    /// Books what is lost with an entry that touches no more: the last loads have acted for another half step, and what the
+    /// tangential spring still held is gone. This stands apart, so that it takes no registers from the search for touching
+    /// entries.
     ///
     /// # Safety
     /// The entry belongs to this piece of the list.
-    #[inline(always)]
+    #[cold]
+    #[inline(never)]
     pub(super) unsafe fn book(&mut self, entry: usize) {
-        if self.work.law.books() {
-            // SAFETY: the caller's promise.
-            let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
-            let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
-            self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
-        }
+        // SAFETY: the caller's promise.
+        let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
+        let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
+        self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
     }
 
     /// The contact of an entry where its bodies are, and its rows: spring, and what the book remembers.
     ///
     /// # Safety
     /// As for [`Parting::book`].
-    #[inline(never)]
     unsafe fn ended(&self, entry: usize) -> (Contact, [Row; 3]) {
         let Batches { bodies, entries, law, .. } = self.work;
         let (first, second) = (&bodies.first()[entry], &bodies.second()[entry]);

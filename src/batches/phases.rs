@@ -160,7 +160,9 @@ unsafe fn end_chosen<B: Bodies>(mut parting: Parting<B>, entry: usize, count: us
         let lane = ended.trailing_zeros() as usize / 8;
         // SAFETY: the caller's promise; there is a row for each entry.
         unsafe {
-            parting.book(entry + lane);
+            if parting.books() {
+                parting.book(entry + lane);
+            }
             end_one(entries, entry + lane);
         }
         ended &= ended - 1;
@@ -205,8 +207,10 @@ unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bi
     let mut ended = u64::from_le_bytes(before) & (u64::from(TOUCHING) * ONES) & !now;
     while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
-        // SAFETY: the caller's promise.
-        unsafe { parting.book(entry + lane) };
+        if parting.books() {
+            // SAFETY: the caller's promise.
+            unsafe { parting.book(entry + lane) };
+        }
         for history in entries.history() {
             // SAFETY: the caller's promise; there is a row for each entry.
             unsafe { *history.at(entry + lane) = [0.0; 4] };
