@@ -148,8 +148,9 @@ def table(options, scenes, programs, folder):
     """The table, line by line, and the versions of the peers."""
     versions = {}
     lines = ["| scene | program | ns per contact (bond) and step | peer over cograin | peak MiB |", "|---|---|---|---|---|"]
+    whole = any(options.only == scene.name for scene in scenes)
     for scene in scenes:
-        if options.only not in scene.name:
+        if options.only != scene.name if whole else options.only not in scene.name:
             continue
         chosen, number, counts = measure(scene, programs, options.repeats, folder / scene.name)
         own = chosen[0].least(0)
@@ -224,7 +225,7 @@ def main():
     parser.add_argument("--before", metavar="FILE", help="the program of an earlier commit, to compare with")
     for name, peer in PEERS.items():
         parser.add_argument(f"--{name}", metavar="FILE", help=f"{peer.title}; by default `{peer.executable}`, if there is one")
-    parser.add_argument("--only", metavar="NAME", default="", help="part of the names of the scenes to run, start or threads_...")
+    parser.add_argument("--only", metavar="NAME", default="", help="name of a scene or part of the names of several, start or threads_...")
     parser.add_argument("--repeats", metavar="N", type=int, default=2)
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--trial", action="store_true", help="a tenth of the steps: shows that all run, and no figures to keep")
