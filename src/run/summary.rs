@@ -159,6 +159,7 @@ impl Summary {
         let particles = state.particles.len();
         let nanoseconds = meter.stepping.as_secs_f64() * 1e9;
         let share = |count: f64| (count > 0.0).then(|| nanoseconds / count);
+        let limit = simulation.limit();
         Self {
             program: concat!("cograin ", env!("CARGO_PKG_VERSION")).to_owned(),
             scene: order.scene_name.to_owned(),
@@ -174,8 +175,8 @@ impl Summary {
             session_steps,
             time_step: TimeSteps {
                 current: state.clock.step,
-                stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
-                limited_by: simulation.limit().by.map(|by| simulation.words(&by)),
+                stable: Some(limit.safe).filter(|stable| stable.is_finite()),
+                limited_by: limit.by.map(|by| simulation.words(&by)),
                 accuracy: order.scene.run.accuracy.name(),
                 scheme: order.scene.run.scheme.name(),
                 allow_unstable: order.scene.run.allow_unstable,

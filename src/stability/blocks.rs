@@ -58,38 +58,28 @@ struct Blocks<'a> {
 
 /// The largest root μ = 2/Δt \[1/s\], from the safe side, and the body that has it. `guess` is about what it will be, or 0.
 pub(super) fn largest_root(network: &Network, guess: f64) -> (f64, Option<usize>) {
-    let (_, (root, mover)) = swept(network, guess);
+    let (root, mover) = swept(network, guess);
     (root * (1.0 + ROUNDING), mover)
 }
 
-/// The motion that the bound comes from: of one body alone, scaled as the network is.
-pub(super) fn critical_motion(network: &Network, root: f64) -> Vec<[f64; 6]> {
+/// The motion that the bound comes from: of this body alone, about, scaled as the network is.
+pub(super) fn critical_motion(network: &Network, root: f64, mover: Option<usize>) -> Vec<[f64; 6]> {
     /// Iterations after which it stands out.
     const ITERATIONS: usize = 60;
-    let (blocks, (root, mover)) = swept(network, root);
-    let own = mover.map(|mover| {
-        let mut own = ASKEW;
-        blocks.estimate(mover, &mut own, root, ITERATIONS);
-        (mover, own)
-    });
-    drop(blocks);
     let mut motion = vec![[0.0; 6]; network.movers()];
-    if let Some((mover, own)) = own {
-        motion[mover] = own;
+    if let Some(mover) = mover {
+        let mut blocks = Blocks::of(network, root);
+        blocks.add(0..network.elements.len(), |other| other == mover);
+        motion[mover] = ASKEW;
+        blocks.estimate(mover, &mut motion[mover], root, ITERATIONS);
     }
     motion
 }
 
-/// The blocks when load has been shared as well as sweeps find, the largest root \[1/s\] and the body that has it.
-fn swept<'a>(network: &'a Network, guess: f64) -> (Blocks<'a>, (f64, Option<usize>)) {
+/// The largest root \[1/s\] when load has been shared as well as sweeps find, and the body that has it.
+fn swept(network: &Network, guess: f64) -> (f64, Option<usize>) {
     let movers = network.movers();
-    let mut blocks = Blocks {
-        network,
-        stiffness: vec![[0.0; 21]; movers],
-        damping: vec![[0.0; 21]; if network.is_damped() { movers } else { 0 }],
-        weights: vec![1.0; movers],
-        shared_at: guess,
-    };
+    let mut blocks = Blocks::of(network, guess);
     let all = 0..network.elements.len();
     if network.is_damped() && guess <= 0.0 {
         blocks.add(all.clone(), |_| true);
@@ -110,7 +100,21 @@ fn swept<'a>(network: &'a Network, guess: f64) -> (Blocks<'a>, (f64, Option<usiz
             break;
         }
     }
-    (blocks, best)
+    best
+}
+
+impl<'a> Blocks<'a> {
+    /// Empty ones, whose shares are weighed at this root \[1/s\].
+    fn of(network: &'a Network<'a>, shared_at: f64) -> Self {
+        let movers = network.movers();
+        Self {
+            network,
+            stiffness: vec![[0.0; 21]; movers],
+            damping: vec![[0.0; 21]; if network.is_damped() { movers } else { 0 }],
+            weights: vec![1.0; movers],
+            shared_at,
+        }
+    }
 }
 
 impl Blocks<'_> {

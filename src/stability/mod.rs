@@ -8,16 +8,18 @@
 
 mod blocks;
 mod lanczos;
+mod limiter;
 mod network;
 mod surfaces;
 
 use crate::boundaries::RigidBody;
 use crate::contact::Response;
 use crate::integration::Fields;
-use crate::interactions::{Ahead, FASTER, Kind, Link, Pass};
+use crate::interactions::{Ahead, Kind, Link, Pass};
 use crate::scene::Scene;
 use crate::state::{Particles, State};
 use crate::threads::Context;
+pub use limiter::{Limiter, LimiterKind, Mode};
 use network::Network;
 pub(crate) use surfaces::{has_more_contacts, put_blocks};
 
@@ -28,77 +30,6 @@ pub struct Limit {
     pub safe: f64,
     /// What limits it, if anything does.
     pub by: Option<Limiter>,
-}
-
-/// The interaction that limits the time step, and how its bodies move against it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limiter {
-    /// A contact or bond, at work or to come.
-    pub kind: LimiterKind,
-    /// One particle: index into the scene's particles.
-    pub first: u32,
-    /// The other particle: index into the scene's particles.
-    pub second: Option<u32>,
-    /// The boundary that stands for the other particle: index in the scene.
-    pub boundary: Option<u32>,
-    /// How the bodies move.
-    pub mode: Mode,
-}
-
-/// What limits the time step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LimiterKind {
-    /// A contact.
-    Contact,
-    /// A contact between near bodies that may come before the next look.
-    ComingContact,
-    /// An impact of bodies that are not yet near each other.
-    Impact,
-    /// A bond.
-    Bond,
-    /// A bond that may be made before the next look.
-    ComingBond,
-}
-
-impl LimiterKind {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Contact => "the contact",
-            Self::ComingContact => "a contact to come",
-            Self::Impact => "an impact to come",
-            Self::Bond => "the bond",
-            Self::ComingBond => "a bond to come",
-        }
-    }
-}
-
-/// How two bodies move against each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Along the normal or axis.
-    Normal,
-    /// Across it.
-    Tangential,
-    /// Twisting about it.
-    Torsion,
-    /// Bending.
-    Bending,
-}
-
-impl Mode {
-    /// All, in the order of a link's parts.
-    const ALL: [Self; 4] = [Self::Normal, Self::Tangential, Self::Torsion, Self::Bending];
-
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Normal => "along the normal",
-            Self::Tangential => "across the normal",
-            Self::Torsion => "twisting",
-            Self::Bending => "bending",
-        }
-    }
 }
 
 /// What the stable time step is found from.
@@ -121,6 +52,8 @@ pub(crate) struct System<'a> {
 pub(crate) struct Found {
     /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
     pub network: f64,
+    /// The body that has it; none where there are bonds.
+    pub body: Option<usize>,
     /// The same of impacts between bodies that are not yet near each other \[1/s\].
     pub impacts: f64,
 }
@@ -137,14 +70,14 @@ impl System<'_> {
     /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
     pub(crate) fn find(&self, ahead: &Ahead, speed: f64, guess: f64, counter: &mut u64, context: &Context) -> Found {
         let network = self.network(ahead);
-        let root = if network.elements.is_empty() {
-            0.0
+        let (root, body) = if network.elements.is_empty() {
+            (0.0, None)
         } else if self.has_bonds(ahead) {
-            lanczos::largest_root(&network, guess, counter, context)
+            (lanczos::largest_root(&network, guess, counter, context), None)
         } else {
-            blocks::largest_root(&network, guess).0
+            blocks::largest_root(&network, guess)
         };
-        Found { network: root, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
+        Found { network: root, body, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
     }
 
     /// Whether there are bonds, or are about to be.
@@ -184,7 +117,7 @@ impl System<'_> {
         }
         let motion = match self.has_bonds(ahead) {
             true => lanczos::critical_motion(&network, found.network, counter, context),
-            false => blocks::critical_motion(&network, found.network),
+            false => blocks::critical_motion(&network, found.network, found.body),
         };
         let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
         let place = (0..network.elements.len())
@@ -251,10 +184,10 @@ impl System<'_> {
     }
 }
 
-/// The speed up to which impacts are to be foreseen, of particles this fast \[m/s\] and boundaries this fast \[m/s\]: half
-/// of what two of them may meet at.
-pub(crate) fn foreseen_speed(particles: f64, boundaries: f64) -> f64 {
-    FASTER * particles.max(0.5 * (particles + boundaries))
+/// The speed up to which impacts are to be foreseen, of particles this fast \[m/s\] and boundaries this fast \[m/s\] that may
+/// become `faster` times as fast: half of what two of them may meet at.
+pub(crate) fn foreseen_speed(particles: f64, boundaries: f64, faster: f64) -> f64 {
+    faster * particles.max(0.5 * (particles + boundaries))
 }
 
 /// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].

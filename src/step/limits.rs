@@ -3,7 +3,7 @@
 use super::{RunError, Simulation};
 use crate::bond::creation::{Creation, Due, Window};
 use crate::boundaries::{RigidBody, course};
-use crate::interactions::Ahead;
+use crate::interactions::{Ahead, FASTER};
 use crate::scene::{Scene, Step};
 use crate::stability::{self, Limit, System};
 use crate::state::State;
@@ -14,6 +14,12 @@ const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
 
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
+
+/// Stable time steps over a given one from which more is foreseen.
+const FAR_BELOW: f64 = 1.5;
+
+/// The most that is foreseen of the growth of speeds then.
+const MOST_FORESEEN: f64 = 10.0;
 
 /// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
 const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
@@ -55,9 +61,8 @@ impl Simulation {
     /// The stable time step of the network of contacts and bonds as it may become soon, and of impacts to come; with what
     /// limits it.
     pub fn limit(&self) -> Limit {
-        let mut counter = self.state.foresight.counter;
-        let context = self.standing();
-        let (sight, found) = self.foresee(self.state.clock.step, 0.0, &mut counter, &context);
+        let (mut counter, context) = (self.state.foresight.counter, self.standing());
+        let (sight, found) = self.foresee(self.state.clock.step, FASTER, 0.0, &mut counter, &context);
         let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &context);
         Limit { safe: found.safe(), by }
     }
@@ -68,8 +73,8 @@ impl Simulation {
         System { scene, state, bodies, fields, passes }
     }
 
-    /// What is to be foreseen at time steps of about this length \[s\].
-    fn sight(&self, step: f64) -> Sight {
+    /// What is to be foreseen at time steps of about this length \[s\], until something is `faster` times as fast as now.
+    fn sight(&self, step: f64, faster: f64) -> Sight {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);
@@ -79,10 +84,10 @@ impl Simulation {
             Some(mean) => (CERTAIN * mean).max(LEAST[0] * least),
             None => LEAST[1] * least,
         };
-        let way = margin.max(2.0 * fastest.max(driven) * STEPS_BETWEEN_LOOKS * step);
+        let way = margin.max(2.0 * fastest.max(driven) * faster / FASTER * STEPS_BETWEEN_LOOKS * step);
         let rest = if step > 0.0 { 0.5 * margin / (STEPS_BETWEEN_LOOKS * step) } else { 0.0 };
         let falling = fastest + acceleration * STEPS_OF_FALL * step;
-        let speed = stability::foreseen_speed(fastest, driven).max(rest).max(falling);
+        let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
         let clock = &self.state.clock;
         let window = Window {
             after: clock.steps,
@@ -91,16 +96,22 @@ impl Simulation {
             to: clock.time + STEPS_BETWEEN_LOOKS * step,
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
-        let ahead = Ahead { margin, way, acceleration, boundaries, window };
+        let ahead = Ahead { margin, way, acceleration, faster, boundaries, window };
         Sight { ahead, speed, fastest: fastest.max(driven) }
     }
 
     /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer.
-    fn foresee(&self, step: f64, guess: f64, counter: &mut u64, context: &Context) -> (Sight, stability::Found) {
-        let mut step = step;
-        let mut tries = 0;
+    fn foresee(
+        &self,
+        step: f64,
+        faster: f64,
+        guess: f64,
+        counter: &mut u64,
+        context: &Context,
+    ) -> (Sight, stability::Found) {
+        let (mut step, mut tries) = (step, 0);
         loop {
-            let sight = self.sight(step);
+            let sight = self.sight(step, faster);
             let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
             // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
             if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
@@ -131,10 +142,26 @@ impl Simulation {
         }
     }
 
+    /// How much faster anything may become before the next look. A given step needs no more than to be well below the stable
+    /// one: the longer the stable one was at the last look, the more speed is foreseen, and the fewer looks a bed takes that
+    /// begins to move.
+    fn foreseen_growth(&self) -> f64 {
+        match self.scene.run.step {
+            Step::Given(step) if self.state.foresight.looks > 0 && self.state.clock.stable > FAR_BELOW * step => {
+                (FASTER * (self.state.clock.stable / step).powi(2)).min(MOST_FORESEEN)
+            }
+            _ => FASTER,
+        }
+    }
+
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
     pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
-        let mut counter = self.state.foresight.counter;
-        let (sight, found) = self.foresee(step, self.state.foresight.root, &mut counter, context);
+        let (mut counter, guess) = (self.state.foresight.counter, self.state.foresight.root);
+        let faster = self.foreseen_growth();
+        let (mut sight, mut found) = self.foresee(step, faster, guess, &mut counter, context);
+        if faster > FASTER && found.safe() < FAR_BELOW * step {
+            (sight, found) = self.foresee(step, FASTER, guess, &mut counter, context);
+        }
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();
         self.state.foresight = crate::state::Foresight {
@@ -165,7 +192,7 @@ impl Simulation {
         let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
         let mut light = (0..self.bodies.len()).filter(light);
         if light.any(|index| stability::has_more_contacts(&self.state, index)) {
-            let sight = self.sight(step);
+            let sight = self.sight(step, FASTER);
             let blocks = self.system().blocks(&sight.ahead);
             stability::put_blocks(&mut self.state, blocks);
         }
@@ -186,16 +213,9 @@ impl Simulation {
 
     /// What limits the time step, in words.
     pub fn words(&self, by: &stability::Limiter) -> String {
-        let number = |index: u32| self.number(index);
-        let with = match (by.second, by.boundary) {
-            (Some(second), _) => format!("s {} and {}", number(by.first), number(second)),
-            (None, Some(boundary)) => {
-                let name = self.scene.boundaries.get(boundary as usize).map_or("", |boundary| &boundary.name);
-                format!(" {} and boundary {name}", number(by.first))
-            }
-            (None, None) => format!(" {}", number(by.first)),
-        };
-        format!("{} of particle{with}, {}", by.kind.words(), by.mode.words())
+        let boundaries = &self.scene.boundaries;
+        let name = |index: u32| boundaries.get(index as usize).map_or_else(String::new, |it| it.name.clone());
+        by.words(|index| self.number(index), name)
     }
 
     /// Whether what was foreseen has been used up: by motion, by speed, by bonds. Boundaries are this fast \[m/s\], the next

@@ -47,19 +47,25 @@ impl Simulation {
     /// Every contact at work, between particles first, then at planes.
     pub fn contacts(&self) -> Vec<ContactRecord> {
         let mut records = Vec::new();
-        for pass in &self.passes {
-            pass.contacts(&self.state, self.state.clock.last_step, &mut |record| records.push(record));
-        }
+        self.each_contact(&mut |record| records.push(record));
         records
+    }
+
+    /// Tells the same contacts one by one.
+    pub(crate) fn each_contact(&self, tell: &mut dyn FnMut(ContactRecord)) {
+        self.passes.iter().for_each(|pass| pass.contacts(&self.state, self.state.clock.last_step, tell));
     }
 
     /// Every living bond, law by law.
     pub fn bonds(&self) -> Vec<BondRecord> {
         let mut records = Vec::new();
-        for pass in &self.passes {
-            pass.bonds(&self.state, &mut |record| records.push(record));
-        }
+        self.each_bond(&mut |record| records.push(record));
         records
+    }
+
+    /// Tells the same bonds one by one.
+    pub(crate) fn each_bond(&self, tell: &mut dyn FnMut(BondRecord)) {
+        self.passes.iter().for_each(|pass| pass.bonds(&self.state, tell));
     }
 
     /// Largest overlap over the smaller radius of the two (the particle's, at a plane). From positions alone: rows of
