@@ -338,10 +338,12 @@ impl<B: Bodies> Batches<'_, B> {
                 buffer.row[place] = bodies.row(self.table, buffer.first[place], buffer.second[place]);
             }
         }
-        if needs.torque {
-            lanes::run(self.width, Meet::<B, true> { bodies, needs, buffer });
+        if !needs.torque {
+            lanes::run(self.width, Meet::<B, false, true> { bodies, needs, buffer });
+        } else if needs.rare() {
+            lanes::run(self.width, Meet::<B, true, true> { bodies, needs, buffer });
         } else {
-            lanes::run(self.width, Meet::<B, false> { bodies, needs, buffer });
+            lanes::run(self.width, Meet::<B, true, false> { bodies, needs, buffer });
         }
     }
 }

@@ -219,8 +219,8 @@ unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bi
     }
 }
 
-/// Phase 2: geometry and relative motion.
-pub(crate) struct Meet<'b, B, const TORQUE: bool> {
+/// Phase 2: geometry and relative motion. RARE: with what few laws look at; without it, registers are left for the rest.
+pub(crate) struct Meet<'b, B, const TORQUE: bool, const RARE: bool> {
     /// Which bodies meet.
     pub(crate) bodies: B,
     /// What of it the law needs.
@@ -229,10 +229,13 @@ pub(crate) struct Meet<'b, B, const TORQUE: bool> {
     pub(crate) buffer: &'b mut Buffer,
 }
 
-impl<B: Bodies, const TORQUE: bool> Kernel for Meet<'_, B, TORQUE> {
+impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for Meet<'_, B, TORQUE, RARE> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { bodies, needs, buffer } = self;
+        let Self { bodies, mut needs, buffer } = self;
+        if !RARE {
+            needs = needs.without_rare();
+        }
         let mut done = 0;
         // SAFETY: there is room for a register behind the batch.
         let mut roots = B::roots(&unsafe { buffer.found::<N, B>(0) });

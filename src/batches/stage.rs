@@ -63,12 +63,12 @@ impl<N: Lane> Gathered<N> {
         Self { numbers, from, count }
     }
 
-    /// Those of a register's worth of entries.
+    /// Those of a register's worth of entries; behind them zeros, so that the compiler knows how many numbers there are.
     ///
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most the room of the buffer, and the rows there are of the table.
     #[inline(always)]
-    pub(super) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N] {
+    pub(super) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N; MOST_COEFFICIENTS] {
         if stage.uniform.is_none() {
             let mut k = 0;
             while k < self.count {
@@ -77,7 +77,7 @@ impl<N: Lane> Gathered<N> {
                 k += 1;
             }
         }
-        &self.numbers[..self.count]
+        &self.numbers
     }
 }
 

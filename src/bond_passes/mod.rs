@@ -260,7 +260,8 @@ impl Pass for BondPass {
             let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
             let other = Vector::from(particles.position[j as usize]).to_array();
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
-            tell(BondRecord { law: self.index as u32, first, second: Some(second), other, carried, dissipated });
+            let (law, second, force) = (self.index as u32, Some(second), whole_force(list, bond, &carried));
+            tell(BondRecord { law, first, second, other, force, carried, dissipated });
         }
     }
 }
@@ -269,6 +270,13 @@ impl Pass for BondPass {
 pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; 3] {
     let mut columns = columns.iter_mut();
     [(); 3].map(|()| columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column)))
+}
+
+/// Force on body i of a bond that carries this, with that of damping in the last evaluation \[N\].
+pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &Carried) -> [f64; 3] {
+    let elastic = Vector::from(carried.axis) * carried.normal + carried.shear.into();
+    let damping = list.damping.first().map_or([0.0; 4], |rows| rows[bond]);
+    (elastic + damping.into()).to_array()
 }
 
 /// Adds to a list what is kept of a new bond where its law loses energy.

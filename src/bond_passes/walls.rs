@@ -3,7 +3,7 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched};
+use super::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched, whole_force};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
@@ -334,7 +334,8 @@ impl Pass for WallBondPass {
             let foot = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
             let (first, other) = (state.particles.id[slot as usize], foot.position.to_array());
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
-            tell(BondRecord { law: self.index as u32, first, second: None, other, carried, dissipated });
+            let (law, force) = (self.index as u32, whole_force(list, bond, &carried));
+            tell(BondRecord { law, first, second: None, other, force, carried, dissipated });
         }
     }
 

@@ -199,6 +199,11 @@ impl Law {
         self.history_places.tangential.filter(|_| self.tangential.has_spring)
     }
 
+    /// Whether the limit of friction is put to spring and dashpot together.
+    pub fn limits_dashpot(&self) -> bool {
+        self.tangential.limits_dashpot
+    }
+
     /// Whether a number is kept of each near pair.
     pub fn has_pair_constant(&self) -> bool {
         self.normal.has_pair_constant

@@ -108,6 +108,17 @@ impl Needs {
     pub const NONE: Self =
         Self { torque: false, spin: false, section: false, bodies: false, spin_sum: false, carry: false };
 
+    /// Whether any value is used that few laws look at.
+    pub fn rare(self) -> bool {
+        self.bodies || self.spin_sum || self.carry
+    }
+
+    /// The others.
+    #[inline(always)]
+    pub fn without_rare(self) -> Self {
+        Self { bodies: false, spin_sum: false, carry: false, ..self }
+    }
+
     /// The values that at least one of two uses.
     pub fn and(self, other: Self) -> Self {
         Self {

@@ -7,7 +7,7 @@ use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::number::{Row, Vector};
 use crate::state::Particles;
 
-/// How much faster than at the last look anything may become before the next.
+/// How much faster than at the last look anything may become before the next, at least.
 pub(crate) const FASTER: f64 = 1.5;
 
 /// A contact without a past.
@@ -90,6 +90,8 @@ pub(crate) struct Ahead {
     pub way: f64,
     /// Largest acceleration by gravity and applied forces \[m/s²\].
     pub acceleration: f64,
+    /// How much faster than now anything may become.
+    pub faster: f64,
     /// Largest speed that each boundary has or is about to get, of its particles \[m/s\].
     pub boundaries: Vec<f64>,
     /// The time steps in which bonds to be made count; none where no bond to come does.
@@ -100,7 +102,7 @@ impl Ahead {
     /// The largest speed at which a pair may close: as it does now \[m/s\], faster by what may come, by what the boundaries
     /// of its particles get and by a fall through the gap \[m\].
     fn closing_speed(&self, closing: f64, gap: f64, boundary: f64) -> f64 {
-        FASTER * (closing.max(0.0) + boundary) + (2.0 * self.acceleration * gap.max(0.0)).sqrt()
+        self.faster * (closing.max(0.0) + boundary) + (2.0 * self.acceleration * gap.max(0.0)).sqrt()
     }
 
     /// What the boundary of a particle (slot) may add to its speed \[m/s\].

@@ -40,6 +40,8 @@ pub struct BondRecord {
     pub second: Option<u32>,
     /// Where body j is, or the foot of the bond on the plane \[m\].
     pub other: [f64; 3],
+    /// Force on body i, that of damping included \[N\].
+    pub force: [f64; 3],
     /// Forces, torques, stresses and energy.
     pub carried: Carried,
     /// Energy that damping and relaxation took of it so far \[J\].
@@ -127,7 +129,7 @@ pub(crate) fn history(lists: &[Vec<Row>], entry: usize) -> [Row; MOST_HISTORY] {
 }
 
 /// What a contact does, with what the last evaluation left to remember. A spring that slid then has no dashpot beside
-/// it.
+/// it, unless both stand at the limit together.
 pub(crate) fn react(
     law: &Law,
     row: &[f64],
@@ -138,7 +140,7 @@ pub(crate) fn react(
 ) -> (Reaction, bool) {
     let sliding = flags & SLIDING != 0;
     let mut contact = *contact;
-    if sliding && law.spring().is_some() {
+    if sliding && law.spring().is_some() && !law.limits_dashpot() {
         contact.slip = Vector::zero();
     }
     (law.react(row, &contact, &mut history(lists, entry), 0.0), sliding)
