@@ -1,5 +1,7 @@
 //! `mesh`: triangles of a file.
 
+mod edge;
+mod face;
 mod faults;
 mod files;
 mod side;
@@ -11,6 +13,8 @@ use super::{Around, Shape, ShapeKeys, Surface};
 use crate::geometry::rotation;
 use crate::number::Vector;
 use crate::quantity::{MaterialIndex, Positive, Triple};
+use edge::{Edge, OnEdge};
+use face::{Face, Stand};
 use serde::Deserialize;
 use topology::Topology;
 use tree::Tree;
@@ -31,8 +35,10 @@ struct Mesh {
     material: MaterialIndex,
     /// The simplices.
     topology: Topology,
-    /// Unit normal of each triangle.
-    normals: Vec<Vector>,
+    /// The triangles, as the search for feet wants them.
+    faces: Vec<Face>,
+    /// The edges, likewise.
+    edges: Vec<Edge>,
     /// The tree that finds near triangles.
     tree: Tree,
     /// Which side counts.
@@ -43,40 +49,11 @@ struct Mesh {
     middle: Vector,
 }
 
-/// How the foot of a centre in the plane of a triangle stands to it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stand {
-    /// Inside, and no edge is within reach.
-    Inside,
-    /// Inside.
-    Over,
-    /// Outside.
-    Beside,
-    /// Outside, and the triangle is out of reach.
-    Apart,
-}
-
-/// The nearest point of an edge.
-#[derive(Clone, Copy)]
-struct OnEdge {
-    /// The vertex or the edge: feature.
-    feature: u32,
-    /// From the foot to the centre \[m\].
-    apart: Vector,
-    /// Distance \[m\].
-    distance: f64,
-}
-
 impl Mesh {
     /// A surface.
     fn of(material: MaterialIndex, topology: Topology, sides: Option<u8>) -> Self {
         let places = |triangle: &[u32; 3]| triangle.map(|vertex| topology.vertices[vertex as usize]);
-        let normal = |triangle: &[u32; 3]| {
-            let [a, b, c] = places(triangle);
-            let across = (b - a).cross(c - a);
-            super::direction(across.to_array()).map_or(across, Vector::from)
-        };
-        let normals = topology.triangles.iter().map(normal).collect();
+        let faces = topology.triangles.iter().map(|triangle| Face::of(places(triangle))).collect();
         let around = |places: &[Vector]| {
             let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
             for place in places.iter().map(|place| place.to_array()) {
@@ -94,7 +71,8 @@ impl Mesh {
         Self {
             material,
             tree: Tree::of(&boxes),
-            normals,
+            faces,
+            edges: Edge::all(&topology),
             sides: if front { Sides::Front } else { Sides::Both },
             closed,
             middle: (Vector::from(low) + Vector::from(high)) * 0.5,
@@ -104,8 +82,7 @@ impl Mesh {
 
     /// Height of a centre over a triangle \[m\].
     fn height(&self, centre: Vector, triangle: usize) -> f64 {
-        let corner = self.topology.vertices[self.topology.triangles[triangle][0] as usize];
-        (centre - corner).dot(self.normals[triangle])
+        self.faces[triangle].height(centre)
     }
 
     /// Whether a triangle counts for a centre.
@@ -113,55 +90,21 @@ impl Mesh {
         self.sides == Sides::Both || self.height(centre, triangle as usize) > 0.0
     }
 
-    /// The nearest point of an edge. Every triangle at the edge sees the same numbers.
+    /// The nearest point of an edge.
     fn on_edge(&self, centre: Vector, edge: u32) -> OnEdge {
-        let ends = self.topology.edges[edge as usize];
-        let [a, b] = ends.map(|vertex| self.topology.vertices[vertex as usize]);
-        let (way, from_a, from_b) = (b - a, centre - a, centre - b);
-        let (before, beyond) = (way.dot(from_a), way.dot(from_b));
-        let (feature, apart) = if before <= 0.0 {
-            (ends[0], from_a)
-        } else if beyond >= 0.0 {
-            (ends[1], from_b)
-        } else {
-            let foot = a + way * (before / (before - beyond));
-            (self.topology.vertices.len() as u32 + edge, centre - foot)
-        };
-        OnEdge { feature, apart, distance: apart.length() }
+        self.edges[edge as usize].nearest(centre)
     }
 
-    /// How the foot of a centre in the plane of a triangle stands to it, where the square of a radius goes beyond that of the
-    /// height by `rest` \[m²\].
-    fn stand(&self, centre: Vector, triangle: usize, rest: f64) -> Stand {
-        /// What rounding may take from a distance, with room.
-        const ROUNDING: f64 = 1.0 + 1e-9;
-        let corners = self.topology.triangles[triangle].map(|vertex| self.topology.vertices[vertex as usize]);
-        let (mut over, mut near) = (true, false);
-        for corner in 0..3 {
-            let way = corners[(corner + 1) % 3] - corners[corner];
-            // Beyond the edge where this is above 0: the distance from it times the length of the edge.
-            let beyond = way.cross(self.normals[triangle]).dot(centre - corners[corner]);
-            let out_of_reach = beyond * beyond > rest * way.dot(way) * ROUNDING;
-            if beyond > 0.0 && out_of_reach {
-                return Stand::Apart;
-            }
-            over &= beyond <= 0.0;
-            near |= !out_of_reach;
-        }
-        match (over, near) {
-            (true, false) => Stand::Inside,
-            (true, true) => Stand::Over,
-            (false, _) => Stand::Beside,
-        }
+    /// The feature on which the nearest point of an edge lies.
+    fn feature_on(&self, edge: u32, on: &OnEdge) -> u32 {
+        on.vertex.unwrap_or(self.topology.vertices.len() as u32 + edge)
     }
 
-    /// Whether the foot of a centre in the plane of a triangle is inside it.
-    fn is_over(&self, centre: Vector, triangle: usize) -> bool {
-        let corners = self.topology.triangles[triangle].map(|vertex| self.topology.vertices[vertex as usize]);
-        (0..3).all(|corner| {
-            let way = corners[(corner + 1) % 3] - corners[corner];
-            way.cross(self.normals[triangle]).dot(centre - corners[corner]) <= 0.0
-        })
+    /// The nearest point of three edges, and the edge: of those that are equally near the first.
+    fn nearest_edge(&self, centre: Vector, edges: [u32; 3]) -> (u32, OnEdge) {
+        let [first, second, third] = edges.map(|edge| (edge, self.on_edge(centre, edge)));
+        let nearer = if second.1.distance < first.1.distance { second } else { first };
+        if third.1.distance < nearer.1.distance { third } else { nearer }
     }
 
     /// The feature of a triangle.
@@ -171,8 +114,13 @@ impl Mesh {
 
     /// How many triangles at an edge count.
     fn at_edge(&self, centre: Vector, edge: u32) -> usize {
-        let at = &self.topology.at_edge[edge as usize];
-        at.iter().filter(|triangle| self.counts(centre, **triangle)).count()
+        match self.sides {
+            Sides::Both => self.edges[edge as usize].triangles as usize,
+            Sides::Front => {
+                let at = &self.topology.at_edge[edge as usize];
+                at.iter().filter(|triangle| self.counts(centre, **triangle)).count()
+            }
+        }
     }
 
     /// The weight of a vertex: 1 − k_v + Σ (k_e − 1) over what counts.
@@ -223,47 +171,43 @@ impl Features for Mesh {
     }
 
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
-        let edge_foot = |on: &OnEdge, weight: f64| {
-            let normal = on.apart * (1.0 / on.distance);
-            Foot { feature: on.feature, distance: on.distance, normal, weight, behind: false }
+        let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
+            let normal = apart * (1.0 / distance);
+            Foot { feature, distance, normal, weight, behind: false }
         };
         let [mut touched, mut vertices] = std::mem::take(&mut feet.room);
         touched.clear();
         vertices.clear();
-        for &triangle in parts.iter().filter(|triangle| self.counts(centre, **triangle)) {
-            let place = triangle as usize;
-            let (height, normal) = (self.height(centre, place), self.normals[place]);
-            if height.abs() > radius {
+        for &triangle in parts {
+            let face = &self.faces[triangle as usize];
+            let height = face.height(centre);
+            let counts = self.sides == Sides::Both || height > 0.0;
+            if !counts || height.abs() > radius {
                 continue;
             }
-            let edges = self.topology.edges_of[place];
-            let stand = self.stand(centre, place, radius * radius - height * height);
-            if stand == Stand::Apart {
-                continue;
-            }
-            if matches!(stand, Stand::Inside | Stand::Over) {
-                let (behind, normal) = (height < 0.0, if height < 0.0 { -normal } else { normal });
+            let Stand::Near { over, edges } = face.stand(centre, radius * radius - height * height) else { continue };
+            let own_edges = self.topology.edges_of[triangle as usize];
+            if over {
+                let (behind, normal) = (height < 0.0, if height < 0.0 { -face.normal } else { face.normal });
                 let (feature, distance) = (self.face(triangle), height.abs());
                 count(feet, Foot { feature, distance, normal, weight: 1.0, behind });
-                if stand == Stand::Inside {
+            } else {
+                let (edge, on) = self.nearest_edge(centre, own_edges);
+                if on.distance > radius {
                     continue;
                 }
-            } else {
-                let feet_on = edges.map(|edge| self.on_edge(centre, edge));
-                let nearest = |one: OnEdge, other: OnEdge| if other.distance < one.distance { other } else { one };
-                let on = feet_on.into_iter().reduce(nearest).filter(|on| on.distance <= radius);
-                let Some(on) = on else { continue };
-                count(feet, edge_foot(&on, 1.0));
+                count(feet, bend(self.feature_on(edge, &on), on.apart, on.distance, 1.0));
             }
-            touched.extend(edges);
+            touched.extend(own_edges.into_iter().zip(edges).filter_map(|(edge, near)| near.then_some(edge)));
         }
         touched.sort_unstable();
         touched.dedup();
         for &edge in &touched {
             let on = self.on_edge(centre, edge);
             if on.distance <= radius {
-                count(feet, edge_foot(&on, 1.0 - self.at_edge(centre, edge) as f64));
-                vertices.extend(self.topology.edges[edge as usize]);
+                let weight = 1.0 - self.at_edge(centre, edge) as f64;
+                count(feet, bend(self.feature_on(edge, &on), on.apart, on.distance, weight));
+                vertices.extend(self.edges[edge as usize].ends);
             }
         }
         vertices.sort_unstable();
@@ -272,8 +216,7 @@ impl Features for Mesh {
             let apart = centre - self.topology.vertices[vertex as usize];
             let distance = apart.length();
             if distance <= radius {
-                let on = OnEdge { feature: vertex, apart, distance };
-                count(feet, edge_foot(&on, self.of_vertex(centre, vertex)));
+                count(feet, bend(vertex, apart, distance, self.of_vertex(centre, vertex)));
             }
         }
         feet.list.retain(|foot| foot.weight != 0.0);

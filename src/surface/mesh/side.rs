@@ -44,16 +44,14 @@ impl Mesh {
 
     /// The nearest point of a triangle.
     fn nearest_of(&self, centre: Vector, triangle: u32) -> Nearest {
-        if self.is_over(centre, triangle as usize) {
-            let height = self.height(centre, triangle as usize);
-            let apart = self.normals[triangle as usize] * height;
+        let face = &self.faces[triangle as usize];
+        if face.is_over(centre) {
+            let height = face.height(centre);
+            let apart = face.normal * height;
             return Nearest { distance: height.abs(), apart, feature: self.face(triangle) };
         }
-        let edges = self.topology.edges_of[triangle as usize].map(|edge| self.on_edge(centre, edge));
-        let [first, second, third] = edges;
-        let nearer = if second.distance < first.distance { second } else { first };
-        let nearer = if third.distance < nearer.distance { third } else { nearer };
-        Nearest { distance: nearer.distance, apart: nearer.apart, feature: nearer.feature }
+        let (edge, on) = self.nearest_edge(centre, self.topology.edges_of[triangle as usize]);
+        Nearest { distance: on.distance, apart: on.apart, feature: self.feature_on(edge, &on) }
     }
 
     /// A direction that points to the front at a feature: the mean normal of the triangles there, by their angles at a vertex
@@ -62,9 +60,9 @@ impl Mesh {
         let topology = &self.topology;
         let (vertices, edges) = (topology.vertices.len(), topology.edges.len());
         let place = feature as usize;
-        let normal = |triangle: &u32| self.normals[*triangle as usize];
+        let normal = |triangle: &u32| self.faces[*triangle as usize].normal;
         if place >= vertices + edges {
-            self.normals[place - vertices - edges]
+            self.faces[place - vertices - edges].normal
         } else if place >= vertices {
             topology.at_edge[place - vertices].iter().map(normal).fold(Vector::zero(), |sum, one| sum + one)
         } else {
