@@ -3,6 +3,7 @@
 //! Data flows in one direction: scene file → [`scene::Scene`] → [`state::State`] and passes →
 //! [`step::Simulation::advance`] → interface and outputs → unit and command line.
 
+pub mod averages;
 mod batches;
 pub mod bond;
 mod bond_passes;
@@ -25,6 +26,7 @@ mod neighbours;
 pub mod number;
 mod packing;
 pub mod quantity;
+pub mod region;
 pub mod report;
 pub mod results;
 pub mod run;

@@ -379,3 +379,54 @@ fn what_is_not_followed_is_refused_by_name() {
     let lid = named(&fresh, "lid");
     assert!(fresh.derivatives(&[(lid, 2)]).expect_err("there is no step").to_string().contains("there is none"));
 }
+
+/// A held sphere on a driven floor, and one beside it that overlaps by this [m].
+fn beside(overlap: f64) -> Simulation {
+    start(&format!(
+        r#"
+[run]
+step = 1.0e-6
+[material.glass]
+youngs_modulus = 1.0e8
+poissons_ratio = 0.3
+density = 2500.0
+[pair.glass.glass]
+restitution = 1.0
+friction = 0.5
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+[particles.two]
+material = "glass"
+list = [{{ position = [0.0, 0.0, 0.00999], radius = 0.01 }}, {{ position = [0.1, 0.0, {height:?}], radius = 0.01 }}]
+[boundary.held]
+particles = {{ set = "two", box = [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]] }}
+[boundary.floor]
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+material = "glass"
+motion = {{ driven = ["x"] }}
+[output]
+near_switch = true
+"#,
+        height = 0.01 - overlap
+    ))
+}
+
+#[test]
+fn contacts_that_are_about_to_touch_or_to_slide_are_near_a_switch() {
+    // A sphere sticks up to the way µ Fₙ/kₜ = µ δ (2 − ν)/(3 (1 − ν)) of the floor.
+    let sticks = 0.5 * 1.0e-5 * 1.7 / (3.0 * 0.7);
+    for (overlap, way, expected) in [
+        (1.0e-5, 0.9 * sticks, 0),
+        (1.0e-5, (1.0 - 2.0e-5) * sticks, 2),
+        (1.0e-10, 0.0, 1),
+        (-1.0e-10, 0.0, 1),
+        (-1.0e-7, 0.0, 0),
+    ] {
+        let mut simulation = beside(overlap);
+        let floor = named(&simulation, "floor");
+        simulation.set_input(floor, 0, way);
+        simulation.advance(1.0e-5).unwrap();
+        simulation.advance(1.0e-5).unwrap();
+        assert_eq!(simulation.contacts_near_switch(), expected, "overlap {overlap}, way {way}");
+    }
+}

@@ -1,6 +1,7 @@
 //! The condensed stiffness of boundaries: against closed forms, and against what the time steps come to when they have
 //! settled.
 
+use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::statics::{Stiffness, stiffness};
@@ -89,6 +90,18 @@ fn bonds_in_a_row_are_springs_in_series() {
     assert!((along - expected).abs() <= 1e-7 * expected, "{along} is not {expected}");
     assert!(found.boundaries[0].residual < 1e-6, "{}", found.boundaries[0].residual);
     assert!(found.rattlers.is_empty() && found.loose.is_empty());
+}
+
+#[test]
+fn a_unit_shows_the_stiffness_of_its_boundaries() {
+    let simulation = simulation(&(bonded([1, 1, 6]) + "[output]\nstiffness = true\n"));
+    let interface = Interface::of(simulation.scene());
+    let expected = of_last(&simulation).boundaries[0].matrix;
+    for (axis, name) in ["top.stiffness.x", "top.stiffness.y", "top.stiffness.z"].into_iter().enumerate() {
+        let index = interface.find(name).unwrap_or_else(|| panic!("there is no {name}"));
+        assert_eq!(interface.value(&simulation, index), Value::Real(expected[axis][axis]), "{name}");
+    }
+    assert!(expected[2][2] > 1e5 && expected[0][0] < 0.1 * expected[2][2], "{expected:?}");
 }
 
 #[test]

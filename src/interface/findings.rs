@@ -1,5 +1,6 @@
 //! What a pass over particles or contacts is needed for, found once at a communication point.
 
+use crate::averages::{self, Content, Coordination, Tensor};
 use crate::quantity::BoundaryIndex;
 use crate::state::Loss;
 use crate::statics;
@@ -24,6 +25,12 @@ pub struct Findings {
     largest_overlap: OnceCell<f64>,
     /// Static stiffness of the boundaries along x, y, z, where it can be found \[N/m\].
     stiffness: OnceCell<Vec<Option<[f64; 3]>>>,
+    /// The particles in each region.
+    contents: OnceCell<Vec<Content>>,
+    /// What contacts and bonds carry in each region.
+    carried: OnceCell<Vec<Tensor>>,
+    /// Contacts of the particles in each region.
+    coordination: OnceCell<Vec<Coordination>>,
 }
 
 impl Findings {
@@ -56,6 +63,24 @@ impl Findings {
     pub(super) fn stiffness(&self, simulation: &Simulation, boundary: BoundaryIndex) -> Option<[f64; 3]> {
         let all = self.stiffness.get_or_init(|| stiffnesses(simulation));
         all.get(boundary.index()).copied().flatten()
+    }
+
+    /// The particles in a region.
+    pub(super) fn content(&self, simulation: &Simulation, region: usize) -> Content {
+        self.contents.get_or_init(|| averages::contents(simulation))[region]
+    }
+
+    /// Contacts of a particle in a region, in the mean.
+    pub(super) fn coordination(&self, simulation: &Simulation, region: usize) -> f64 {
+        self.coordination.get_or_init(|| averages::coordination(simulation))[region].mean()
+    }
+
+    /// A component of the stress in a region \[Pa\]: of what contacts and bonds carry and of the velocities less their mean, symmetric.
+    pub(super) fn stress(&self, simulation: &Simulation, region: usize, [row, column]: [usize; 2]) -> f64 {
+        let carried = self.carried.get_or_init(|| averages::carried(simulation))[region];
+        let fluctuation = self.content(simulation, region).fluctuation;
+        let carried = 0.5 * (carried[row][column] + carried[column][row]);
+        (carried - fluctuation[row][column]) / simulation.scene().regions[region].shape.volume()
     }
 
     /// Largest overlap over the smaller radius.

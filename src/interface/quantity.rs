@@ -59,6 +59,8 @@ quantities! {
     Force Some("N"), 1 1 -2 0;
     /// Moment of forces \[N m\]
     Torque Some("N.m"), 1 2 -2 0;
+    /// Mean square of velocities \[m²/s²\]
+    GranularTemperature Some("m2/s2"), 0 2 -2 0;
     /// \[J\]
     Energy Some("J"), 1 2 -2 0;
     /// \[kg\]

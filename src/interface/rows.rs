@@ -5,6 +5,7 @@
 
 use super::losses::{self, LOSSES};
 use super::{Causality, Findings, Quantity, Value, Variability, Variable};
+use crate::averages::Content;
 use crate::dual::Slopes;
 use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
@@ -15,6 +16,12 @@ use crate::step::{BoundaryDerivatives, Simulation};
 /// Names of the axes in variables.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Names of the components of a symmetric tensor in variables.
+const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "zx"];
+
+/// Row and column of each.
+const COMPONENT_PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
+
 /// How many variables a row stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Each {
@@ -24,6 +31,23 @@ pub(super) enum Each {
     Boundary,
     /// One for each boundary and axis: `<boundary>.<name>.<axis>`.
     Axis,
+    /// One for each region: `<region>.<name>`.
+    Region,
+    /// One for each region and axis: `<region>.<name>.<axis>`.
+    RegionAxis,
+    /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
+    Component,
+}
+
+impl Each {
+    /// What tells the variables of a boundary or a region apart; one empty name where there is one.
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Axis | Self::RegionAxis => &AXES,
+            Self::Component => &COMPONENTS,
+            Self::Scene | Self::Boundary | Self::Region => &[""],
+        }
+    }
 }
 
 /// Which of the variables of a row.
@@ -31,7 +55,9 @@ pub(super) enum Each {
 pub(super) struct At {
     /// The boundary.
     boundary: BoundaryIndex,
-    /// The axis.
+    /// The region.
+    region: usize,
+    /// The axis or component.
     axis: usize,
 }
 
@@ -48,6 +74,11 @@ impl Present<'_> {
     /// The state of a boundary.
     fn boundary(&self, at: At) -> &BoundaryState {
         &self.simulation.state().boundaries[at.boundary.index()]
+    }
+
+    /// The particles in a region.
+    fn content(&self, at: At) -> Content {
+        self.findings.content(self.simulation, at.region)
     }
 
     /// The lists of bonds.
@@ -80,7 +111,7 @@ pub(super) struct Row {
     pub(super) name: &'static str,
     /// What it belongs to.
     pub(super) each: Each,
-    /// What it is, with its sign. `{boundary}` and `{axis}` stand for the names.
+    /// What it is, with its sign. `{boundary}`, `{region}` and `{axis}` stand for the names.
     description: &'static str,
     /// What is measured, and with it the unit and the type.
     pub(super) quantity: Quantity,
@@ -375,6 +406,62 @@ static OF_BOUNDARIES: [Row; 19] = [
     },
 ];
 
+/// What most outputs of regions have in common.
+const OF_REGION: Row = Row { each: Each::Region, ..OUTPUT };
+
+/// Variables of each region.
+static OF_REGIONS: [Row; 6] = [
+    Row {
+        name: "stress",
+        each: Each::Component,
+        description: "mean stress in {region}, component {axis}, tension positive: of contacts and bonds by the part of their \
+                      branch inside, and of the velocities less their mean",
+        quantity: Quantity::Pressure,
+        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.region, COMPONENT_PLACES[at.axis])),
+        ..OF_REGION
+    },
+    Row {
+        name: "porosity",
+        description: "part of the volume of {region} that no particle fills; overlaps of particles count twice",
+        read: |now, at| {
+            let volume = now.simulation.scene().regions[at.region].shape.volume();
+            Value::Real(1.0 - now.content(at).solid / volume)
+        },
+        ..OF_REGION
+    },
+    Row {
+        name: "coordination",
+        description: "contacts of a particle whose centre is in {region}, in the mean; those at boundaries count",
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.region)),
+        ..OF_REGION
+    },
+    Row {
+        name: "temperature",
+        description: "a third of the mean square of the velocity in {region} less the mean velocity, by mass",
+        quantity: Quantity::GranularTemperature,
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.content(at).temperature()),
+        ..OF_REGION
+    },
+    Row {
+        name: "mass",
+        description: "mass in {region}, of each particle by the part of its volume inside",
+        quantity: Quantity::Mass,
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.content(at).mass),
+        ..OF_REGION
+    },
+    Row {
+        name: "velocity",
+        each: Each::RegionAxis,
+        description: "mean velocity of the mass in {region} along {axis}; 0 where there is none",
+        quantity: Quantity::Velocity,
+        read: |now, at| Value::Real(now.content(at).velocity[at.axis]),
+        ..OF_REGION
+    },
+];
+
 /// The output of a loss, by its place.
 const fn lost<const PLACE: usize>() -> Row {
     let (name, description) = LOSSES[PLACE];
@@ -561,14 +648,15 @@ impl PartialEq for Source {
     }
 }
 
-/// The variables of a scene, boundary by boundary, then of the whole.
+/// The variables of a scene, boundary by boundary, then region by region, then of the whole.
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
-    let of_boundaries = boundaries.flat_map(|boundary| OF_BOUNDARIES.iter().map(move |row| (row, boundary)));
-    let rows = of_boundaries.chain(OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, BoundaryIndex(0))));
-    let places = rows.flat_map(|(row, boundary)| {
-        let axes = if row.each == Each::Axis { AXES.len() } else { 1 };
-        (0..axes).map(move |axis| Source { row, at: At { boundary, axis } })
+    let of_boundaries = boundaries.flat_map(|boundary| OF_BOUNDARIES.iter().map(move |row| (row, boundary, 0)));
+    let regions = 0..scene.regions.len();
+    let of_regions = regions.flat_map(|region| OF_REGIONS.iter().map(move |row| (row, BoundaryIndex(0), region)));
+    let of_scene = OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, BoundaryIndex(0), 0));
+    let places = of_boundaries.chain(of_regions).chain(of_scene).flat_map(|(row, boundary, region)| {
+        (0..row.each.names().len()).map(move |axis| Source { row, at: At { boundary, region, axis } })
     });
     places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
 }
@@ -576,22 +664,24 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 /// All rows.
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
-    OF_BOUNDARIES.iter().chain(&OF_SCENE).chain(&OF_LOSSES)
+    OF_BOUNDARIES.iter().chain(&OF_REGIONS).chain(&OF_SCENE).chain(&OF_LOSSES)
 }
 
 impl Source {
     /// The variable.
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
-        let boundary = || scene.boundaries[at.boundary.index()].name.as_str();
-        let (name, described) = match row.each {
-            Each::Scene => (row.name.to_owned(), String::new()),
-            Each::Boundary => (format!("{}.{}", boundary(), row.name), boundary().to_owned()),
-            Each::Axis => (format!("{}.{}.{}", boundary(), row.name, AXES[at.axis]), boundary().to_owned()),
+        let owner = match row.each {
+            Each::Scene => "",
+            Each::Boundary | Each::Axis => &scene.boundaries[at.boundary.index()].name,
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.region].name,
         };
+        let own = row.each.names()[at.axis];
+        let parts = [owner, row.name, own].into_iter().filter(|part| !part.is_empty());
+        let described = row.description.replace("{axis}", own);
         Variable {
-            name,
-            description: row.description.replace("{axis}", AXES[at.axis]).replace("{boundary}", &described),
+            name: parts.collect::<Vec<_>>().join("."),
+            description: described.replace("{boundary}", owner).replace("{region}", owner),
             quantity: row.quantity,
             causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
             variability: row.variability,

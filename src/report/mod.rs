@@ -142,6 +142,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
         format!("damping {} of {damped} particles", damping.name)
     }));
     uses.extend(scene.forces.iter().map(|force| format!("force {} on {} particles", force.name, force.members.len())));
+    uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     if scene.output.energy {
         uses.push("the algorithmic energy book".to_owned());
     }

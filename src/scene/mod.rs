@@ -8,6 +8,7 @@ mod body;
 mod governing;
 mod output;
 mod parameters;
+mod region;
 mod source;
 mod statics;
 
@@ -21,6 +22,7 @@ pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
+pub use region::Region;
 pub use source::Source;
 
 use crate::contact::cohesion::CohesionChoice;
@@ -57,6 +59,8 @@ pub struct Scene {
     pub damping: Vec<Damping>,
     /// Constant forces on particles.
     pub forces: Vec<AppliedForce>,
+    /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
+    pub regions: Vec<Region>,
     /// The box that particles may not leave \[m\]: lower and upper corner.
     pub domain: Option<[[f64; 3]; 2]>,
     /// What a run writes.

@@ -20,7 +20,8 @@ use super::parameters;
 use super::tables::{RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
-use crate::scene::{Output, Run, Scene, Source, Step};
+use crate::region;
+use crate::scene::{Output, Region, Run, Scene, Source, Step};
 use finding::Finding;
 use raw_tables::RawTables;
 
@@ -46,6 +47,7 @@ pub(super) fn scene(
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
+    let regions = regions(&written, &mut faults);
     let mut scene = Scene {
         bonds,
         run,
@@ -58,6 +60,7 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
+        regions,
         domain: written.domain.map(|domain| domain.corners.0),
         output,
         parameters: Vec::new(),
@@ -128,4 +131,13 @@ fn output(table: &Output, faults: &mut Faults) -> Output {
         faults.add("output", "frame_interval", Mistake::Missing { right });
     }
     *table
+}
+
+/// All regions.
+fn regions(written: &RawTables, faults: &mut Faults) -> Vec<Region> {
+    let boundaries: Vec<&str> = written.boundaries.iter().map(|(name, _)| name.as_str()).collect();
+    let region = |(name, keys): &(String, region::Keys)| {
+        Region::of(name, keys, &boundaries, &mut |key, mistake| faults.add(&format!("region.{name}"), key, mistake))
+    };
+    written.regions.iter().filter_map(region).collect()
 }

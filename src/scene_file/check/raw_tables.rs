@@ -9,6 +9,7 @@ use crate::contact::tangential::TangentialChoice;
 use crate::document::Mistake;
 use crate::document::messages;
 use crate::document::{Document, Faults};
+use crate::region;
 use crate::scene::{AxisMotion, Output};
 use crate::scene_file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
@@ -42,6 +43,8 @@ pub(in crate::scene_file) struct RawTables {
     pub(super) damping: Named<DampingTable>,
     /// `[force.<name>]`
     pub(super) forces: Named<ForceTable>,
+    /// `[region.<name>]`
+    pub(super) regions: Named<region::Keys>,
     /// `[domain]`
     pub(super) domain: Option<DomainTable>,
     /// `[output]`
@@ -119,6 +122,7 @@ impl RawTables {
         let boundaries = all(document, "boundary", faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
+        let regions = all(document, "region", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
         let output = document.read("output", faults);
         if faults.count() > 0 {
@@ -137,6 +141,7 @@ impl RawTables {
             boundaries,
             damping,
             forces,
+            regions,
             domain,
             output,
         })

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene_file) const TABLES: [&str; 12] = [
+pub(in crate::scene_file) const TABLES: [&str; 13] = [
     "run",
     "gravity",
     "material",
@@ -32,6 +32,7 @@ pub(in crate::scene_file) const TABLES: [&str; 12] = [
     "boundary",
     "damping",
     "force",
+    "region",
     "domain",
     "output",
 ];

@@ -1,0 +1,46 @@
+//! Regions as parts of a scene.
+
+use crate::document::Mistake;
+use crate::quantity::BoundaryIndex;
+use crate::region::{self, Keys};
+
+/// `[region.<name>]`: a part of space that is looked at.
+#[derive(Clone, Debug)]
+pub struct Region {
+    /// Its name in the scene and in the unit's variables.
+    pub name: String,
+    /// What it looks like at time 0.
+    pub shape: region::Region,
+    /// The boundary whose displacement it shares; none for one that stays where it is.
+    pub follows: Option<BoundaryIndex>,
+}
+
+impl Region {
+    /// The region that a scene with these boundaries writes so; refuses what is wrong, with its key.
+    pub(crate) fn of(
+        name: &str,
+        keys: &Keys,
+        boundaries: &[&str],
+        refuse: &mut dyn FnMut(&str, Mistake),
+    ) -> Option<Self> {
+        if boundaries.contains(&name) {
+            let (what, right) = (format!("[boundary.{name}] has this name"), "a name of its own is right".to_owned());
+            refuse("", Mistake::Senseless { what, right });
+        }
+        let follows = keys.follows.as_ref().map(|followed| {
+            let place = boundaries.iter().position(|boundary| boundary == followed);
+            BoundaryIndex(place.unwrap_or_else(|| {
+                let (found, known) = (followed.clone(), boundaries.iter().map(|&name| name.to_owned()).collect());
+                refuse("follows", Mistake::UnknownName { found, kind: "boundary", known });
+                0
+            }) as u32)
+        });
+        match keys.shape() {
+            Ok(shape) => Some(Self { name: name.to_owned(), shape, follows }),
+            Err((key, mistake)) => {
+                refuse(key, mistake);
+                None
+            }
+        }
+    }
+}
