@@ -25,6 +25,7 @@ pub mod motion;
 mod neighbours;
 pub mod number;
 mod packing;
+mod parameters;
 pub mod quantity;
 pub mod region;
 pub mod report;

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
-const ROWS: [&[&str]; 18] = [
+const ROWS: [&[&str]; 19] = [
     &["choices", "memory", "quantity", "number", "run_error"],
     &["geometry", "lanes", "document", "vtk_reader", "dual"],
     &["threads", "import", "packing"],
     &["contact", "bond", "motion", "surface", "region"],
     &["scene"],
+    &["parameters"],
     &["scene_file"],
     &["state"],
     &["tangent"],

@@ -40,7 +40,7 @@ const LONG: [(&str, &str); 25] = [
 ];
 
 /// Folders that are rooms of their own though they stand inside of another.
-const INNER_ROOMS: [&str; 8] = [
+const INNER_ROOMS: [&str; 9] = [
     "contact/normal",
     "contact/tangential",
     "contact/rolling",
@@ -49,6 +49,7 @@ const INNER_ROOMS: [&str; 8] = [
     "bond/damping",
     "bond/breakage",
     "bond/creation",
+    "step/taken_over",
 ];
 
 /// Files and folders that still go in circles: the folder, and those in it that do.

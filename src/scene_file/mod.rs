@@ -1,12 +1,12 @@
 //! The scene file: its tables, how they are read, and the checks across tables that turn them into a [`Scene`].
 
 mod check;
-mod parameters;
 mod tables;
 
 use crate::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
 use crate::memory;
 use crate::packing::PackingProgress;
+use crate::parameters::{THREADS, TIME_STEP};
 use crate::scene::{Scene, Source};
 use check::raw_tables;
 use std::collections::BTreeMap;
@@ -73,6 +73,31 @@ impl Scene {
             }
         }
         check::scene(source, &document, faults, &mut |_| {})
+    }
+
+    /// Reads a scene from its source alone, with these values of some of its parameters.
+    pub fn with_parameters<'a>(
+        source: &Source,
+        values: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, SceneErrors> {
+        let (mut settings, mut threads) = (Vec::new(), None);
+        for (name, value) in values {
+            let text = match name {
+                THREADS => {
+                    threads = Some(value);
+                    continue;
+                }
+                TIME_STEP if value == 0.0 => "run.step=auto".to_owned(),
+                TIME_STEP => format!("run.step={value:?}"),
+                _ => format!("{name}={value:?}"),
+            };
+            settings.extend(text.parse::<Setting>());
+        }
+        let mut scene = Self::from_source_with(source, &settings)?;
+        if let Some(threads) = threads {
+            scene.run.threads = Some(threads as usize).filter(|&threads| threads > 0);
+        }
+        Ok(scene)
     }
 }
 

@@ -16,10 +16,10 @@ mod selection;
 mod set_reader;
 mod tables;
 
-use super::parameters;
 use super::tables::{RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
+use crate::parameters;
 use crate::region;
 use crate::scene::{Output, Region, Run, Scene, Source, Step};
 use finding::Finding;
@@ -109,7 +109,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         step: match table.step {
             Some(StepKey::Given(step)) => Step::Given(step),
             Some(StepKey::Automatic) | None => {
-                Step::Automatic { safety: table.safety.as_ref().map_or(accuracy.safety(), |safety| safety.0) }
+                Step::Automatic { safety: table.safety.map_or(accuracy.safety(), crate::quantity::Safety::get) }
             }
         },
         accuracy,

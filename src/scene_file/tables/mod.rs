@@ -10,10 +10,10 @@ pub(super) use crate::surface::Selection;
 pub(super) use body::{Inertia, Supports};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
-pub(super) use values::{Between, Safety, StepKey};
+pub(super) use values::{Between, StepKey};
 
 use crate::contact::Scheme;
-use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive};
+use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
 use crate::scene::Accuracy;
 use serde::Deserialize;
 use serde::de::IgnoredAny;

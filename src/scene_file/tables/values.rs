@@ -45,20 +45,6 @@ impl<'de> Deserialize<'de> for StepKey {
     }
 }
 
-/// A number above 0 and below 1.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::scene_file) struct Safety(pub(in crate::scene_file) f64);
-
-impl<'de> Deserialize<'de> for Safety {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = f64::deserialize(deserializer)?;
-        if value > 0.0 && value < 1.0 {
-            return Ok(Self(value));
-        }
-        Err(D::Error::custom(format!("{value:?} found; a number above 0 and below 1 is right")))
-    }
-}
-
 /// Pairs of material names.
 #[derive(Clone, Debug)]
 pub(in crate::scene_file) struct Between(pub(in crate::scene_file) Vec<[String; 2]>);

@@ -1,9 +1,8 @@
 //! The kinds of parameters: keys, unit, range. A new kind is one row.
 
 use crate::contact::normal::sticky::DampingKind;
-use crate::quantity::{AtLeastOne, Fraction, NonNegative, PoissonsRatio, Positive, Restitution};
+use crate::quantity::{AtLeastOne, Fraction, NonNegative, PoissonsRatio, Positive, Restitution, Safety};
 use crate::scene::{ContactLaw, Range, range_of as of};
-use crate::scene_file::tables::Safety;
 
 /// The least number above 0 that has all its digits.
 const ABOVE_ZERO: Option<f64> = Some(f64::MIN_POSITIVE);

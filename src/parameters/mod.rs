@@ -1,14 +1,14 @@
-//! Which numbers of a scene's text are parameters of its unit, and a scene with other values of them.
+//! Which numbers of a scene's text are parameters of its unit.
 
 mod rows;
 
-use crate::document::{Document, Setting};
+use crate::document::Document;
 use crate::quantity::MaterialIndex;
-use crate::scene::{Parameter, Run, Scene, SceneErrors, Source, Step};
+use crate::scene::{Parameter, Run, Scene, Step};
 use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, is_of};
 
 /// The parameters of a scene that was read from this text.
-pub(super) fn of_scene(scene: &Scene, document: &Document) -> Vec<Parameter> {
+pub(crate) fn of_scene(scene: &Scene, document: &Document) -> Vec<Parameter> {
     let mut all = settings(scene);
     let mut leaves = Vec::new();
     for table in ["run", "material", "pair", "damping", "bond"] {
@@ -46,9 +46,9 @@ fn settings(scene: &Scene) -> Vec<Parameter> {
 }
 
 /// The time step, 0 where it is automatic.
-const TIME_STEP: &str = "run.time_step";
+pub(crate) const TIME_STEP: &str = "run.time_step";
 /// The number of threads, 0 where the machine decides.
-const THREADS: &str = "run.threads";
+pub(crate) const THREADS: &str = "run.threads";
 
 /// All numbers at or below a key, with their dotted keys, in the order of the text.
 fn find_numbers(document: &Document, path: &str, found: &mut Vec<(String, f64)>) {
@@ -90,33 +90,6 @@ fn strength(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
     let unit = keys.strengths().iter().find(|strength| strength.key == key)?.unit;
     let about = format!("strength of bonds: {}", key.replace(['.', '_'], " "));
     Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range: POSITIVE, tunable: true, about })
-}
-
-impl Scene {
-    /// Reads a scene from its source alone, with these values of some of its parameters.
-    pub fn with_parameters<'a>(
-        source: &Source,
-        values: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Self, SceneErrors> {
-        let (mut settings, mut threads) = (Vec::new(), None);
-        for (name, value) in values {
-            let text = match name {
-                THREADS => {
-                    threads = Some(value);
-                    continue;
-                }
-                TIME_STEP if value == 0.0 => "run.step=auto".to_owned(),
-                TIME_STEP => format!("run.step={value:?}"),
-                _ => format!("{name}={value:?}"),
-            };
-            settings.extend(text.parse::<Setting>());
-        }
-        let mut scene = Self::from_source_with(source, &settings)?;
-        if let Some(threads) = threads {
-            scene.run.threads = Some(threads as usize).filter(|&threads| threads > 0);
-        }
-        Ok(scene)
-    }
 }
 
 #[cfg(test)]
