@@ -142,12 +142,13 @@ impl Simulation {
         }
     }
 
-    /// How much faster anything may become before the next look. A given step needs no more than to be well below the stable
-    /// one: the longer the stable one was at the last look, the more speed is foreseen, and the fewer looks a bed takes that
-    /// begins to move.
+    /// How much faster anything may become before the next look. The farther a given step is below the stable one, the more
+    /// speed is foreseen, and the fewer looks a bed takes that begins to move. What is foreseen adds to the inertia of light
+    /// bodies that forces move: a scene with such a body foresees no more than any other.
     fn foreseen_growth(&self) -> f64 {
+        let far_below = |step: f64| self.state.foresight.looks > 0 && self.state.clock.stable > FAR_BELOW * step;
         match self.scene.run.step {
-            Step::Given(step) if self.state.foresight.looks > 0 && self.state.clock.stable > FAR_BELOW * step => {
+            Step::Given(step) if far_below(step) && !self.bodies.iter().flatten().any(RigidBody::is_implicit) => {
                 (FASTER * (self.state.clock.stable / step).powi(2)).min(MOST_FORESEEN)
             }
             _ => FASTER,
@@ -156,8 +157,8 @@ impl Simulation {
 
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
     pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
-        let (mut counter, guess) = (self.state.foresight.counter, self.state.foresight.root);
-        let faster = self.foreseen_growth();
+        let (mut counter, guess, faster) =
+            (self.state.foresight.counter, self.state.foresight.root, self.foreseen_growth());
         let (mut sight, mut found) = self.foresee(step, faster, guess, &mut counter, context);
         if faster > FASTER && found.safe() < FAR_BELOW * step {
             (sight, found) = self.foresee(step, FASTER, guess, &mut counter, context);
