@@ -109,7 +109,7 @@ fn chosen(arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
         let path = Path::new(name);
         if path.extension().is_none_or(|ending| ending != "toml") {
             return Err(Ending::refused(format_args!(
-                "{name} is no chart; one of {}, or a scene file, is right",
+                "{name} is not a chart; one of {}, or a scene file, is right",
                 all()
             )));
         }

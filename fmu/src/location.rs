@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum LocationError {
     /// Another scheme.
-    #[error("fmuResourceLocation {uri:?} is no file: URI; file:///path/to/resources is right")]
+    #[error("fmuResourceLocation {uri:?} is not a file: URI; file:///path/to/resources is right")]
     Scheme {
         /// What was given.
         uri: String,

@@ -100,7 +100,7 @@ fn what_has_no_derivative_is_refused_by_name() {
     let energy = host.change(&["energy.kinetic"], &["floor.displacement.z"], &[1.0]);
     host.refused(energy.expect_err("it is not followed"), &["energy.kinetic", "mean loads"]);
     let output = host.change(&["floor.force.z"], &["floor.force.x"], &[1.0]);
-    host.refused(output.expect_err("it is no input"), &["floor.force.x", "inputs"]);
+    host.refused(output.expect_err("it is not an input"), &["floor.force.x", "inputs"]);
     host.refused(host.rate("floor.mean_force.z", 1).expect_err("a mean has none"), &["floor.mean_force.z"]);
     host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "order 1 is right"]);
 

@@ -40,7 +40,7 @@ fn getters_write_nothing_when_they_refuse() {
     let (references, mut values) = ([unit.reference("floor.force.z"), 9999], [7.0, 7.0]);
     // SAFETY: two references and two values.
     let status = unsafe { fmi2GetReal(host.component, references.as_ptr(), 2, values.as_mut_ptr()) };
-    host.refused(status, &["9999 is no variable"]);
+    host.refused(status, &["9999 is not a variable"]);
     assert_eq!(values, [7.0, 7.0]);
 }
 

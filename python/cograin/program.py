@@ -19,7 +19,7 @@ class Program:
 
     def __call__(self, *arguments: str | Path) -> str:
         """Runs the command with these arguments; returns what it printed."""
-        # A path from here is no name to look for, however it is written.
+        # A path from here is not a name to look for, however it is written.
         command = str(self.path.resolve()) if os.sep in str(self.path) else str(self.path)
         try:
             done = subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, check=False)

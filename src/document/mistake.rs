@@ -46,7 +46,7 @@ pub enum Mistake {
         known: Vec<String>,
     },
     /// A name that the scene does not define.
-    #[error("{found:?} is no {kind} of this scene; {}", proposal(.found, .known, "there are"))]
+    #[error("{found:?} is not a {kind} of this scene; {}", proposal(.found, .known, "it has"))]
     UnknownName {
         /// The name.
         found: String,
@@ -72,7 +72,7 @@ pub enum Mistake {
         instead: &'static str,
     },
     /// A name with characters that names may not have.
-    #[error("{found:?} is no name; a letter or _ followed by letters, digits or _ is right")]
+    #[error("{found:?} is not a name; a letter or _ followed by letters, digits or _ is right")]
     Name {
         /// The name.
         found: String,

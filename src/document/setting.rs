@@ -25,10 +25,10 @@ pub enum SettingError {
     #[error("{0:?} has no =; KEY=VALUE is right")]
     NoValue(String),
     /// The text before `=` is not a key.
-    #[error("{0:?} is no key; names with dots between them are right, as pair.glass.glass.friction")]
+    #[error("{0:?} is not a key; names with dots between them are right, as pair.glass.glass.friction")]
     Key(String),
     /// The text after `=` is not a value.
-    #[error("{0:?} is no value; a number, a word, true, false or a list in brackets is right")]
+    #[error("{0:?} is not a value; a number, a word, true, false or a list in brackets is right")]
     Value(String),
 }
 
@@ -213,9 +213,9 @@ mod tests {
     fn what_is_no_setting_is_refused() {
         let told = |text: &str| text.parse::<Setting>().unwrap_err().to_string();
         assert!(told("run.end").contains("KEY=VALUE is right"));
-        assert!(told("run..end=1").contains("is no key"));
-        assert!(told("run.end=[1").contains("is no value"));
-        assert!(told("run.end=1\n[x]").contains("is no value"));
+        assert!(told("run..end=1").contains("is not a key"));
+        assert!(told("run.end=[1").contains("is not a value"));
+        assert!(told("run.end=1\n[x]").contains("is not a value"));
     }
 
     #[test]

@@ -114,7 +114,7 @@ enum Source {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InterfaceError {
     /// There is no such variable.
-    #[error("{index} is no variable; 0 to {last} are")]
+    #[error("{index} is not a variable; the variables are 0 to {last}")]
     Unknown {
         /// The index asked for.
         index: usize,
@@ -165,8 +165,8 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
-    /// A derivative by what is no input.
-    #[error("{index} ({name}) is no input; derivatives are by inputs")]
+    /// A derivative with respect to what is not an input.
+    #[error("{index} ({name}) is not an input; derivatives are with respect to inputs")]
     NoInput {
         /// Its index.
         index: usize,

@@ -621,7 +621,7 @@ static OF_SCENE: [Row; 13] = [
         quantity: Quantity::Time,
         variability: Variability::Discrete,
         minimum: Some(0.0),
-        // where nothing is stiff there is no bound, and infinity is no value of a variable
+        // where nothing is stiff there is no bound, and infinity is not a value of a variable
         read: |now, _| Value::Real(now.simulation.state().clock.stable.min(f64::MAX)),
         ..OUTPUT
     },

@@ -119,7 +119,7 @@ fn setting_an_output_or_no_number_is_refused_by_name() {
     assert_eq!(message, "NaN for 0 (floor.displacement.z); a finite number is right");
     let count = interface.variables().len();
     let message = interface.check(count, 1.0).unwrap_err().to_string();
-    assert_eq!(message, format!("{count} is no variable; 0 to {} are", count - 1));
+    assert_eq!(message, format!("{count} is not a variable; the variables are 0 to {}", count - 1));
 }
 
 #[test]

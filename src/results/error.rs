@@ -66,7 +66,7 @@ pub enum ResumeError {
         source: SnapshotError,
     },
     /// It is not a checkpoint.
-    #[error("{}: is no checkpoint; a file that run or settle has written is right", path.display())]
+    #[error("{}: is not a checkpoint; a file that run or settle has written is right", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,

@@ -55,7 +55,7 @@ fn intervals(scene: &Scene) -> Vec<String> {
         .filter_map(|(key, interval)| interval.filter(|interval| uneven(*interval)).map(|interval| (key, interval)))
         .map(|(key, interval)| {
             format!(
-                "[output] {key}: {interval:e} s is no whole number of steps of {step:e} s; they are shortened to fit"
+                "[output] {key}: {interval:e} s is not a whole number of steps of {step:e} s; they are shortened to fit"
             )
         })
         .collect()

@@ -96,7 +96,7 @@ fn parse(
     let body = |column: usize| {
         let id = number(column, 0)?;
         let index = index_of.get(&(id as u32)).copied();
-        index.ok_or_else(|| format!("{} {id} is no particle of the case", COLUMNS[column]))
+        index.ok_or_else(|| format!("{} {id} is not a particle of the case", COLUMNS[column]))
     };
     let (one, other) = (body(1)?, body(2)?);
     if one == other {

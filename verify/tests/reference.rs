@@ -377,7 +377,7 @@ fn bad_samples_are_refused_with_their_line() {
     let foreign = row.replacen("0,0,1,", "0,0,7,", 1);
     assert_eq!(
         with_samples("foreign", &format!("{header}\n{foreign}\n")),
-        "samples.csv, line 2: id 7 is no particle of the case"
+        "samples.csv, line 2: id 7 is not a particle of the case"
     );
     let not_finite = row.replacen("0,0,1,", "0,0,1,nan,", 1);
     assert_eq!(

@@ -185,7 +185,7 @@ fn a_checkpoint_of_an_older_program_is_refused_in_words() {
     for (bytes, expected) in [
         (&b"cograin\0\x04\0\0\0"[..], "is a checkpoint in the format of another version"),
         (b"cograin checkpoint 7\n", "is a checkpoint in the format of another version"),
-        (b"[run]\nend = 1", "is no checkpoint"),
+        (b"[run]\nend = 1", "is not a checkpoint"),
         (b"cograin checkpoint 1\n0000000000000000 {}\n", "damaged"),
     ] {
         fs::write(&file, bytes).unwrap();

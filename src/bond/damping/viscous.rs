@@ -25,7 +25,7 @@ use crate::quantity::NonNegative;
 ///
 /// ζ is the damping ratio of the pair alone in each of its motions, at small amplitude. The bond rests under any
 /// load, and nothing depends on the axes of the scene. Between two bodies without motion of their own there
-/// is no damping.
+/// is not a damping.
 #[derive(Clone, Copy, Debug)]
 pub struct Viscous {
     /// ζ of each part.
