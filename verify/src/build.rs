@@ -228,7 +228,9 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
 fn members(place: &str, ids: &[u32], index_of: &BTreeMap<u32, u32>) -> Result<Vec<u32>, Mistake> {
     let index = |id: &u32| {
         let found = index_of.get(id).copied();
-        found.ok_or_else(|| Mistake::new(format!("{place}.ids"), format!("{id} found; it is not a particle of the case")))
+        found.ok_or_else(|| {
+            Mistake::new(format!("{place}.ids"), format!("{id} found; it is not a particle of the case"))
+        })
     };
     let mut all: Vec<u32> = ids.iter().map(index).collect::<Result<_, Mistake>>()?;
     all.sort_unstable();

@@ -41,7 +41,8 @@ impl Samples {
         let mut steps: BTreeMap<u64, Vec<Option<Row>>> = BTreeMap::new();
         for (line, row) in lines {
             let (step, id, row) = parse(row, &places).map_err(|message| wrong(line, message))?;
-            let index = *in_case.get(&id).ok_or_else(|| wrong(line, format!("id {id} is not a particle of the case")))?;
+            let index =
+                *in_case.get(&id).ok_or_else(|| wrong(line, format!("id {id} is not a particle of the case")))?;
             if step > case.steps {
                 return Err(wrong(line, format!("step {step} found; the case ends at step {}", case.steps)));
             }
