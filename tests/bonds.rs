@@ -2,6 +2,7 @@
 
 use cograin::interface::Interface;
 use cograin::scene::{Scene, Source};
+use cograin::state::Break;
 use cograin::step::{Placement, Simulation};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -180,4 +181,60 @@ breakage = { max_distance = 2.3e-3 }
     let intact = simulation.bonds();
     assert_eq!(intact.len(), 1);
     assert!(intact[0].joins([0, 1]));
+}
+
+/// Two spheres of radii 1:2 on a tilted axis, bonded, that move apart along it; no plane.
+const PARTING: &str = r#"
+[run]
+step = 1e-6
+
+[material.glass]
+density = 2500.0
+
+[particles.grain]
+material = "glass"
+list = [
+    { id = 3, position = [0.1, 0.2, 0.3], radius = 1e-3, velocity = [-0.6, 0.0, -0.8] },
+    { id = 8, position = [0.1018, 0.2, 0.3024], radius = 2e-3 },
+]
+
+[bond.glue]
+formulation = "incremental"
+between = ["grain", "grain"]
+create_distance = 3.1e-3
+radius_multiplier = 0.5
+normal_stiffness = 1.0
+tangential_stiffness = 1.0
+breakage = { max_distance = 3.1e-3 }
+"#;
+
+/// What broke in so long a communication step \[s\].
+fn broken(mut simulation: Simulation, interval: f64) -> Break {
+    simulation.advance(interval).unwrap();
+    let [broken] = simulation.state().breaks[..] else { panic!("{:?}", simulation.state().breaks) };
+    broken
+}
+
+#[test]
+fn a_bond_that_breaks_tells_which_section_parted() {
+    let Break { time, position, direction, area, .. } = broken(simulation(PARTING), 2e-4);
+    // The smaller sphere goes away from the other; a third of the distance is its own.
+    let distance = 3e-3 + time;
+    let first = [0.1 - 0.6 * time, 0.2, 0.3 - 0.8 * time];
+    for (axis, towards) in [0.6, 0.0, 0.8].into_iter().enumerate() {
+        assert!((direction[axis] + towards).abs() < 1e-9, "{direction:?}");
+        let expected = first[axis] + towards * distance / 3.0;
+        assert!((position[axis] - expected).abs() < 1e-9, "{position:?}: {expected} along {axis}");
+    }
+    assert!((area / (std::f64::consts::PI * 0.25e-6) - 1.0).abs() < 1e-14, "{area}");
+}
+
+#[test]
+fn a_bond_to_a_plane_parts_at_its_foot() {
+    let weak = BONDED.replace("1e10", "1.0").replace("4e9", "1.0");
+    let text = weak.replace("VELOCITY", "[0.3, 0.0, 0.2]").replace("FORMULATION", "incremental");
+    let Break { time, position, direction, area, .. } = broken(simulation(&text), 1e-4);
+    assert!((position[0] - 0.3 * time).abs() < 1e-8 && (position[2] + 0.2 * time).abs() < 1e-8, "{position:?}");
+    assert!((direction[2] - 1.0).abs() < 1e-9, "{direction:?}");
+    assert!((area / (std::f64::consts::PI * 1e-6) - 1.0).abs() < 1e-14, "{area}");
 }

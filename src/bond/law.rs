@@ -59,6 +59,10 @@ pub struct Carried {
     pub rest: f64,
     /// Unit vector from j to i.
     pub axis: [f64; 3],
+    /// From the centre of i to the middle of the cross-section \[m\].
+    pub arm: [f64; 3],
+    /// Area of the cross-section \[m²\].
+    pub area: f64,
     /// Normal force, above 0 when it pushes \[N\].
     pub normal: f64,
     /// Shear force on i \[N\].
@@ -244,6 +248,8 @@ impl Law {
         Carried {
             rest: elastic.compression + motion.distance,
             axis: motion.axis.to_array(),
+            arm: (pair.connection * -pair.share_i).to_array(),
+            area: motion.section.area,
             normal: elastic.normal,
             shear: elastic.shear.to_array(),
             torsion: elastic.torsion,

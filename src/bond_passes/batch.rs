@@ -13,7 +13,7 @@
 //! turn after it was asked for: the processor, which looks only some hundred instructions ahead, does not wait for it.
 
 use super::after::{After, Bonds};
-use super::book::Done;
+use super::book::{Broken, Done};
 use super::pipeline_buffer::{PipelineBuffer, start_of};
 use crate::batches::{add, subtract};
 use crate::bond::damping::DampingLoad;
@@ -353,7 +353,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
             let cause = self.buffer.answer.cause[0][lane];
             if cause != 0.0 {
                 self.buffer.clear(turn, lane);
-                self.done.broken.push(((bond + lane) as u32, cause, 0.0));
+                self.done.broken.push(Broken::new((bond + lane) as u32, cause));
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::bond::{Carried, Reaction};
 use crate::neighbours::bonds::remove;
+use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
 use crate::state::State;
 use crate::state::bonds::Break;
@@ -22,9 +23,12 @@ pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Ite
             outcome = outcome.and(Err(RunError::Overbent { first, second, time, cause: Cause::Unknown }));
         }
     }
-    for &(bond, cause, energy) in &gone {
-        let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
-        state.breaks.push(Break { time, law: law as u32, first, second, cause, energy });
+    for &Broken { bond, cause, energy, axis, arm, area } in &gone {
+        let slot = list.first[bond as usize];
+        let (first, second) = (id(slot), list.second.get(bond as usize).copied().map(id));
+        let position = (Vector::from(particles.position[slot as usize]) + Vector::from(arm)).to_array();
+        let law = law as u32;
+        state.breaks.push(Break { time, law, first, second, cause, energy, position, direction: axis, area });
         list.released += energy;
         list.broken += 1;
     }
@@ -32,9 +36,33 @@ pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Ite
         state.particles.count_break([broken.first].into_iter().chain(broken.second));
     }
     if !gone.is_empty() {
-        remove(list, &gone);
+        remove(list, gone.iter().map(|broken| broken.bond));
     }
     outcome
+}
+
+/// A bond that broke.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Broken {
+    /// Its place in the list.
+    pub(crate) bond: u32,
+    /// Code of the cause.
+    pub(crate) cause: f64,
+    /// Released energy \[J\].
+    energy: f64,
+    /// Unit vector from j to i.
+    axis: [f64; 3],
+    /// From the centre of i to the middle of the cross-section \[m\].
+    arm: [f64; 3],
+    /// Area of the cross-section \[m²\].
+    area: f64,
+}
+
+impl Broken {
+    /// A bond that breaks for the cause of this code.
+    pub(crate) fn new(bond: u32, cause: f64) -> Self {
+        Self { bond, cause, ..Self::default() }
+    }
 }
 
 /// Results of a part of a list.
@@ -44,19 +72,19 @@ pub(crate) struct Done {
     pub(crate) relaxed: f64,
     /// Energy that damping took \[J\].
     pub(crate) damped: f64,
-    /// Bonds that broke: bond, cause, released energy \[J\].
-    pub(crate) broken: Vec<(u32, f64, f64)>,
+    /// Bonds that broke.
+    pub(crate) broken: Vec<Broken>,
     /// A bond bent beyond what can be followed.
     pub(crate) overbent: Option<u32>,
 }
 
 impl Done {
-    /// Finds what broken bonds release: what they held in the middle of the step. Up to there their force acted, and this is
-    /// what the books lose, to second order in the step.
+    /// Finds where broken bonds parted, and what they release: what they held in the middle of the step. Up to there their
+    /// force acted, and this is what the books lose, to second order in the step.
     pub(crate) fn release(&mut self, step: f64, carried: impl Fn(usize) -> Carried) {
-        for (bond, _, energy) in &mut self.broken {
-            let carried = carried(*bond as usize);
-            *energy = carried.energy + 0.5 * step * carried.power;
+        for broken in &mut self.broken {
+            let Carried { energy, power, axis, arm, area, .. } = carried(broken.bond as usize);
+            *broken = Broken { energy: energy + 0.5 * step * power, axis, arm, area, ..*broken };
         }
     }
 
@@ -65,7 +93,7 @@ impl Done {
         self.relaxed += reaction.relaxed;
         self.damped += reaction.damped;
         if reaction.cause != 0.0 {
-            self.broken.push((bond, reaction.cause, 0.0));
+            self.broken.push(Broken::new(bond, reaction.cause));
         }
         if reaction.overbent && self.overbent.is_none() {
             self.overbent = Some(bond);

@@ -21,9 +21,9 @@ pub(crate) fn is_bonded(list: &BondList, a: u32, b: u32) -> bool {
 }
 
 /// Takes bonds out of a list, keeping the order of the others.
-pub(crate) fn remove(list: &mut BondList, gone: &[(u32, f64, f64)]) {
+pub(crate) fn remove(list: &mut BondList, gone: impl Iterator<Item = u32>) {
     let mut dead = vec![false; list.first.len()];
-    for &(bond, ..) in gone {
+    for bond in gone {
         dead[bond as usize] = true;
     }
     let mut slabs = vec![0_u32; list.slabs.len()];

@@ -19,7 +19,20 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Columns of `breakage.csv`.
-const BREAKAGE_COLUMNS: [&str; 5] = ["time", "id1", "id2", "cause", "energy"];
+const BREAKAGE_COLUMNS: [&str; 12] = [
+    "time",
+    "id1",
+    "id2",
+    "cause",
+    "energy",
+    "position.x",
+    "position.y",
+    "position.z",
+    "direction.x",
+    "direction.y",
+    "direction.z",
+    "area",
+];
 
 /// A frame's `.pvd` and what has been added.
 struct Series {
@@ -185,13 +198,16 @@ impl Folder {
         let id = |index: u32| self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
         for broken in breaks {
             let cause = cause_name(broken.cause).unwrap_or("unknown");
-            table.add(&[
+            let mut row = vec![
                 format!("{:?}", broken.time),
                 id(broken.first).to_string(),
                 broken.second.map_or_else(|| plane(scene, broken.law).to_owned(), |second| id(second).to_string()),
                 cause.to_owned(),
                 format!("{:?}", broken.energy),
-            ])?;
+            ];
+            let place = broken.position.into_iter().chain(broken.direction).chain([broken.area]);
+            row.extend(place.map(|number| format!("{number:?}")));
+            table.add(&row)?;
         }
         Ok(())
     }

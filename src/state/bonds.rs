@@ -71,4 +71,10 @@ pub struct Break {
     pub cause: f64,
     /// Elastic energy released \[J\].
     pub energy: f64,
+    /// Middle of the cross-section that parted \[m\].
+    pub position: [f64; 3],
+    /// Unit normal of the cross-section, from j to i.
+    pub direction: [f64; 3],
+    /// Area of the cross-section \[m²\].
+    pub area: f64,
 }
