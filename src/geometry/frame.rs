@@ -21,6 +21,11 @@ impl Frame {
         Self { turn, reference, displacement }
     }
 
+    /// Its point of reference at time 0 \[m\].
+    pub(crate) fn reference(&self) -> Vector {
+        self.reference
+    }
+
     /// Where its point of reference stands \[m\].
     pub(crate) fn pivot(&self) -> Vector {
         self.reference + self.displacement

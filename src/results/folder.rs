@@ -142,7 +142,7 @@ impl Folder {
         let bonded = !scene.bonds.is_empty();
         let breakage =
             bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
-        let wanted = [true, scene.output.contacts, bonded];
+        let wanted = [true, scene.output.contacts, bonded, scene.output.boundaries];
         let series = (FRAMES.into_iter().zip(wanted))
             .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
             .map(|(name, _)| Series::open(path, name, kept))

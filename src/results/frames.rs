@@ -1,5 +1,6 @@
-//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds.
+//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries.
 
+use super::boundaries::boundaries;
 use super::job::Job;
 use super::vtk::{Cloud, Kind, Values};
 use crate::scene::Scene;
@@ -7,14 +8,16 @@ use crate::state::Particles;
 use crate::step::{BondRecord, ContactRecord};
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 3] {
-    let Job::Frame { particles: bodies, contacts: touching, bonds: living, .. } = job else {
-        return [None, None, None];
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
+    let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, .. } = job else {
+        return [const { None }; 4];
     };
+    let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
     [
         Some(particles(scene, &bodies)),
-        touching.map(|touching| contacts(scene, &touching)),
-        living.map(|living| bonds(scene, &bodies, &living)),
+        touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, touching)),
+        living.as_ref().map(|living| bonds(scene, &bodies, living)),
+        moved.map(|moved| boundaries(scene, &bodies, &moved, loads())),
     ]
 }
 
@@ -33,8 +36,17 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
         ("force", Values::Vectors(three(&particles.force))),
         ("torque", Values::Vectors(three(&particles.torque))),
         ("mass", Values::Scalars(fourth(&particles.velocity))),
+        ("group", Values::Integers(slots().map(|slot| i64::from(particles.owner[slot]) - 1).collect())),
     ];
-    Cloud { points: three(&particles.position), fields: fields.into_iter().chain(damage).collect(), ..Cloud::default() }
+    let orientation = (!particles.orientation.is_empty()).then(|| {
+        let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
+        ("orientation", Values::Quaternions(rows))
+    });
+    Cloud {
+        points: three(&particles.position),
+        fields: fields.into_iter().chain(orientation).chain(damage).collect(),
+        ..Cloud::default()
+    }
 }
 
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.
@@ -80,7 +92,7 @@ pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
         points: bonds.iter().flat_map(|bond| [position(bond.first), bond.other]).flatten().collect(),
         kind: Kind::Lines,
         fields: vec![("id", Values::Integers(ids))],
-        line_fields: vec![
+        cell_fields: vec![
             ("law", Values::Integers(bonds.iter().map(|bond| i64::from(bond.law)).collect())),
             ("boundary", Values::Integers(bonds.iter().map(plane).collect())),
             ("normal_force", scalars(|bond| bond.carried.normal)),

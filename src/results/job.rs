@@ -1,7 +1,7 @@
 //! What is handed to the thread that writes.
 
 use crate::interface::Value;
-use crate::state::{Break, Particles, State};
+use crate::state::{BoundaryState, Break, Particles, State};
 use crate::step::{BondRecord, ContactRecord};
 use std::sync::mpsc::SyncSender;
 
@@ -22,10 +22,12 @@ pub(crate) enum Job {
         time: f64,
         /// The particles.
         particles: Box<Particles>,
-        /// The contacts, if the scene asks for them.
+        /// The contacts, if the scene asks for them or for the boundaries.
         contacts: Option<Vec<ContactRecord>>,
         /// The bonds, if the scene has any.
         bonds: Option<Vec<BondRecord>>,
+        /// Where the boundaries stand, if the scene asks for them.
+        boundaries: Option<Vec<BoundaryState>>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

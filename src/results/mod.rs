@@ -7,6 +7,7 @@
 //! | `particles_000000.vtu`, …   | the particles by ascending id, a file at each frame interval      |
 //! | `contacts_000000.vtu`, …    | the contacts of each frame, if the scene asks for them            |
 //! | `bonds_000000.vtu`, …       | the bonds of each frame, in a scene with bonds                    |
+//! | `boundaries_000000.vtu`, …  | the boundaries of each frame, if the scene asks for them          |
 //! | `particles.pvd`, …          | the times of the frames                                           |
 //! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
 //! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |
@@ -15,6 +16,7 @@
 //! they end with the same bytes as those of an uninterrupted run (except `summary.json`, which describes one
 //! session). `schedule.rs` says when outputs are due, and how that divides the run.
 
+mod boundaries;
 mod collection;
 mod error;
 mod failure;
@@ -50,7 +52,7 @@ pub(crate) const SUMMARY: &str = "summary.json";
 pub(crate) const UNFINISHED: &str = "part";
 
 /// Kinds of frames: beginning of the names of their files.
-const FRAMES: [&str; 3] = ["particles", "contacts", "bonds"];
+const FRAMES: [&str; 4] = ["particles", "contacts", "bonds", "boundaries"];
 
 /// File name of a frame.
 fn frame_name(kind: &str, number: usize) -> String {

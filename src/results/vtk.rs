@@ -1,4 +1,4 @@
-//! Points, and lines between them, as `.vtu` files, which meshio and VTK read back bit for bit.
+//! Points, and lines and facets between them, as `.vtu` files, which meshio and VTK read back bit for bit.
 //!
 //! The only place that knows `vtkio`. Files are binary, inline and uncompressed: random mantissas hardly
 //! compress, and compressing costs many times the writing.
@@ -20,6 +20,8 @@ pub(crate) enum Values {
     Scalars(Vec<f64>),
     /// Three real numbers each.
     Vectors(Vec<f64>),
+    /// Four real numbers each: scalar, x, y, z.
+    Quaternions(Vec<f64>),
     /// One whole number each.
     Integers(Vec<i64>),
     /// One small whole number each.
@@ -27,13 +29,20 @@ pub(crate) enum Values {
 }
 
 /// What the points stand for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Each for itself.
     #[default]
     Points,
     /// Each two, in order, for a line.
     Lines,
+    /// For the corners of facets with three or four of them.
+    Facets {
+        /// The corners, facet after facet.
+        corners: Vec<u32>,
+        /// Behind the last corner of each facet.
+        ends: Vec<u32>,
+    },
 }
 
 /// Points with named fields.
@@ -45,8 +54,8 @@ pub(crate) struct Cloud {
     pub kind: Kind,
     /// The fields of the points by name, in the order of the file.
     pub fields: Vec<(&'static str, Values)>,
-    /// The fields of the lines.
-    pub line_fields: Vec<(&'static str, Values)>,
+    /// The fields of the lines or facets.
+    pub cell_fields: Vec<(&'static str, Values)>,
 }
 
 impl Cloud {
@@ -55,11 +64,11 @@ impl Cloud {
         let count = self.points.len() / 3;
         let attributes = |fields: Vec<(&'static str, Values)>| fields.into_iter().map(attribute).collect();
         // The one cell of a file without points has no values.
-        let line_fields = if count == 0 { Vec::new() } else { self.line_fields };
+        let cell_fields = if count == 0 { Vec::new() } else { self.cell_fields };
         let piece = UnstructuredGridPiece {
             points: self.points.into(),
             cells: cells(count, self.kind),
-            data: Attributes { point: attributes(self.fields), cell: attributes(line_fields) },
+            data: Attributes { point: attributes(self.fields), cell: attributes(cell_fields) },
         };
         let file = Vtk {
             version: Version::new_xml(1, 0),
@@ -74,20 +83,28 @@ impl Cloud {
     }
 }
 
-/// A cell for each point or line. Without points a single cell of no points: meshio refuses a file without cells.
+/// A cell for each point, line or facet. Without points a single cell of no points: meshio refuses a file without cells.
 fn cells(points: usize, kind: Kind) -> Cells {
-    if points == 0 {
-        let cell_verts = VertexNumbers::XML { connectivity: Vec::new(), offsets: vec![0] };
-        return Cells { cell_verts, types: vec![CellType::PolyVertex] };
-    }
-    let (cell, corners) = match kind {
-        Kind::Points => (CellType::Vertex, 1),
-        Kind::Lines => (CellType::Line, 2),
+    let whole = |numbers: Vec<u32>| numbers.into_iter().map(u64::from).collect::<Vec<_>>();
+    let (connectivity, offsets, types) = match kind {
+        _ if points == 0 => (Vec::new(), vec![0], vec![CellType::PolyVertex]),
+        Kind::Points => each_of(points, 1, CellType::Vertex),
+        Kind::Lines => each_of(points, 2, CellType::Line),
+        Kind::Facets { corners, ends } => {
+            let before = std::iter::once(&0).chain(&ends);
+            let shape = |(from, to)| if to - from == 3 { CellType::Triangle } else { CellType::Quad };
+            let types = before.zip(&ends).map(shape).collect();
+            (whole(corners), whole(ends), types)
+        }
     };
+    Cells { cell_verts: VertexNumbers::XML { connectivity, offsets }, types }
+}
+
+/// Cells of so many points each, in their order: corners, where each cell ends, types.
+fn each_of(points: usize, corners: usize, cell: CellType) -> (Vec<u64>, Vec<u64>, Vec<CellType>) {
     let count = points / corners;
-    let offsets = (1..=count).map(|cell| (cell * corners) as u64).collect();
-    let cell_verts = VertexNumbers::XML { connectivity: (0..(count * corners) as u64).collect(), offsets };
-    Cells { cell_verts, types: vec![cell; count] }
+    let ends = (1..=count).map(|cell| (cell * corners) as u64).collect();
+    ((0..(count * corners) as u64).collect(), ends, vec![cell; count])
 }
 
 /// One field as the file has it.
@@ -95,6 +112,7 @@ fn attribute((name, values): (&'static str, Values)) -> Attribute {
     Attribute::DataArray(match values {
         Values::Scalars(values) => DataArray { data: IOBuffer::F64(values), ..DataArray::scalars(name, 1) },
         Values::Vectors(values) => DataArray { data: IOBuffer::F64(values), ..DataArray::vectors(name) },
+        Values::Quaternions(values) => DataArray { data: IOBuffer::F64(values), ..DataArray::scalars(name, 4) },
         Values::Integers(values) => DataArray { data: IOBuffer::I64(values), ..DataArray::scalars(name, 1) },
         Values::Bytes(values) => DataArray { data: IOBuffer::U8(values), ..DataArray::scalars(name, 1) },
     })
@@ -121,6 +139,7 @@ mod tests {
             fields: vec![
                 ("radius", Values::Scalars(reals(count))),
                 ("velocity", Values::Vectors(reals(3 * count))),
+                ("orientation", Values::Quaternions(reals(4 * count))),
                 ("id", Values::Integers((0..count as i64).map(|k| k - (1 << 40)).collect())),
                 ("sliding", Values::Bytes((0..count).map(|k| (k % 2) as u8).collect())),
             ],
@@ -147,7 +166,7 @@ mod tests {
         assert_eq!(points, cloud(7).points);
         for ((name, values), read) in cloud(7).fields.into_iter().zip(fields) {
             let expected = match values {
-                Values::Scalars(values) | Values::Vectors(values) => values,
+                Values::Scalars(values) | Values::Vectors(values) | Values::Quaternions(values) => values,
                 Values::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
                 Values::Bytes(values) => values.into_iter().map(f64::from).collect(),
             };
@@ -159,7 +178,7 @@ mod tests {
     fn lines_join_each_two_points() {
         let energy = vec![0.1, 0.2, 0.3];
         let lines = vec![("energy", Values::Scalars(energy.clone()))];
-        let bytes = Cloud { kind: Kind::Lines, line_fields: lines, ..cloud(6) }.encode().unwrap();
+        let bytes = Cloud { kind: Kind::Lines, cell_fields: lines, ..cloud(6) }.encode().unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
             panic!("not an unstructured grid")
         };

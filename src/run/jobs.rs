@@ -15,7 +15,9 @@ pub(crate) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> 
 pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let scene = simulation.scene();
     let particles = Box::new(simulation.state().particles.clone());
-    let contacts = scene.output.contacts.then(|| simulation.contacts());
+    let output = &scene.output;
+    let contacts = (output.contacts || output.boundaries).then(|| simulation.contacts());
     let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
-    Job::Frame { time, particles, contacts, bonds }
+    let boundaries = output.boundaries.then(|| simulation.state().boundaries.clone());
+    Job::Frame { time, particles, contacts, bonds, boundaries }
 }

@@ -15,6 +15,8 @@ pub struct Output {
     pub frame_interval: Option<f64>,
     /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
     pub contacts: bool,
+    /// Whether each frame has a file of the boundaries: their surfaces, displacement, and the load on each facet.
+    pub boundaries: bool,
     /// Whether the algorithmic energy book is kept.
     pub energy: bool,
     /// Whether the physical energy book is kept: losses, each by itself.

@@ -8,6 +8,7 @@
 pub(crate) mod cone;
 pub mod cylinder;
 pub(crate) mod disc;
+mod facets;
 mod feet;
 pub(crate) mod group;
 pub mod mesh;
@@ -16,6 +17,7 @@ mod profile;
 pub(crate) mod rectangle;
 pub(crate) mod revolution;
 
+pub use facets::Facets;
 pub use feet::{Features, Feet, Foot, Saddle};
 pub use group::Group;
 pub(crate) use group::Selection;
@@ -109,6 +111,17 @@ pub trait Surface: Debug + Send + Sync {
     /// Whether it can turn.
     fn turns(&self) -> bool {
         false
+    }
+
+    /// What it looks like at time 0; nothing for a group, which looks like its particles. A surface without end is shown as far
+    /// as these points are beside it \[m\].
+    fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+        None
+    }
+
+    /// The facet that is nearest to a point \[m\].
+    fn facet_at(&self, _point: Vector) -> usize {
+        0
     }
 }
 

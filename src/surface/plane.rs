@@ -1,5 +1,6 @@
 //! `plane`: infinite and one-sided.
 
+use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
 use super::{Around, Shape, ShapeKeys, Surface, direction};
 use crate::number::Vector;
@@ -55,6 +56,21 @@ impl Surface for Plane {
 
     fn turns(&self) -> bool {
         true
+    }
+
+    fn facets(&self, beside: &[Vector]) -> Option<Facets> {
+        let (point, [along, up]) = (Vector::from(self.point), across(self.normal.into()));
+        let span = |direction: Vector| {
+            let places = beside.iter().map(|place| (*place - point).dot(direction));
+            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place), high.max(place)])
+        };
+        let ([left, right], [low, high], mut facets) = (span(along), span(up), Facets::default());
+        if left < right && low < high {
+            let corners = [[left, low], [right, low], [right, high], [left, high]];
+            facets.points.extend(corners.map(|[x, y]| point + along * x + up * y));
+            facets.add(&[0, 1, 2, 3]);
+        }
+        Some(facets)
     }
 }
 

@@ -5,9 +5,14 @@
 //! count +1, corners of k segments 1 − k.
 
 use super::Surface;
+use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
 use crate::number::Vector;
 use crate::quantity::MaterialIndex;
+use std::f64::consts::TAU;
+
+/// Facets around the axis, where the surface is shown.
+const AROUND: usize = 64;
 
 /// Below this share of the profile's size a distance from the axis has no direction.
 const ON_AXIS: f64 = 1e-14;
@@ -245,5 +250,39 @@ impl Surface for Revolution {
 
     fn turns(&self) -> bool {
         true
+    }
+
+    fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+        let (directions, mut facets) = (across(self.axis), Facets::default());
+        // The points of each corner of the profile: one on the axis, or one for each facet around it.
+        let mut starts = Vec::with_capacity(self.corners.len());
+        for [q, z] in &self.corners {
+            let middle = self.origin + self.axis * *z;
+            starts.push(facets.points.len() as u32);
+            let count = if *q == 0.0 { 1 } else { AROUND };
+            facets.points.extend((0..count).map(|place| {
+                let (up, along) = libm::sincos(TAU * place as f64 / AROUND as f64);
+                middle + (directions[0] * along + directions[1] * up) * *q
+            }));
+        }
+        let point = |corner: u32, place: usize| {
+            let turned = if self.corners[corner as usize][0] == 0.0 { 0 } else { place % AROUND };
+            starts[corner as usize] + turned as u32
+        };
+        for [from, to] in self.segments.iter().copied() {
+            for place in 0..AROUND {
+                facets.add(&[point(from, place), point(to, place), point(to, place + 1), point(from, place + 1)]);
+            }
+        }
+        Some(facets)
+    }
+
+    fn facet_at(&self, point: Vector) -> usize {
+        let (place, outwards) = self.in_profile(point);
+        let distance = |segment: &usize| self.nearest(place, self.segments[*segment]).distance;
+        let segment = (0..self.segments.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+        let [along, up] = across(self.axis).map(|across| outwards.map_or(1.0, |outwards| outwards.dot(across)));
+        let turn = libm::atan2(up, along).rem_euclid(TAU) / TAU;
+        segment * AROUND + ((turn * AROUND as f64) as usize).min(AROUND - 1)
     }
 }

@@ -1,5 +1,6 @@
 //! `rectangle`: a flat plate.
 
+use super::facets::Facets;
 use super::feet::{Features, Feet, Foot};
 use super::{Around, Shape, ShapeKeys, Surface};
 use crate::number::Vector;
@@ -67,6 +68,14 @@ impl Surface for Rectangle {
 
     fn turns(&self) -> bool {
         true
+    }
+
+    fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+        let [first, second] = [0, 1].map(|edge| self.along[edge] * self.lengths[edge]);
+        let points = vec![self.corner, self.corner + first, self.corner + first + second, self.corner + second];
+        let mut facets = Facets { points, ..Facets::default() };
+        facets.add(&[0, 1, 2, 3]);
+        Some(facets)
     }
 }
 

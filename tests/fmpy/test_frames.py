@@ -15,7 +15,7 @@ MODEL = ROOT / "models" / "piston"
 def frames(cograin, tmp_path_factory):
     """The frames of a run of the small model, by time."""
     folder = tmp_path_factory.mktemp("frames")
-    cograin("run", MODEL / "scene.toml", "-o", folder)
+    cograin("run", MODEL / "scene.toml", "--set", "output.boundaries=true", "-o", folder)
     return sorted(folder.glob("**/particles*.vtu"))
 
 
@@ -65,3 +65,19 @@ def test_the_collection_names_every_frame_with_its_time(frames):
     assert np.allclose(reader.time_values, 0.02 * np.arange(6), rtol=0.0, atol=1e-12)
     reader.set_active_time_value(reader.time_values[-1])
     assert reader.read()[0].points.tobytes() == pyvista.read(frames[-1]).points.tobytes()
+
+
+def test_forces_on_the_facets_of_a_boundary_add_up_to_its_force_in_the_history(frames):
+    folder = frames[0].parent
+    rows = list(csv.DictReader((folder / "history.csv").open()))
+    names = [name.removesuffix(".force.x") for name in rows[0] if name.endswith(".force.x") and ".mean_" not in name]
+    assert len(names) > 3
+    for number in (1, 5):
+        grid = pyvista.read(folder / f"boundaries_{number:06}.vtu")
+        mesh = meshio.read(folder / f"boundaries_{number:06}.vtu")
+        assert np.array_equal(np.concatenate(mesh.cell_data["force"]), grid.cell_data["force"])
+        (row,) = (row for row in rows if abs(float(row["time"]) - 0.02 * number) < 1e-9)
+        for index, name in enumerate(names):
+            found = grid.cell_data["force"][grid.cell_data["boundary"] == index].sum(axis=0)
+            expected = np.array([float(row[f"{name}.force.{axis}"]) for axis in "xyz"])
+            assert np.allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max()), name

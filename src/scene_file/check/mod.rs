@@ -126,8 +126,9 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
 
 /// `[output]`
 fn output(table: &Output, faults: &mut Faults) -> Output {
-    if table.contacts && table.frame_interval.is_none() {
-        let right = "contacts are written with the frames".to_owned();
+    let with_frames = [(table.contacts, "contacts"), (table.boundaries, "boundaries")];
+    if let Some((_, what)) = with_frames.iter().find(|(wanted, _)| *wanted && table.frame_interval.is_none()) {
+        let right = format!("{what} are written with the frames");
         faults.add("output", "frame_interval", Mistake::Missing { right });
     }
     *table

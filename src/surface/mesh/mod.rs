@@ -8,6 +8,7 @@ mod side;
 mod topology;
 mod tree;
 
+use super::facets::Facets;
 use super::feet::{Features, Feet, Foot};
 use super::{Around, Shape, ShapeKeys, Surface};
 use crate::geometry::rotation;
@@ -300,6 +301,16 @@ impl Surface for Mesh {
 
     fn turns(&self) -> bool {
         true
+    }
+
+    fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+        let mut facets = Facets { points: self.topology.vertices.clone(), ..Facets::default() };
+        self.topology.triangles.iter().for_each(|triangle| facets.add(triangle));
+        Some(facets)
+    }
+
+    fn facet_at(&self, point: Vector) -> usize {
+        self.nearest_triangle(point)
     }
 }
 

@@ -42,6 +42,19 @@ impl Mesh {
         best
     }
 
+    /// The triangle that is nearest to a point.
+    pub(super) fn nearest_triangle(&self, point: Vector) -> usize {
+        let (mut least, mut nearest) = (f64::INFINITY, 0);
+        self.tree.search(point, f64::INFINITY, |triangle| {
+            let distance = self.distance_from(point, triangle);
+            if distance < least {
+                (least, nearest) = (distance, triangle as usize);
+            }
+            least
+        });
+        nearest
+    }
+
     /// The nearest point of a triangle.
     fn nearest_of(&self, centre: Vector, triangle: u32) -> Nearest {
         let face = &self.faces[triangle as usize];
