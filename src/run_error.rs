@@ -205,6 +205,19 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// A triangle of a mesh whose nodes the outside moves has no area any more.
+    #[error(
+        "face {face} of boundary {boundary} has no area at t = {time} s: its nodes were moved onto a line or a point, or out of all \
+         bounds; displacements that leave every face its area are right"
+    )]
+    Collapsed {
+        /// The boundary.
+        boundary: String,
+        /// The face: number of the triangle in the files, from 1.
+        face: usize,
+        /// Time \[s\].
+        time: f64,
+    },
     /// Bodies are put in the middle of their way in a scene whose planes remember something.
     #[error(
         "bodies cannot be put in the middle of their way beside boundary {boundary}: what contacts and bonds at a plane remember is not put with them; a scene without planes is right"

@@ -18,7 +18,7 @@ use xxhash_rust::xxh3::xxh3_64;
 /// Where the checksum stands in a snapshot; the payload follows it.
 const CHECKSUM: usize = 28;
 
-/// A heap over a floor beside a wall, with bonds that suppress contacts, bonds to a plane, a free group, a driven group
+/// A heap over a floor beside a wall and a sheet whose nodes are driven, with bonds that suppress contacts, bonds to a plane, a free group, a driven group
 /// and the energy book: every part of a state has something in it.
 const SCENE: &str = r#"
 gravity = [0.3, 0.0, -9.81]
@@ -58,6 +58,10 @@ motion = { driven = ["z"] }
 [boundary.side]
 plane = { point = [-0.00099, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }
 material = "b"
+[boundary.mat]
+mesh = { file = "mat.obj" }
+material = "b"
+nodes = "driven"
 [boundary.grip]
 particles = { set = "top", box = [[-1.0, -1.0, -1.0], [0.003, 1.0, 1.0]] }
 motion = { driven = ["x", "rotation.z"] }
@@ -80,6 +84,10 @@ tangential_stiffness = 4e8
 [output]
 energy = true
 "#;
+
+/// A sheet behind the heap, of two triangles.
+const MAT: &str =
+    "v -0.01 -0.00099 -0.01\nv 0.02 -0.00099 -0.01\nv 0.02 -0.00099 0.02\nv -0.01 -0.00099 0.02\nf 1 3 2\nf 1 4 3\n";
 
 /// The scene.
 fn scene() -> Arc<Scene> {
@@ -106,6 +114,7 @@ fn scene_with(text: &str) -> Arc<Scene> {
     let files = BTreeMap::from([
         ("heap.csv".to_owned(), block([4, 3, 2], 0.99e-3, 1.99e-3, 0)),
         ("top.csv".to_owned(), block([4, 3, 1], 5.0e-3, 1.99e-3, 100)),
+        ("mat.obj".to_owned(), MAT.into()),
     ]);
     let source = Source { name: "scene.toml".into(), text: text.into(), files };
     Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
@@ -231,6 +240,18 @@ fn a_state_is_refused_with_the_part_that_cannot_be() {
     assert_eq!(
         refusal(&|state| state.particles.position[1][0] = f64::NAN),
         "a state that cannot be: position[1]: finite numbers is right"
+    );
+    assert_eq!(
+        refusal(&|state| state.nodes[0].force[3][2] = f64::INFINITY),
+        "a state that cannot be: nodes[3]: finite numbers is right"
+    );
+    assert_eq!(
+        refusal(&|state| state.nodes[0].listed.truncate(3)),
+        "a state that cannot be: nodes[6]: columns of one length is right"
+    );
+    assert_eq!(
+        refusal(&|state| state.nodes[0].boundary = 1),
+        "a state that cannot be: nodes[0]: the nodes of the scene's meshes is right"
     );
 }
 

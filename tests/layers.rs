@@ -136,7 +136,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("neighbours", 14),
     ("integration", 6),
     ("batches", 63),
-    ("interactions", 14),
+    ("interactions", 16),
     ("bond_passes", 28),
     ("stability", 2),
     ("fmu", 37),

@@ -6,6 +6,8 @@ A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are
 `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step. `couple` runs both sides and returns a
 `Record`.
 
+The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
+
 Forces are those *of the particles on the boundary*. SI units, radians.
 """
 
@@ -13,6 +15,8 @@ from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
 from cograin.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
 from cograin.implicit import Aitken, FixedPoint, Implicit, Newton, QuasiNewton, Secant
 from cograin.interface import Interface, stiffness
+from cograin.mapping import Mapping
+from cograin.nodes import Nodes
 from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
 from cograin.program import Program, ProgramError
 from cograin.record import Record, Row
@@ -33,8 +37,10 @@ __all__ = [
     "Interface",
     "Jacobi",
     "KickedPartner",
+    "Mapping",
     "Modal",
     "Newton",
+    "Nodes",
     "Oscillator",
     "Outcome",
     "Partner",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -20,8 +21,11 @@ _ANSWERS = {
 class _Part:
     """The directions of one unit."""
 
-    def __init__(self, unit: Unit, displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...]):
+    def __init__(
+        self, unit: Unit, displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...], through: Any
+    ):
         self.unit = unit
+        self.through = through
         self.displacements = displacements
         self.forces: dict[Force, tuple[str, ...]] = {"end": ends, "mean": means}
         for name in (*displacements, *ends, *means):
@@ -30,6 +34,31 @@ class _Part:
         works = tuple(f"{boundary}.work" for boundary in boundaries)
         self.works = works if all(name in unit.variables for name in works) else ()
         self.state: State | None = None
+        self.begin = unit.get(displacements)
+        #: How many directions of the partner it has.
+        self.size = len(displacements) if through is None else through.shape[1]
+
+    def names(self) -> tuple[str, ...]:
+        """Names of its directions."""
+        if self.through is None:
+            return self.displacements
+        boundary = self.displacements[0].split(".")[0]
+        return tuple(f"{boundary}.mapped[{number}]" for number in range(1, self.size + 1))
+
+    @property
+    def displacement(self) -> Vector:
+        """Present displacements; those of a mapping are counted from where the unit begins."""
+        return self.unit.get(self.displacements) if self.through is None else np.zeros(self.size)
+
+    def move(self, displacement: Vector) -> None:
+        """Gives the unit where it is to be."""
+        given = displacement if self.through is None else self.begin + self.through @ displacement
+        self.unit.set(self.displacements, given)
+
+    def force(self, kind: Force) -> Vector:
+        """Forces of the particles \\[N, N m\\]."""
+        found = self.unit.get(self.forces[kind])
+        return found if self.through is None else vector(self.through.T @ found)
 
 
 class Interface:
@@ -39,6 +68,10 @@ class Interface:
     the names: ``floor.force.z`` at the end of a step, ``floor.mean_force.z`` as its mean; a unit of another tool that
     calls them otherwise names them with ``forces`` and ``mean_forces``. Interfaces of several units are added:
     ``Interface(left, "wall.displacement.x") + Interface(right, "wall.displacement.x")``.
+
+    ``through`` is a matrix with a row for each of the displacements and a column for each direction of the partner: the
+    unit moves by it, and forces go back by its transpose. The partner's displacements are counted from where the unit
+    stands. With the `matrix` of a `Mapping` they are those of the nodes of the partner's own mesh.
 
     ``substeps`` is how many communication steps of the units make one of the coupling; the boundary moves at constant
     velocity through all of them.
@@ -51,6 +84,7 @@ class Interface:
         *,
         forces: str | Sequence[str] | None = None,
         mean_forces: str | Sequence[str] | None = None,
+        through: Any = None,
         substeps: int = 1,
     ) -> None:
         inputs = _several(displacements)
@@ -63,7 +97,9 @@ class Interface:
             raise ValueError(f"{len(inputs)} displacements, {len(ends)} forces and {len(means)} mean forces: one each")
         if substeps < 1:
             raise ValueError(f"substeps: {substeps}; at least 1 is right")
-        self._parts = [_Part(unit, inputs, ends, means)]
+        if through is not None and through.shape[0] != len(inputs):
+            raise ValueError(f"through: {through.shape[0]} rows for {len(inputs)} displacements; one each is right")
+        self._parts = [_Part(unit, inputs, ends, means, through)]
         self.substeps = substeps
         self._refresh()
 
@@ -79,7 +115,7 @@ class Interface:
 
     def _refresh(self) -> None:
         """Reads the present displacements of the units."""
-        self.displacement = np.concatenate([part.unit.get(part.displacements) for part in self._parts])
+        self.displacement = np.concatenate([part.displacement for part in self._parts])
         self._saved = self.displacement
         #: Every unit, once.
         self.units = list({id(part.unit): part.unit for part in self._parts}.values())
@@ -93,7 +129,7 @@ class Interface:
     def names(self) -> list[str]:
         """Names of the displacements; after the name of the unit if there are several units."""
         several = len(self.units) > 1
-        return [f"{part.unit.name}.{name}" if several else name for part in self._parts for name in part.displacements]
+        return [f"{part.unit.name}.{name}" if several else name for part in self._parts for name in part.names()]
 
     @property
     def time(self) -> float:
@@ -117,7 +153,7 @@ class Interface:
 
     def force(self, kind: Force) -> Vector:
         """Force of the particles on the interface: mean of the last step or at its end \\[N, N m\\]."""
-        found = [part.unit.get(part.forces[kind]) for part in self._parts]
+        found = [part.force(kind) for part in self._parts]
         return found[0] if len(found) == 1 else np.concatenate(found)
 
     @property
@@ -148,8 +184,8 @@ class Interface:
         """One step of every unit."""
         first = 0
         for part in self._parts:
-            part.unit.set(part.displacements, displacement[first : first + len(part.displacements)])
-            first += len(part.displacements)
+            part.move(displacement[first : first + part.size])
+            first += part.size
         for unit in self.units:
             unit.step(length, until=end)
 
@@ -168,13 +204,15 @@ class Interface:
 
     def derivative(self, kind: Force) -> Matrix:
         """Change of the force per change of displacement at the end of the last step, by the units \\[N/m\\]."""
-        ends = np.cumsum([len(part.displacements) for part in self._parts])
-        places = [slice(end - len(part.displacements), end) for part, end in zip(self._parts, ends, strict=True)]
+        ends = np.cumsum([part.size for part in self._parts])
+        places = [slice(end - part.size, end) for part, end in zip(self._parts, ends, strict=True)]
         blocks = np.zeros((ends[-1], ends[-1]))
         for one, rows in zip(self._parts, places, strict=True):
             for other, columns in zip(self._parts, places, strict=True):
                 if one.unit is other.unit:
-                    blocks[rows, columns] = one.unit.derivative(one.forces[kind], other.displacements)
+                    block = one.unit.derivative(one.forces[kind], other.displacements)
+                    block = block if one.through is None else one.through.T @ block
+                    blocks[rows, columns] = block if other.through is None else block @ other.through
         return blocks
 
 

@@ -15,6 +15,7 @@ import fmpy.fmi2
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
+from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
 
 _log = logging.getLogger("cograin")
@@ -76,6 +77,8 @@ class Unit:
         self._groups: dict[tuple[str, ...], tuple[Any, Any, int]] = {}
         self._messages: list[str] = []
         self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
+        #: Where it is unpacked.
+        self.folder = Path(self._folder.name)
         fmpy.extract(str(path), unzipdir=self._folder.name)
         self.slave = fmpy.fmi2.FMU2Slave(
             guid=self.description.guid,
@@ -206,6 +209,10 @@ class Unit:
     def number(self, name: str) -> float:
         """Value of a real, whole or logical variable as a real number."""
         return float(self[name])
+
+    def nodes(self, boundary: str) -> Nodes:
+        """The nodes of a boundary whose mesh has ``nodes = "driven"``, as arrays."""
+        return Nodes(self, boundary)
 
     # Time
 

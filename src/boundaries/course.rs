@@ -70,13 +70,7 @@ pub(crate) fn apply_inputs(boundary: &Boundary, moved: &mut BoundaryState) {
 /// Largest speed of each axis that the outside moves on its way through a communication step of `interval` \[s\]: along it \[m/s\] and
 /// about it \[rad/s\].
 fn fastest(boundary: &Boundary, moved: &BoundaryState, interval: f64) -> [f64; 6] {
-    let steepest = match boundary.input {
-        // One that holds its new place jumps there: no speed of its own.
-        InputCourse::Hold => 0.0,
-        InputCourse::Ramp => 1.0,
-        // The slope of 3 s² − 2 s³ at its middle.
-        InputCourse::Smooth => 1.5,
-    };
+    let steepest = boundary.input.steepest();
     std::array::from_fn(|axis| {
         let way = if axis < 3 { moved.end[axis] - moved.start[axis] } else { moved.turn[axis - 3] };
         let motion = &boundary.axes[axis];
@@ -135,6 +129,8 @@ pub(crate) struct Way {
     pub(super) led: [f64; 6],
     /// No particle of it went further \[m\]; 0 where it carries none.
     pub carried: f64,
+    /// No node of it went further \[m\]; 0 where nodes do not move by themselves.
+    pub(super) bent: f64,
 }
 
 impl Way {
@@ -143,7 +139,7 @@ impl Way {
     pub(crate) fn farthest(&self, extent: f64) -> f64 {
         let [x, y, z, u, v, w] = self.led;
         let swept = (u * u + v * v + w * w).sqrt() * extent;
-        ((x * x + y * y + z * z).sqrt() + swept).max(self.carried)
+        ((x * x + y * y + z * z).sqrt() + swept).max(self.carried).max(self.bent)
     }
 }
 
@@ -157,7 +153,7 @@ pub(crate) fn speeds<'a>(
     let time = state.clock.time;
     let extents = state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
     let boundaries = scene.boundaries.iter().zip(bodies).zip(&state.boundaries).zip(extents);
-    boundaries.map(move |(((boundary, body), moved), extent)| {
+    boundaries.enumerate().map(move |(place, (((boundary, body), moved), extent))| {
         // Of what an axis is known to do, the faster: as it moves, as it is about to, as the scene says.
         let speed = |axis: usize, now: f64| {
             let said = boundary.axes[axis].at(time).map_or(0.0, |[_, velocity]| velocity.abs());
@@ -165,7 +161,8 @@ pub(crate) fn speeds<'a>(
         };
         let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
         let about = Vector::from([0, 1, 2].map(|axis| speed(3 + axis, moved.angular_velocity[axis]))).length();
-        along + body.as_ref().map_or(0.0, |body| about * body.farthest.max(extent))
+        let bent = state.nodes_of(place).map_or(0.0, |nodes| nodes.fastest);
+        along + body.as_ref().map_or(0.0, |body| about * body.farthest.max(extent)) + bent
     })
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod course;
 pub(crate) mod felt;
 pub(crate) mod implicit;
 mod inertia;
+pub(crate) mod nodes;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
 pub(crate) mod slopes;

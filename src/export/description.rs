@@ -178,16 +178,15 @@ fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
     let dependencies = |index: usize| if interface.has_slopes(index) { followed.as_str() } else { "" };
     let parameters = places(interface.of_causality(Causality::Parameter));
     let given = places(interface.inputs().chain(interface.of_causality(Causality::Parameter)));
-    let outputs: Vec<(String, &str)> =
-        interface.outputs().map(|(index, _)| ((index + 1).to_string(), dependencies(index))).collect();
-    let initial: Vec<(String, &str)> = interface
+    let outputs: Vec<Unknown> =
+        interface.outputs().map(|(index, _)| ((index + 1).to_string(), Some(dependencies(index)))).collect();
+    // Without a list an unknown depends on all: the nodes of a mesh would make it as long as the square of their number.
+    let given = (!interface.inputs().any(|(_, variable)| variable.node().is_some())).then_some(given.as_str());
+    let initial: Vec<Unknown> = interface
         .outputs()
         .filter(|(_, variable)| variable.start.is_none())
         .map(|(index, variable)| {
-            (
-                (index + 1).to_string(),
-                if variable.follows_inputs_at_start { given.as_str() } else { parameters.as_str() },
-            )
+            ((index + 1).to_string(), if variable.follows_inputs_at_start { given } else { Some(parameters.as_str()) })
         })
         .collect();
     xml.create_element("ModelStructure").write_inner_content(|xml| {
@@ -197,15 +196,19 @@ fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
     Ok(())
 }
 
+/// Place of an unknown in the list of variables, from 1, and what it depends on; on all where nothing is said.
+type Unknown<'a> = (String, Option<&'a str>);
+
 /// A list of unknowns, each with what it depends on. An empty list is left out, as the schema demands.
-fn unknowns(xml: &mut Xml, name: &str, unknowns: &[(String, &str)]) -> io::Result<()> {
+fn unknowns(xml: &mut Xml, name: &str, unknowns: &[Unknown]) -> io::Result<()> {
     if unknowns.is_empty() {
         return Ok(());
     }
     xml.create_element(name).write_inner_content(|xml| {
         for (index, dependencies) in unknowns {
             xml.create_element("Unknown")
-                .with_attributes([("index", index.as_str()), ("dependencies", *dependencies)])
+                .with_attribute(("index", index.as_str()))
+                .with_attributes(dependencies.map(|dependencies| ("dependencies", dependencies)))
                 .write_empty()?;
         }
         Ok(())

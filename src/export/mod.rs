@@ -3,6 +3,7 @@
 mod archive;
 mod description;
 mod library;
+mod nodes;
 mod page;
 mod resources;
 
@@ -66,7 +67,8 @@ pub fn export(
         ),
         Resource::new("documentation/index.html", page::write(&model)),
     ];
-    entries.extend(resources(source, bytes).into_iter().map(|entry| entry.inside("resources")));
+    let resources = resources(source, bytes).into_iter().chain(nodes::tables(scene));
+    entries.extend(resources.map(|entry| entry.inside("resources")));
     archive::write(&entries, output).map_err(written)
 }
 

@@ -2,13 +2,14 @@
 
 use super::description::{Model, about};
 use crate::interface::Causality;
+use crate::scene::{Boundary, Scene};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
 /// The page.
 pub(super) fn write(model: &Model<'_>) -> String {
     let mut rows = String::new();
-    for variable in model.interface.variables() {
+    for variable in model.interface.variables().iter().filter(|variable| variable.node().is_none_or(|node| node == 0)) {
         let causality = match variable.causality {
             Causality::Input => "input",
             Causality::Output => "output",
@@ -31,11 +32,26 @@ pub(super) fn write(model: &Model<'_>) -> String {
          points up gives a negative <code>force.z</code>. Moments are taken about the boundary's moved reference \
          point, in global axes. A displacement given before a communication step is reached at its end; it changes \
          no output before that step. At initialisation it is taken without motion. Over each communication step the \
-         change of <code>work</code> is &minus;<code>mean_force</code> times the change of displacement.</p>\n\
+         change of <code>work</code> is &minus;<code>mean_force</code> times the change of displacement.</p>\n{nodes}\
          <table>\n<tr><th>variable</th><th>causality</th><th>unit</th><th>meaning</th></tr>\n{rows}</table>\n\
          </body>\n</html>\n",
+        nodes = nodes(model.scene),
         name = escape(model.identifier),
         about = escape(about(model.scene)),
         version = env!("CARGO_PKG_VERSION"),
     )
+}
+
+/// What is said of meshes whose nodes the outside moves.
+fn nodes(scene: &Scene) -> String {
+    let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
+    let line = |mesh: &Boundary| {
+        format!(
+            "<p><code>{name}</code> has {count} nodes, of which the table shows the first; <code>resources/{name}.nodes.csv</code> has \
+             their numbers and places, <code>resources/{name}.triangles.csv</code> the triangles between them.</p>\n",
+            name = mesh.name,
+            count = mesh.driven_nodes()
+        )
+    };
+    meshes.map(line).collect()
 }

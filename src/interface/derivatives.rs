@@ -95,13 +95,14 @@ impl Interface {
     /// The axis that an input is of.
     fn axis_of(&self, index: usize) -> Result<(BoundaryIndex, usize), InterfaceError> {
         let variable = self.variable(index)?;
+        let no_input = || InterfaceError::NoInput { index, name: variable.name.clone() };
         match &variable.source {
             Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at })
                 if variable.causality == Causality::Input =>
             {
-                Ok((write.axis)(*at))
+                (write.axis)(*at).ok_or_else(no_input)
             }
-            _ => Err(InterfaceError::NoInput { index, name: variable.name.clone() }),
+            _ => Err(no_input()),
         }
     }
 }

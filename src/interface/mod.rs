@@ -101,6 +101,16 @@ pub struct Variable {
     source: Source,
 }
 
+impl Variable {
+    /// The node that it is of, from 0, if it is of one.
+    pub fn node(&self) -> Option<usize> {
+        match &self.source {
+            Source::Row(row) => row.node(),
+            Source::Parameter(_) => None,
+        }
+    }
+}
+
 /// Where a variable comes from.
 #[derive(Clone, Debug, PartialEq)]
 enum Source {
@@ -229,6 +239,11 @@ impl Interface {
     /// The outputs, each with its index.
     pub fn outputs(&self) -> impl Iterator<Item = (usize, &Variable)> {
         self.of_causality(Causality::Output)
+    }
+
+    /// The outputs that a run records, each with its index: all but those of single nodes.
+    pub fn recorded(&self) -> impl Iterator<Item = (usize, &Variable)> {
+        self.outputs().filter(|(_, variable)| variable.node().is_none())
     }
 
     /// The inputs, each with its index.

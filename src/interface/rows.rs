@@ -10,7 +10,7 @@ use crate::dual::Slopes;
 use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::{BondList, BoundaryState, Loss, State};
+use crate::state::{BondList, BoundaryState, Loss, Nodes, State};
 use crate::step::{BoundaryDerivatives, Simulation};
 
 /// Names of the axes in variables.
@@ -31,6 +31,8 @@ pub(super) enum Each {
     Boundary,
     /// One for each boundary and axis: `<boundary>.<name>.<axis>`.
     Axis,
+    /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
+    Node,
     /// One for each region: `<region>.<name>`.
     Region,
     /// One for each region and axis: `<region>.<name>.<axis>`.
@@ -43,7 +45,7 @@ impl Each {
     /// What tells the variables of a boundary or a region apart; one empty name where there is one.
     fn names(self) -> &'static [&'static str] {
         match self {
-            Self::Axis | Self::RegionAxis => &AXES,
+            Self::Axis | Self::Node | Self::RegionAxis => &AXES,
             Self::Component => &COMPONENTS,
             Self::Scene | Self::Boundary | Self::Region => &[""],
         }
@@ -55,6 +57,8 @@ impl Each {
 pub(super) struct At {
     /// The boundary.
     boundary: BoundaryIndex,
+    /// The node, from 0.
+    node: usize,
     /// The region.
     region: usize,
     /// The axis or component.
@@ -74,6 +78,12 @@ impl Present<'_> {
     /// The state of a boundary.
     fn boundary(&self, at: At) -> &BoundaryState {
         &self.simulation.state().boundaries[at.boundary.index()]
+    }
+
+    /// A component of a row of a node.
+    fn node(&self, at: At, rows: fn(&Nodes) -> &[[f64; 4]]) -> Value {
+        let nodes = self.simulation.state().nodes_of(at.boundary.index());
+        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.node][at.axis]))
     }
 
     /// The particles in a region.
@@ -98,8 +108,8 @@ pub(super) struct Write {
     pub(super) held: fn(&State, At) -> f64,
     /// The value before anything is given.
     start: fn(&Scene, At) -> f64,
-    /// Which of the axes of its boundary: along x, y, z, then about them.
-    pub(super) axis: fn(At) -> (BoundaryIndex, usize),
+    /// Which of the axes of its boundary: along x, y, z, then about them; none where it is of a node.
+    pub(super) axis: fn(At) -> Option<(BoundaryIndex, usize)>,
 }
 
 /// Reads how a variable of a boundary changes with inputs.
@@ -165,7 +175,7 @@ const fn given<const FIRST: usize>() -> Option<Write> {
         set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis, rate),
         held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
         start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis].first_input(),
-        axis: |at| (at.boundary, FIRST + at.axis),
+        axis: |at| Some((at.boundary, FIRST + at.axis)),
     })
 }
 
@@ -403,6 +413,41 @@ static OF_BOUNDARIES: [Row; 19] = [
         constant: Some(mass),
         read: |now, at| Value::Real(mass(now.simulation.scene(), at)),
         ..OUTPUT
+    },
+];
+
+/// An output of each node and axis.
+const OF_NODE: Row = Row { each: Each::Node, quantity: Quantity::Force, ..OUTPUT };
+
+/// Variables of each node that moves by itself, inputs first.
+static OF_NODES: [Row; 3] = [
+    Row {
+        name: "displacement",
+        description: "displacement of node {node} of {boundary} along {axis} since the scene's time 0, to be reached at the end of \
+                      the communication step; at initialisation taken without motion",
+        quantity: Quantity::Length,
+        write: Some(Write {
+            set: |simulation, at, value| simulation.set_node(at.boundary, (at.node, at.axis), value),
+            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node, at.axis), rate),
+            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |nodes| nodes.target[at.node][at.axis]),
+            start: |_, _| 0.0,
+            axis: |_| None,
+        }),
+        read: |now, at| now.node(at, |nodes| &nodes.target),
+        ..OF_NODE
+    },
+    Row {
+        name: "force",
+        description: "force of the particles on {boundary} along {axis}, the part of node {node}",
+        read: |now, at| now.node(at, |nodes| &nodes.force),
+        ..OF_NODE
+    },
+    Row {
+        name: "mean_force",
+        description: "force of the particles on {boundary} along {axis}, the part of node {node}, mean over the last communication \
+                      step",
+        read: |now, at| now.node(at, |nodes| &nodes.mean_force),
+        ..OF_NODE
     },
 ];
 
@@ -651,34 +696,48 @@ impl PartialEq for Source {
 /// The variables of a scene, boundary by boundary, then region by region, then of the whole.
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
-    let of_boundaries = boundaries.flat_map(|boundary| OF_BOUNDARIES.iter().map(move |row| (row, boundary, 0)));
-    let regions = 0..scene.regions.len();
-    let of_regions = regions.flat_map(|region| OF_REGIONS.iter().map(move |row| (row, BoundaryIndex(0), region)));
-    let of_scene = OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, BoundaryIndex(0), 0));
-    let places = of_boundaries.chain(of_regions).chain(of_scene).flat_map(|(row, boundary, region)| {
-        (0..row.each.names().len()).map(move |axis| Source { row, at: At { boundary, region, axis } })
+    let none = At { boundary: BoundaryIndex(0), node: 0, region: 0, axis: 0 };
+    let of_boundaries = boundaries.flat_map(|boundary| {
+        let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
+        let of_nodes =
+            OF_NODES.iter().flat_map(move |row| nodes.clone().map(move |node| (row, At { boundary, node, ..none })));
+        OF_BOUNDARIES.iter().map(move |row| (row, At { boundary, ..none })).chain(of_nodes)
     });
+    let regions = 0..scene.regions.len();
+    let of_regions = regions.flat_map(|region| OF_REGIONS.iter().map(move |row| (row, At { region, ..none })));
+    let of_scene = OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, none));
+    let places = of_boundaries
+        .chain(of_regions)
+        .chain(of_scene)
+        .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: At { axis, ..at } }));
     places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
 }
 
 /// All rows.
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
-    OF_BOUNDARIES.iter().chain(&OF_REGIONS).chain(&OF_SCENE).chain(&OF_LOSSES)
+    OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(&OF_SCENE).chain(&OF_LOSSES)
 }
 
 impl Source {
+    /// The node that it is of, from 0.
+    pub(super) fn node(&self) -> Option<usize> {
+        (self.row.each == Each::Node).then_some(self.at.node)
+    }
+
     /// The variable.
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
         let owner = match row.each {
             Each::Scene => "",
-            Each::Boundary | Each::Axis => &scene.boundaries[at.boundary.index()].name,
+            Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.region].name,
         };
         let own = row.each.names()[at.axis];
-        let parts = [owner, row.name, own].into_iter().filter(|part| !part.is_empty());
-        let described = row.description.replace("{axis}", own);
+        let number = (at.node + 1).to_string();
+        let node = if row.each == Each::Node { format!("node[{number}]") } else { String::new() };
+        let parts = [owner, &node, row.name, own].into_iter().filter(|part| !part.is_empty());
+        let described = row.description.replace("{axis}", own).replace("{node}", &number);
         Variable {
             name: parts.collect::<Vec<_>>().join("."),
             description: described.replace("{boundary}", owner).replace("{region}", owner),

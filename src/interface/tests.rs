@@ -3,7 +3,7 @@
 use super::*;
 use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::{AxisMotion, Body, Boundary, InputCourse, Output, Particle, Shape};
+use crate::scene::{AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Particle, Shape};
 use crate::state::BoundaryState;
 use crate::surface::{Group, Plane};
 
@@ -14,6 +14,7 @@ fn scene() -> Scene {
         name: name.to_owned(),
         shape: shape.clone(),
         axes,
+        nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference: [0.0; 3],
         body: Body::default(),

@@ -26,6 +26,19 @@ impl InputCourse {
     }
 }
 
+impl InputCourse {
+    /// Its largest rate, over the mean one.
+    pub(crate) fn steepest(self) -> f64 {
+        match self {
+            // One that holds its new place jumps there: no speed of its own.
+            Self::Hold => 0.0,
+            Self::Ramp => 1.0,
+            // The slope of 3 s² − 2 s³ at its middle.
+            Self::Smooth => 1.5,
+        }
+    }
+}
+
 /// Where a communication step stands: the time steps done with the present one, of how many since it was divided last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {

@@ -21,8 +21,8 @@ use crate::contact::{HistoryRow, Law};
 use crate::geometry::{Frame, Quaternion, rotation};
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene, Shape};
-use crate::state::{Particles, State, StateFault, demand};
-use crate::surface;
+use crate::state::{Nodes, Particles, State, StateFault, demand};
+use crate::surface::{self, Deforming};
 use crate::threads::{CHUNK, Context};
 use grid::Grid;
 use lists::Making;
@@ -207,6 +207,7 @@ impl Search {
         state.neighbours.boundary_reference.extend(state.boundaries.iter().map(|boundary| boundary.displacement));
         state.neighbours.boundary_orientation.clear();
         state.neighbours.boundary_orientation.extend(state.boundaries.iter().map(|boundary| boundary.orientation.0));
+        state.nodes.iter_mut().for_each(|nodes| nodes.listed.clone_from(&nodes.displacement));
         let extents = (0..self.boundaries.len()).map(|boundary| self.extent(state, boundary)).collect();
         state.neighbours.boundary_extent = extents;
         state.neighbours.travel = 0.0;
@@ -238,7 +239,8 @@ impl Search {
             return 0.0;
         }
         let (moved, then) = (&state.boundaries[boundary], &state.neighbours);
-        let shift = way(&moved.displacement, &then.boundary_reference[boundary]);
+        let bent = state.nodes_of(boundary).map_or(0.0, Nodes::way_since_listed);
+        let shift = way(&moved.displacement, &then.boundary_reference[boundary]) + bent;
         if !turns {
             return shift;
         }
@@ -264,6 +266,9 @@ impl Search {
             let (boundary, skin) = (list.boundary, state.neighbours.skin + self.reach);
             let moved = &state.boundaries[boundary as usize];
             let frame = Frame::of(*reference, moved.displacement.into(), moved.orientation.0);
+            let nodes = state.nodes.iter().find(|nodes| nodes.boundary == boundary);
+            let deformed = nodes.and_then(|nodes| Some(sorted(shape.deforming()?, nodes)));
+            let features = deformed.as_ref().map_or(features, Deforming::features);
             let near = surfaces::Near { boundary, material: material.0, features, frame, skin };
             return surfaces::replace(list, &near, (&state.particles, &self.laws), (&self.order, context));
         }
@@ -276,6 +281,13 @@ impl Search {
         let history = self.histories[list.law as usize].len();
         planes::replace(list, plane, (near, history), particles, &mut self.mark, (&self.order, context));
     }
+}
+
+/// A mesh as its nodes stand, its triangles sorted. One without area is told when forces are evaluated.
+fn sorted(mut mesh: Deforming, nodes: &Nodes) -> Deforming {
+    let _ = mesh.follow(&nodes.displacement);
+    mesh.sort();
+    mesh
 }
 
 /// Shape of a boundary, its point of reference, and whether it turns.

@@ -172,7 +172,11 @@ fn boundary(boundary: &Boundary) -> String {
             Some(format!("{axis} {}", motion.words(if index < 3 { "m/s" } else { "rad/s" })?))
         })
         .collect();
-    let motion = if axes.is_empty() { "fixed".to_owned() } else { axes.join(", ") };
+    let motion = match boundary.driven_nodes() {
+        0 if axes.is_empty() => "fixed".to_owned(),
+        0 => axes.join(", "),
+        nodes => format!("its {nodes} nodes driven"),
+    };
     format!("boundary {}: {}, {motion}", boundary.name, boundary.shape.words())
 }
 

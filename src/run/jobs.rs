@@ -7,7 +7,7 @@ use crate::step::Simulation;
 /// The row of the history at the present time.
 pub(crate) fn row(interface: &Interface, simulation: &Simulation, time: f64) -> Job {
     let found = Findings::default();
-    let values = interface.outputs().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
+    let values = interface.recorded().map(|(index, _)| interface.value_with(simulation, &found, index)).collect();
     Job::Row { time, values }
 }
 

@@ -126,7 +126,7 @@ impl<'a> Session<'a> {
             }
         };
         let lock = early_lock.map_or_else(|| claim(&order), Ok)?;
-        let outputs = interface.outputs().map(|(_, variable)| variable.name.clone());
+        let outputs = interface.recorded().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
         if origin != Origin::Here {
             let first = First { order: &order, interface: &interface, schedule: &schedule, names: &names };

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod body;
+mod boundary;
 mod governing;
 mod output;
 mod parameters;
@@ -13,11 +14,12 @@ mod source;
 mod statics;
 
 pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
-pub use crate::motion::{AxisMotion, InputCourse};
+pub use crate::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
 pub use accuracy::Accuracy;
 pub use body::Body;
+pub use boundary::Boundary;
 pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
@@ -215,35 +217,6 @@ impl Particle {
     /// Mass of the full sphere \[kg\].
     pub fn mass(&self) -> f64 {
         4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
-    }
-}
-
-/// `[boundary.<name>]`: where the outside world acts on the particles.
-#[derive(Clone, Debug)]
-pub struct Boundary {
-    /// Its name in the scene and in the unit's variables.
-    pub name: String,
-    /// What it is.
-    pub shape: Shape,
-    /// How it moves along x, y, z, and turns about them.
-    pub axes: [AxisMotion; 6],
-    /// How a driven axis goes from where it stands to its new value.
-    pub input: InputCourse,
-    /// The point about which its moment is taken, at time 0 \[m\].
-    pub reference: [f64; 3],
-    /// Its properties as a rigid body that forces move.
-    pub body: Body,
-}
-
-impl Boundary {
-    /// The plane that it is and stays parallel to, whose particles are worked on in lanes.
-    pub(crate) fn shifting_plane(&self) -> Option<crate::surface::Plane> {
-        self.shape.plane().filter(|_| !self.turns())
-    }
-
-    /// Whether it can turn.
-    pub(crate) fn turns(&self) -> bool {
-        self.axes[3..].iter().any(|motion| !motion.is_fixed())
     }
 }
 

@@ -6,7 +6,7 @@
 //! ([`Pass::check`](crate::interactions::Pass::check)).
 
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{NearParts, Row, State, WallContacts};
+use super::{NearParts, Nodes, Row, State, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -106,6 +106,8 @@ impl State {
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
         demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), same)?;
         demand(self.boundaries.len() == other.boundaries.len(), "boundaries", self.boundaries.len(), same)?;
+        let nodes = |state: &Self| -> Vec<_> { state.nodes.iter().map(|it| (it.boundary, it.target.len())).collect() };
+        demand(nodes(self) == nodes(other), "nodes", 0, "the nodes of the scene's meshes")?;
         demand(self.tuned.len() == other.tuned.len(), "tuned", self.tuned.len(), same)?;
         let lengths = self.coefficients.iter().map(Vec::len).eq(other.coefficients.iter().map(Vec::len));
         demand(lengths, "coefficients", 0, "a row for each two materials of each law")?;
@@ -144,6 +146,9 @@ impl State {
         };
         demand_all(self.breaks.iter().map(broken), "breaks", "a bond law and particles of the scene")?;
         demand_all(self.boundaries.iter().map(BoundaryState::is_finite), "boundaries", FINITE)?;
+        let there = self.nodes.iter().map(|nodes| (nodes.boundary as usize) < self.boundaries.len());
+        demand_all(there, "nodes", "a boundary of the scene")?;
+        self.nodes.iter().try_for_each(Nodes::check)?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
         self.losses.iter().try_for_each(Losses::check)?;
         all_finite(&self.damping_force, "damping_force")?;
@@ -464,6 +469,17 @@ impl BoundaryState {
             && rows.iter().flatten().all(|number| number.is_finite())
             && blocks.clone().all(|number| number.is_finite())
             && [*work].iter().chain(&self.impedance).all(|number| number.is_finite())
+    }
+}
+
+impl Nodes {
+    /// Whether the columns have one length and finite numbers.
+    fn check(&self) -> Result<(), StateFault> {
+        let count = self.target.len();
+        let lengths = self.columns().map(|column| column.len() == count);
+        demand_all(lengths.into_iter(), "nodes", "columns of one length")?;
+        self.columns().into_iter().try_for_each(|column| finite(column, "nodes"))?;
+        demand(self.fastest.is_finite() && self.fastest >= 0.0, "nodes", 0, "a speed of 0 or above")
     }
 }
 

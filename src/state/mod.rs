@@ -13,6 +13,7 @@ mod in_place;
 mod layout;
 pub mod ledger;
 pub mod losses;
+pub mod nodes;
 pub mod particles;
 mod plain;
 pub mod snapshot;
@@ -26,6 +27,7 @@ pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use foresight::Foresight;
 pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
+pub use nodes::Nodes;
 pub use particles::Particles;
 
 pub use crate::number::Row;
@@ -60,6 +62,8 @@ pub struct State {
     pub breaks: Vec<Break>,
     /// Motion and loads of the boundaries, in the scene's order.
     pub boundaries: Vec<BoundaryState>,
+    /// Nodes of the meshes among them whose nodes the outside moves, in the scene's order.
+    pub nodes: Vec<Nodes>,
     /// The algorithmic energy book, if the scene asks for it.
     pub ledger: Option<Ledger>,
     /// The physical energy book, if the scene asks for it.
@@ -82,6 +86,7 @@ clone_in_place!(State {
     bonds,
     breaks,
     boundaries,
+    nodes,
     ledger,
     losses,
     damping_force,
@@ -89,6 +94,16 @@ clone_in_place!(State {
 });
 
 impl State {
+    /// The nodes of a boundary, if the outside moves them.
+    pub(crate) fn nodes_of(&self, boundary: usize) -> Option<&Nodes> {
+        self.nodes.iter().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut Nodes> {
+        self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
     /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {

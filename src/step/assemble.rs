@@ -11,7 +11,8 @@ use crate::interactions::surfaces::SurfacePass;
 use crate::neighbours;
 use crate::scene::{Boundary, Scene};
 use crate::state::{
-    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Particles, State, WallContacts,
+    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Particles, State,
+    WallContacts,
 };
 use std::sync::Mutex;
 
@@ -31,6 +32,7 @@ pub(super) fn state(scene: &Scene) -> State {
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),
+        nodes: nodes(scene),
         ledger: scene.output.energy.then(Ledger::default),
         losses: scene.output.losses.then(Losses::default),
         damping_force: [0.0; 3],
@@ -90,6 +92,13 @@ fn boundary(scene: &Scene, boundary: &Boundary) -> BoundaryState {
         body.begin(scene, boundary, &mut moved);
     }
     moved
+}
+
+/// Nodes that the outside moves, at rest.
+fn nodes(scene: &Scene) -> Vec<Nodes> {
+    let count = |(index, boundary): (usize, &Boundary)| (index as u32, boundary.driven_nodes());
+    let meshes = scene.boundaries.iter().enumerate().map(count).filter(|(_, count)| *count > 0);
+    meshes.map(|(boundary, count)| Nodes::at_rest(boundary, count)).collect()
 }
 
 /// Surfaces and contact laws that can meet: boundary and law.

@@ -30,7 +30,7 @@ pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
 use crate::boundaries::felt::{self, Felt};
-use crate::boundaries::{RigidBody, course, rigid_body};
+use crate::boundaries::{RigidBody, course, nodes, rigid_body};
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
 use crate::interactions::Pass;
@@ -94,6 +94,8 @@ struct Room {
     ways: Vec<course::Way>,
     /// Their loads in the last step.
     loads: Vec<Felt>,
+    /// Nodes of meshes before the time step.
+    nodes: nodes::Before,
     /// Loads that have been booked.
     seen: Loads,
     /// Bonds of each law before some were made.
@@ -282,6 +284,21 @@ impl Simulation {
         boundary.target_rate[axis] = 0.0;
     }
 
+    /// Sets where a node of a mesh, by its number from 0, is to be at the end of the next interval, along x, y or z \[m\].
+    pub fn set_node(&mut self, boundary: BoundaryIndex, (node, axis): (usize, usize), value: f64) {
+        if let Some(nodes) = self.state.nodes_of_mut(boundary.index()) {
+            nodes.target[node][axis] = value;
+            nodes.target_rate[node][axis] = 0.0;
+        }
+    }
+
+    /// The rate of that value over the next interval \[m/s\].
+    pub fn set_node_rate(&mut self, boundary: BoundaryIndex, (node, axis): (usize, usize), rate: f64) {
+        if let Some(nodes) = self.state.nodes_of_mut(boundary.index()) {
+            nodes.target_rate[node][axis] = rate;
+        }
+    }
+
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval.
     pub fn set_input_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
@@ -297,11 +314,13 @@ impl Simulation {
             return Err(RunError::Interval { interval });
         }
         course::begin(&self.scene, &mut self.state, interval)?;
+        nodes::begin(&self.scene, &mut self.state, interval);
         self.state.breaks.clear();
         let mut workers = std::mem::take(&mut self.workers);
         let (elapsed, result) = workers.run(|threads| self.run(interval, threads));
         self.workers = workers;
         course::end(&mut self.state, elapsed);
+        nodes::end(&mut self.state, elapsed);
         result.map_err(|error| self.named(error))
     }
 
@@ -365,8 +384,10 @@ impl Simulation {
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
         let time = self.state.clock.time;
-        let Room { ways, .. } = &mut self.room;
-        course::advance(&self.scene, &self.bodies, &mut self.state, Progress { time, ..progress }, ways);
+        let Room { ways, nodes, .. } = &mut self.room;
+        let progress = Progress { time, ..progress };
+        course::advance(&self.scene, &self.bodies, &mut self.state, progress, ways);
+        nodes::advance(&self.scene, &mut self.state, &progress, nodes, ways);
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let ways = &self.room.ways;
         let carried = ways.iter().fold(0.0, |most: f64, way| most.max(way.carried));
@@ -389,9 +410,10 @@ impl Simulation {
         }
         self.done("lists and boundaries");
         felt::clear_loads(&mut self.state, &mut self.room.loads);
+        nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone(&self.state);
-        self.evaluate_slopes(&Progress { time, ..progress });
+        self.evaluate_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
@@ -403,6 +425,7 @@ impl Simulation {
         self.state.clock.speed = speed;
         self.done("kick");
         felt::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, step);
+        nodes::book(&mut self.state, &self.room.nodes, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);
         }
@@ -449,6 +472,7 @@ impl Simulation {
     fn start(&mut self) -> Result<(), RunError> {
         self.state.begin_counting();
         felt::clear_loads(&mut self.state, &mut self.room.loads);
+        nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let context = self.standing();
         integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);

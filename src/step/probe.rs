@@ -1,7 +1,7 @@
 //! A simulation at rest whose bodies are displaced a little: how forces answer, however slowly that is done.
 
 use super::{RunError, Simulation};
-use crate::boundaries::{felt, rigid_body};
+use crate::boundaries::{felt, nodes, rigid_body};
 use crate::geometry::{Quaternion, rotation};
 use crate::integration;
 use crate::interactions::{Ahead, Link};
@@ -56,6 +56,7 @@ impl Probe {
         for boundary in &mut rest.boundaries {
             (boundary.velocity, boundary.angular_velocity) = ([0.0; 3], [0.0; 3]);
         }
+        rest.nodes.iter_mut().for_each(|nodes| nodes.velocity.fill([0.0; 4]));
         Self { simulation: Simulation::with(Arc::clone(&simulation.scene), rest.clone()), rest }
     }
 
@@ -95,6 +96,7 @@ impl Probe {
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
         rigid_body::place_groups(scene, bodies, state);
         felt::clear_loads(&mut simulation.state, &mut simulation.room.loads);
+        nodes::clear_loads(&mut simulation.state, &mut simulation.room.nodes);
         integration::clear_loads(&mut simulation.state.particles);
         let context = Context { step: SLOWLY, ..simulation.standing() };
         simulation.evaluate(false, &context)?;

@@ -185,6 +185,7 @@ impl Simulation {
             | RunError::Stopped { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
+            | RunError::Collapsed { .. }
             | RunError::Memory { .. } => {}
         }
         error

@@ -1,7 +1,7 @@
 //! Where a simulation starts: as the scene was built, with driven axes moved, or in a state that another one reached.
 
 use super::{RunError, Simulation, assemble};
-use crate::boundaries::{course, placing, rigid_body};
+use crate::boundaries::{course, nodes, placing, rigid_body};
 use crate::scene::{AxisMotion, Scene};
 use crate::state::{BoundaryState, State};
 use std::sync::Arc;
@@ -32,17 +32,17 @@ impl Simulation {
         let (coefficients, tuned) = (self.state.coefficients.clone(), self.state.tuned.clone());
         let from = State { coefficients, tuned, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
         let before = std::mem::replace(&mut self.state, from);
-        self.put(&before.boundaries, begun.is_none()).inspect_err(|_| self.state = before)
+        self.put(&before, begun.is_none()).inspect_err(|_| self.state = before)
     }
 
-    /// Puts the driven axes to these inputs.
-    fn put(&mut self, inputs: &[BoundaryState], unbuilt: bool) -> Result<(), RunError> {
+    /// Puts driven axes and nodes to the inputs of a state.
+    fn put(&mut self, inputs: &State, unbuilt: bool) -> Result<(), RunError> {
         if unbuilt {
             self.build()?;
         }
         let (mut moves, mut loads) = (false, false);
         let boundaries = self.scene.boundaries.iter().zip(&mut self.state.boundaries);
-        for ((boundary, moved), given) in boundaries.zip(inputs) {
+        for ((boundary, moved), given) in boundaries.zip(&inputs.boundaries) {
             for axis in (0..6).filter(|&axis| boundary.axes[axis].takes_place()) {
                 let place = if axis < 3 { moved.displacement[axis] } else { moved.rotation[axis - 3] };
                 moves |= place != given.target[axis];
@@ -55,6 +55,9 @@ impl Simulation {
                 (moved.target[axis], moved.target_rate[axis]) = (given.target[axis], given.target_rate[axis]);
             }
             course::apply_inputs(boundary, moved);
+        }
+        for (moved, given) in self.state.nodes.iter_mut().zip(&inputs.nodes) {
+            moves |= nodes::put(moved, given);
         }
         if moves {
             rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
@@ -72,6 +75,9 @@ impl Simulation {
                 moved.target_rate[axis] = given.target_rate[axis];
             }
         }
+        for (moved, given) in self.state.nodes.iter_mut().zip(&other.state.nodes) {
+            nodes::take_inputs(moved, given);
+        }
     }
 
     /// Lets every count and book begin anew at the present state.
@@ -87,6 +93,9 @@ impl Simulation {
         for boundary in &mut self.state.boundaries {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;
+        }
+        for nodes in &mut self.state.nodes {
+            nodes.mean_force.clone_from(&nodes.force);
         }
         if let (Some(ledger), Some((kinetic, elastic))) = (&mut self.state.ledger, energies) {
             ledger.initial_kinetic = kinetic;

@@ -5,7 +5,7 @@
 //! same steps give the same bits, so going them again leads to where the failed one began.
 
 use super::{RunError, Simulation};
-use crate::state::State;
+use crate::state::{Row, State};
 
 /// Time steps after which a new state is kept: what going back may cost, and what the copy is shared by.
 const MOST_STEPS: u64 = 64;
@@ -30,6 +30,8 @@ pub(super) struct WayBack {
     intervals: Vec<f64>,
     /// What was given for them, boundary by boundary.
     given: Vec<Given>,
+    /// The same of the nodes of meshes: values and rates.
+    nodes: Vec<[Row; 2]>,
     /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
     close: bool,
 }
@@ -54,12 +56,15 @@ impl WayBack {
             }
             self.intervals.clear();
             self.given.clear();
+            self.nodes.clear();
             self.holds = true;
         }
         self.intervals.push(interval);
         let given =
             |boundary: &crate::state::BoundaryState| Given { target: boundary.target, rate: boundary.target_rate };
         self.given.extend(state.boundaries.iter().map(given));
+        let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
+        self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
     }
 }
 
@@ -93,6 +98,12 @@ impl Simulation {
             let count = self.state.boundaries.len();
             for (boundary, given) in self.state.boundaries.iter_mut().zip(&way.given[number * count..]) {
                 (boundary.target, boundary.target_rate) = (given.target, given.rate);
+            }
+            let count = self.state.nodes.iter().map(|nodes| nodes.target.len()).sum::<usize>();
+            let nodes =
+                self.state.nodes.iter_mut().flat_map(|nodes| nodes.target.iter_mut().zip(&mut nodes.target_rate));
+            for ((target, rate), given) in nodes.zip(&way.nodes[number * count..]) {
+                [*target, *rate] = *given;
             }
             if number < last {
                 self.advance(interval).expect("steps that were made before can be made again");

@@ -21,6 +21,7 @@ pub use facets::Facets;
 pub use feet::{Features, Feet, Foot, Saddle};
 pub use group::Group;
 pub(crate) use group::Selection;
+pub use mesh::{Deforming, Grip};
 pub use plane::Plane;
 
 use crate::number::Vector;
@@ -94,6 +95,21 @@ pub trait Surface: Debug + Send + Sync {
     /// Where a sphere touches it, if it is a surface of features: any surface except a plane.
     fn features(&self) -> Option<&dyn Features> {
         None
+    }
+
+    /// The same as a surface whose vertices move one by one, if it is made of such.
+    fn deforming(&self) -> Option<Deforming> {
+        None
+    }
+
+    /// Its vertices at time 0, if it is made of such \[m\].
+    fn vertices(&self) -> &[Vector] {
+        &[]
+    }
+
+    /// The vertices of each of its triangles, if it is made of such.
+    fn triangles(&self) -> &[[u32; 3]] {
+        &[]
     }
 
     /// How far in front of the surface, at time 0, a centre is, negative behind it \[m\]; nothing for a group, which has no

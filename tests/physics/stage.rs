@@ -6,7 +6,9 @@ use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
-use cograin::scene::{AxisMotion, Body, Boundary, ContactLaw, InputCourse, Particle, Run, Scene, Shape, Step};
+use cograin::scene::{
+    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, Run, Scene, Shape, Step,
+};
 use cograin::step::Simulation;
 use cograin::surface::Plane;
 use std::sync::Arc;
@@ -76,6 +78,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         name: "plane".into(),
         shape: Shape::of(Plane { material: MaterialIndex(material), point, normal }),
         axes: [const { AxisMotion::Fixed }; 6],
+        nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),

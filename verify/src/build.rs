@@ -8,7 +8,8 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, Particle, Run, Scene, Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, Run, Scene,
+    Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -133,6 +134,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
                 Some(&speed) if speed != 0.0 => AxisMotion::Prescribed(speed),
                 _ => AxisMotion::Fixed,
             }),
+            nodes: NodeMotion::Rigid,
             input: InputCourse::Ramp,
             reference: case.particles[case.by_id()[first]].position,
             body: Body::default(),
@@ -182,6 +184,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
         name: format!("wall{index}"),
         shape,
         axes,
+        nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference,
         body: Body::default(),
@@ -218,6 +221,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
             normal: normal.map(|component| component / length),
         }),
         axes: [const { AxisMotion::Fixed }; 6],
+        nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),

@@ -7,8 +7,9 @@
 
 use super::AtSurface;
 use super::history::{Past, source, taken};
+use super::nodes::{Held, HeldColumns, Moving};
 use super::sphere::{Load, Loaded, SphereAt, along, lanes};
-use super::{Range, Work};
+use super::{Range, Touched, Work};
 use crate::batches::coefficients::CoefficientTable;
 use crate::batches::{Bodies, ContactGeometry, Entries, FOUND, Touching};
 use crate::contact::{Contact, Law, MOST_HISTORY, Needs, Reaction};
@@ -18,8 +19,9 @@ use crate::interactions::records::{self, ContactRecord, Motion};
 use crate::lanes::{Lane, vector};
 use crate::number::Vector;
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
-use crate::state::{BoundaryState, Row, State, WallContacts};
+use crate::state::{BoundaryState, Nodes, Row, State, WallContacts};
 use crate::surface::{Features, Feet, Foot};
+use std::sync::PoisonError;
 
 /// A surface where it stands, as it moves.
 #[derive(Clone, Copy)]
@@ -40,6 +42,8 @@ struct Standing<'a> {
     conveying: Vector,
     /// Whether it does.
     conveys: bool,
+    /// Its nodes, where they move one by one.
+    moving: Option<Moving<'a>>,
 }
 
 impl<'a> Standing<'a> {
@@ -49,7 +53,25 @@ impl<'a> Standing<'a> {
         let spin = boundary.angular_velocity.into();
         let (pivot, turning) = (frame.pivot(), spin != Vector::zero());
         let (conveying, conveys) = (frame.outside(surface.conveying), surface.conveying != Vector::zero());
-        Self { features, frame, pivot, velocity: boundary.velocity.into(), spin, turning, conveying, conveys }
+        let velocity = boundary.velocity.into();
+        Self { features, frame, pivot, velocity, spin, turning, conveying, conveys, moving: None }
+    }
+
+    /// The surface of a boundary, whose nodes may move one by one, where it stands.
+    fn with<T>(
+        surface: &AtSurface,
+        (boundary, nodes): (&BoundaryState, Option<&Nodes>),
+        then: impl FnOnce(Standing) -> T,
+    ) -> Option<T> {
+        match (&surface.touched, nodes) {
+            (Touched::Features(shape), _) => Some(then(Standing::of(shape.features()?, surface, boundary))),
+            (Touched::Nodes(shape), Some(nodes)) => {
+                let shape = shape.read().unwrap_or_else(PoisonError::into_inner);
+                let moving = Some(Moving { shape: &shape, nodes });
+                Some(then(Standing { moving, ..Standing::of(shape.features(), surface, boundary) }))
+            }
+            _ => None,
+        }
     }
 
     /// Geometry and relative motion of spheres. The surface moves as at the point of contact, half an overlap behind it, where
@@ -60,6 +82,7 @@ impl<'a> Standing<'a> {
         sphere: &SphereAt<N>,
         position: [N; 4],
         motion: [[N; 4]; 2],
+        moving: Option<[Vector<N>; 2]>,
         pair_constant: N,
     ) -> ContactGeometry<N> {
         let (mut velocity, mut relative_spin) = (lanes(self.velocity), vector(motion[1]));
@@ -67,6 +90,10 @@ impl<'a> Standing<'a> {
             let (spin, point) = (lanes(self.spin), vector(position) - sphere.normal * sphere.arm());
             velocity += spin.cross(point - lanes(self.pivot));
             relative_spin = relative_spin - spin;
+        }
+        if let Some([along, about]) = moving {
+            velocity += along;
+            relative_spin = relative_spin - about;
         }
         if self.conveys {
             velocity += along(lanes(self.conveying), sphere.normal);
@@ -93,10 +120,21 @@ struct Stand<'a> {
 impl Stand<'_> {
     /// The contact at a foot.
     fn meet(&self, foot: &Foot) -> ContactGeometry {
+        let moving = self.at.moving.map(|moving| moving.motion(foot, self.centre(), self.body[0][3]));
+        self.meet_moving(foot, moving)
+    }
+
+    /// Its centre in the axes of the surface \[m\].
+    fn centre(&self) -> Vector {
+        self.at.frame.inside(Vector::from(self.body[0]))
+    }
+
+    /// The contact at a foot, where the nodes give this motion to the surface.
+    fn meet_moving(&self, foot: &Foot, moving: Option<[Vector; 2]>) -> ContactGeometry {
         let [position, velocity, spin] = self.body;
         let normal = self.at.frame.outside(foot.normal);
         let sphere = SphereAt { normal, distance: foot.distance, radius: position[3] };
-        self.at.meet(&sphere, position, [velocity, spin], self.constant)
+        self.at.meet(&sphere, position, [velocity, spin], moving, self.constant)
     }
 
     /// Elastic force of a foot without motion \[N\].
@@ -105,7 +143,7 @@ impl Stand<'_> {
             normal_velocity: 0.0,
             slip: Vector::zero(),
             relative_spin: Vector::zero(),
-            ..self.meet(foot).contact
+            ..self.meet_moving(foot, None).contact
         };
         law.react(self.row, &resting, &mut [[0.0; 4]; MOST_HISTORY], 0.0).force.dot(resting.normal)
     }
@@ -147,6 +185,8 @@ pub(super) struct FeatureContacts {
     weight: Vec<[f64; 2]>,
     /// Whether the centre is behind the face.
     behind: Vec<bool>,
+    /// What it has beside where nodes move one by one.
+    held: Held,
     /// What the present particle touches.
     feet: Feet,
 }
@@ -163,6 +203,12 @@ impl FeatureContacts {
         self.foot.clear();
         self.weight.clear();
         self.behind.clear();
+        self.held.clear();
+    }
+
+    /// What the contacts have beside where nodes move one by one.
+    pub(super) fn held(&self) -> &Held {
+        &self.held
     }
 
     /// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
@@ -204,22 +250,23 @@ fn constant(list: &WallContacts, place: usize) -> f64 {
 
 impl AtSurface {
     /// What the particles in a range of slots do to a surface of features.
-    pub(super) fn piece_at_features(
-        &self,
-        features: &dyn Features,
-        work: &Work,
-        slots: Range<usize>,
-        contacts: &mut FeatureContacts,
-    ) -> Load {
+    pub(super) fn piece_at_features(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
+        let boundary = work.walls[self.index].boundary as usize;
+        let nodes = work.nodes.iter().find(|nodes| nodes.boundary as usize == boundary);
+        let evaluate = |at: Standing| self.piece_at(at, work, slots, contacts);
+        Standing::with(self, (&work.boundaries[boundary], nodes), evaluate).unwrap_or_default()
+    }
+
+    /// The same where it stands.
+    fn piece_at(&self, at: Standing, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let list = &work.walls[self.index];
-        let at = Standing::of(features, self, &work.boundaries[list.boundary as usize]);
         contacts.clear(self.kept_rows);
         let through = self.find(&at, list, &work.particles, slots, contacts);
         let count = contacts.particle.len();
         contacts.number.extend(contacts.number.len() as u32..count as u32);
-        let FeatureContacts { particle, number, foot, weight, flags, history, pair_constant, .. } = contacts;
-        let particles = work.particles;
-        let bodies = AtFeet { at, particle, number, foot, weight, material: self.material, particles };
+        let FeatureContacts { particle, number, foot, weight, flags, history, pair_constant, held, .. } = contacts;
+        let (particles, held) = (work.particles, at.moving.map(|_| held.columns()));
+        let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
         let entries = Entries::of(flags, history, pair_constant);
         let load = self.run(&self.batches(bodies, entries, work.context), 0..count);
         contacts.finish();
@@ -294,17 +341,32 @@ impl AtSurface {
             contacts.foot.push(normal.row_with(foot.distance));
             contacts.weight.push([foot.weight, share]);
             contacts.behind.push(foot.behind);
+            if let Some(moving) = &stand.at.moving {
+                contacts.held.push(moving, (foot, normal), stand.centre(), stand.body[0][3]);
+            }
             through |= past.went_through(foot);
         }
         through
     }
 
     /// Hands out the contacts of the last evaluation: entry of the list, foot, its share of friction, contact.
-    fn each(&self, state: &State, motion: Motion, mut hand: impl FnMut(usize, &Foot, f64, &ContactGeometry)) {
+    fn each(&self, state: &State, motion: Motion, hand: impl FnMut(usize, &Foot, f64, &ContactGeometry)) {
+        // A face without area has been told when forces were evaluated.
+        let _ = self.follow(state);
+        let boundary = self.list(state).boundary as usize;
+        let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
+        Standing::with(self, standing, |at| self.each_at(&at, state, motion, hand));
+    }
+
+    /// The same where it stands.
+    fn each_at(
+        &self,
+        at: &Standing,
+        state: &State,
+        motion: Motion,
+        mut hand: impl FnMut(usize, &Foot, f64, &ContactGeometry),
+    ) {
         let (list, law) = (self.list(state), &self.law.law);
-        let super::Touched::Features(shape) = &self.touched else { return };
-        let Some(features) = shape.features() else { return };
-        let at = Standing::of(features, self, &state.boundaries[list.boundary as usize]);
         let (mut feet, mut entry) = (Feet::default(), 0);
         while entry < list.particle.len() {
             let slot = list.particle[entry];
@@ -314,7 +376,7 @@ impl AtSurface {
             let (velocity, spin) = motion.of(state, slot);
             let constant = constant(list, place);
             let row = self.row(state, slot);
-            let stand = Stand { at: &at, body: [position, velocity, spin], row, constant };
+            let stand = Stand { at, body: [position, velocity, spin], row, constant };
             let beyond = if law.holds_beyond_touch() { constant } else { 0.0 };
             feet.clear();
             at.features.feet(
@@ -335,7 +397,8 @@ impl AtSurface {
     /// Tells the stiffness of the contacts with features.
     pub(super) fn stiffness_at_features(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
         let (list, law) = (self.list(state), &self.law.law);
-        let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length();
+        let bent = state.nodes_of(list.boundary as usize).map_or(0.0, |nodes| nodes.fastest);
+        let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length() + bent;
         self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, first_arm, .. }| {
             // A saddle only takes away from what its faces have.
             if foot.weight > 0.0 {
@@ -416,6 +479,8 @@ struct AtFeet<'a> {
     foot: &'a [Row],
     /// How often the normal force counts, and the share of friction.
     weight: &'a [[f64; 2]],
+    /// How the surface moves at each, where nodes move one by one.
+    held: Option<HeldColumns<'a>>,
     /// The surface's material.
     material: u32,
     /// The particles.
@@ -459,16 +524,17 @@ impl Bodies for AtFeet<'_> {
     unsafe fn meet<N: Lane, const TORQUE: bool>(
         &self,
         first: *const u32,
-        _second: *const u32,
+        second: *const u32,
         [distance, radius, x, y, z]: [N; FOUND],
         _roots: [N; 2],
     ) -> ContactGeometry<N> {
-        // SAFETY: entries are slots of particles.
-        let (position, motion) = unsafe {
-            (N::load_rows(self.particles.position.as_ptr(), first), self.particles.motion::<N, TORQUE>(first))
+        // SAFETY: entries are slots of particles and numbers of feet.
+        let (position, motion, moving) = unsafe {
+            let position = N::load_rows(self.particles.position.as_ptr(), first);
+            (position, self.particles.motion::<N, TORQUE>(first), self.held.map(|held| held.motion(second)))
         };
         let sphere = SphereAt { normal: Vector::new(x, y, z), distance, radius };
-        self.at.meet(&sphere, position, motion, N::zero())
+        self.at.meet(&sphere, position, motion, moving, N::zero())
     }
 
     fn weights(&self) -> Option<&[[f64; 2]]> {
@@ -498,6 +564,9 @@ impl Bodies for AtFeet<'_> {
             }
             // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
             unsafe {
+                if let Some(held) = self.held {
+                    held.note(number, loads[0], needs.spin.then_some(loads[2]));
+                }
                 self.particles.add(slot, (normal, first_arm[place]), &loads, needs, (self.at.pivot, &mut *load));
             }
         }

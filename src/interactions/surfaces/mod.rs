@@ -6,6 +6,7 @@
 
 mod features;
 mod history;
+mod nodes;
 mod plane;
 mod slopes;
 mod sphere;
@@ -23,15 +24,15 @@ use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
 use crate::scene::{Boundary, Scene, Shape};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, State, StateFault, WallContacts};
-use crate::surface;
+use crate::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
+use crate::surface::{self, Deforming};
 use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use features::FeatureContacts;
 use plane::{AtPlane, Plane, PlaneList};
 use sphere::{Load, Loaded};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, RwLock};
 
 /// Particles in one piece of work.
 const PIECE: usize = 2 * CHUNK;
@@ -72,6 +73,8 @@ enum Touched {
     Plane(Plane),
     /// Features of a shape.
     Features(Shape),
+    /// Features of a mesh whose nodes move one by one, as it stood last.
+    Nodes(RwLock<Box<Deforming>>),
 }
 
 /// Working space of a step, kept from one step to the next.
@@ -93,6 +96,8 @@ struct Work<'a> {
     entries: &'a [Entries],
     /// Boundaries.
     boundaries: &'a [BoundaryState],
+    /// Nodes of meshes.
+    nodes: &'a [Nodes],
     /// Particles.
     particles: Loaded<'a>,
     /// The threads.
@@ -109,7 +114,10 @@ impl AtSurface {
                 let (point, normal, velocity) = (point.into(), normal.into(), Vector::zero());
                 Touched::Plane(Plane { point, normal, velocity, conveying: sphere::along(conveying, normal) })
             }
-            None => Touched::Features(boundary.shape.clone()),
+            None => match boundary.shape.deforming().filter(|_| boundary.driven_nodes() > 0) {
+                Some(mesh) => Touched::Nodes(RwLock::new(Box::new(mesh))),
+                None => Touched::Features(boundary.shape.clone()),
+            },
         };
         Self {
             index,
@@ -149,10 +157,7 @@ impl AtSurface {
                 let load = self.run(&self.batches(bodies, work.entries[self.index], work.context), from..to);
                 Load { conveying_power: -plane.conveying.dot(load.force.into()), ..load }
             }
-            Touched::Features(shape) => match shape.features() {
-                Some(features) => self.piece_at_features(features, work, slots, contacts),
-                None => Load::default(),
-            },
+            Touched::Features(_) | Touched::Nodes(_) => self.piece_at_features(work, slots, contacts),
         }
     }
 
@@ -219,6 +224,7 @@ impl SurfacePass {
 
 impl Pass for SurfacePass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        self.surfaces.iter().try_for_each(|surface| surface.follow(state))?;
         let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
         let (room, count) = (&mut *room, self.surfaces.len());
         let pieces = state.particles.len().div_ceil(PIECE);
@@ -233,6 +239,7 @@ impl Pass for SurfacePass {
             walls: &state.walls,
             entries: &room.entries,
             boundaries: &state.boundaries,
+            nodes: &state.nodes,
             particles: Loaded::of(&mut state.particles),
             context,
         };
@@ -246,9 +253,10 @@ impl Pass for SurfacePass {
         });
         let mut result = Ok(());
         for (place, surface) in self.surfaces.iter().enumerate() {
-            if let Touched::Features(_) = surface.touched {
-                let found = room.contacts.iter().skip(place).step_by(count);
-                features::replace(&mut state.walls[surface.index], surface.kept_rows, found);
+            if surface.has_features() {
+                let found = || room.contacts.iter().skip(place).step_by(count);
+                features::replace(&mut state.walls[surface.index], surface.kept_rows, found());
+                surface.load_nodes(state, found().map(FeatureContacts::held));
             }
             result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
         }
@@ -264,9 +272,8 @@ impl Pass for SurfacePass {
             let (list, constant) = (surface.list(state), surface.law.law.has_pair_constant());
             match &surface.touched {
                 Touched::Plane(_) => list.check_columns(surface.kept_rows, constant),
-                Touched::Features(shape) => {
-                    let counts = shape.features().map_or([0; 2], |features| features.counts());
-                    list.check_features(surface.kept_rows, constant, counts)
+                Touched::Features(_) | Touched::Nodes(_) => {
+                    list.check_features(surface.kept_rows, constant, surface.touched.counts())
                 }
             }
         })
@@ -293,7 +300,7 @@ impl Pass for SurfacePass {
             if law.has_pair_constant() {
                 let near = match &surface.touched {
                     Touched::Plane(_) => &list.particle,
-                    Touched::Features(_) => &list.near.particle,
+                    Touched::Features(_) | Touched::Nodes(_) => &list.near.particle,
                 };
                 list.pair_constant.extend(near.iter().map(|&slot| {
                     let slot = slot as usize;
@@ -360,12 +367,28 @@ impl Pass for SurfacePass {
     }
 
     fn largest_overlap(&self, state: &State) -> f64 {
-        let at_features = self.surfaces.iter().filter(|surface| matches!(surface.touched, Touched::Features(_)));
+        let at_features = self.surfaces.iter().filter(|surface| surface.has_features());
         at_features.map(|surface| surface.largest_overlap(state)).fold(0.0, f64::max)
     }
 }
 
+impl Touched {
+    /// How many parts, and how many features, there are.
+    fn counts(&self) -> [usize; 2] {
+        match self {
+            Self::Plane(_) => [0; 2],
+            Self::Features(shape) => shape.features().map_or([0; 2], |features| features.counts()),
+            Self::Nodes(shape) => shape.read().unwrap_or_else(PoisonError::into_inner).features().counts(),
+        }
+    }
+}
+
 impl AtSurface {
+    /// Whether it is touched feature by feature.
+    fn has_features(&self) -> bool {
+        !matches!(self.touched, Touched::Plane(_))
+    }
+
     /// Its contacts, if it is a plane that does not turn.
     fn plane_list(&self, state: &State) -> Option<PlaneList<'_>> {
         let Touched::Plane(plane) = &self.touched else { return None };

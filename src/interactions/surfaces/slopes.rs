@@ -27,7 +27,7 @@ impl AtSurface {
                 self.add_slopes_at(&plane.at(boundary), state, tangent, step);
             }
             // Scenes with others are refused before.
-            Touched::Features(_) => {}
+            Touched::Features(_) | Touched::Nodes(_) => {}
         }
     }
 

@@ -10,8 +10,8 @@ use crate::contact::Material;
 use crate::document::Faults;
 use crate::document::Mistake;
 use crate::quantity::MaterialIndex;
-use crate::scene::Boundary;
 use crate::scene::Source;
+use crate::scene::{AxisMotion, Boundary, NodeMotion};
 use crate::scene_file::tables::BoundaryTable;
 use crate::surface::{Around, Selection, Shape, Surface};
 
@@ -32,7 +32,8 @@ pub(super) fn boundaries(
         let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
         let axes = motion::axes(&boundary.motion, source, &table, faults);
         motion::check(&axes, &*shape, boundary.reference.is_some(), &table, faults);
-        if boundary.input.is_some() && !axes.iter().any(|axis| axis.takes_place()) {
+        let driven = nodes(boundary.nodes, &axes, &*shape, &table, faults);
+        if boundary.input.is_some() && !driven && !axes.iter().any(|axis| axis.takes_place()) {
             let (what, right) = ("no axis is driven by displacement".to_owned(), "leave input out".to_owned());
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
@@ -41,9 +42,26 @@ pub(super) fn boundaries(
         // What moves and turns by forces does so about its mass centre.
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
-        boundaries.push(Boundary { name: name.clone(), shape, axes, input, reference, body });
+        let nodes = boundary.nodes;
+        boundaries.push(Boundary { name: name.clone(), shape, axes, nodes, input, reference, body });
     }
     boundaries
+}
+
+/// Whether the outside moves the nodes of a boundary; reports those that are not there, or that move with axes.
+fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) -> bool {
+    if motion == NodeMotion::Rigid {
+        return false;
+    }
+    if shape.vertices().is_empty() {
+        let (what, right) = (format!("a {} has no nodes", shape.key()), "a mesh has nodes".to_owned());
+        faults.add(table, "nodes", Mistake::Senseless { what, right });
+    } else if let Some(axis) = axes.iter().position(|axis| !axis.is_fixed() || axis.conveys() != 0.0) {
+        let what = format!("driven nodes, and {} moves, too", AxisMotion::WORDS[axis]);
+        let right = "leave motion out: the displacements of the nodes say it all".to_owned();
+        faults.add(table, "nodes", Mistake::Senseless { what, right });
+    }
+    true
 }
 
 /// The shape of a boundary.

@@ -1,7 +1,7 @@
 //! `[boundary.<name>]`
 
 use super::body::{Inertia, Supports};
-use crate::motion::{self, InputCourse};
+use crate::motion::{self, InputCourse, NodeMotion};
 use crate::quantity::{Positive, Triple};
 use crate::surface::{self, Around, Shape, ShapeKeys, with_shapes};
 use serde::Deserialize;
@@ -22,7 +22,10 @@ macro_rules! boundary_table {
             /// How it moves.
             #[serde(default)]
             pub(in crate::scene_file) motion: motion::Keys,
-            /// How driven axes go to their new value.
+            /// What the nodes of a mesh do.
+            #[serde(default)]
+            pub(in crate::scene_file) nodes: NodeMotion,
+            /// How driven axes and nodes go to their new value.
             pub(in crate::scene_file) input: Option<InputCourse>,
             /// Point of reference of the moment \[m\].
             pub(in crate::scene_file) reference: Option<Triple>,

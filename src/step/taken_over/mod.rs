@@ -11,7 +11,7 @@ pub use description::Description;
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::creation::Moment;
-use crate::boundaries::{placing, rigid_body};
+use crate::boundaries::{nodes, placing, rigid_body};
 use crate::geometry::Quaternion;
 use crate::scene::Scene;
 use crate::state::State;
@@ -117,6 +117,12 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
         if boundary.axes[3..].iter().any(|motion| motion.is_free()) {
             moved.angular_velocity = other.angular_velocity;
             moved.inertial.angular_momentum = other.inertial.angular_momentum;
+        }
+    }
+    for moved in &mut state.nodes {
+        let there = from.boundary(&scene.boundaries[moved.boundary as usize]);
+        if let Some(other) = there.and_then(|boundary| reached.nodes_of(boundary)) {
+            nodes::stay(moved, other);
         }
     }
 }

@@ -35,13 +35,13 @@ impl std::fmt::Debug for Edge {
 
 impl Edge {
     /// Those of a surface.
-    pub(super) fn all(topology: &Topology) -> Vec<Self> {
-        let edge = |(ends, at): (&[u32; 2], &Vec<u32>)| Self {
+    pub(super) fn all(topology: &Topology) -> impl Iterator<Item = Self> + '_ {
+        let edge = move |(ends, at): (&[u32; 2], &Vec<u32>)| Self {
             places: ends.map(|vertex| topology.vertices[vertex as usize]),
             ends: *ends,
             triangles: at.len() as u32,
         };
-        topology.edges.iter().zip(&topology.at_edge).map(edge).collect()
+        topology.edges.iter().zip(&topology.at_edge).map(edge)
     }
 
     /// The point that is nearest to a centre. Every triangle at the edge sees the same numbers.

@@ -4,6 +4,7 @@ mod edge;
 mod face;
 mod faults;
 mod files;
+mod nodes;
 mod side;
 mod topology;
 mod tree;
@@ -16,6 +17,7 @@ use crate::number::Vector;
 use crate::quantity::{MaterialIndex, Positive, Triple};
 use edge::{Edge, OnEdge};
 use face::{Face, Stand};
+pub use nodes::{Deforming, Grip};
 use serde::Deserialize;
 use topology::Topology;
 use tree::Tree;
@@ -53,27 +55,15 @@ struct Mesh {
 impl Mesh {
     /// A surface.
     fn of(material: MaterialIndex, topology: Topology, sides: Option<u8>) -> Self {
-        let places = |triangle: &[u32; 3]| triangle.map(|vertex| topology.vertices[vertex as usize]);
-        let faces = topology.triangles.iter().map(|triangle| Face::of(places(triangle))).collect();
-        let around = |places: &[Vector]| {
-            let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-            for place in places.iter().map(|place| place.to_array()) {
-                for axis in 0..3 {
-                    low[axis] = low[axis].min(place[axis]);
-                    high[axis] = high[axis].max(place[axis]);
-                }
-            }
-            [low, high]
-        };
-        let boxes: Vec<_> = topology.triangles.iter().map(|triangle| around(&places(triangle))).collect();
-        let [low, high] = around(&topology.vertices);
+        let faces = topology.triangles.iter().map(|triangle| Face::of(topology.corners(triangle))).collect();
+        let [low, high] = topology::around(&topology.vertices);
         let closed = topology.is_closed();
         let front = sides.map_or(closed, |sides| sides == 1);
         Self {
             material,
-            tree: Tree::of(&boxes),
+            tree: topology.tree(),
             faces,
-            edges: Edge::all(&topology),
+            edges: Edge::all(&topology).collect(),
             sides: if front { Sides::Front } else { Sides::Both },
             closed,
             middle: (Vector::from(low) + Vector::from(high)) * 0.5,
@@ -289,6 +279,18 @@ impl Surface for Mesh {
 
     fn features(&self) -> Option<&dyn Features> {
         Some(self)
+    }
+
+    fn deforming(&self) -> Option<Deforming> {
+        Some(Deforming::of(self))
+    }
+
+    fn vertices(&self) -> &[Vector] {
+        &self.topology.vertices
+    }
+
+    fn triangles(&self) -> &[[u32; 3]] {
+        &self.topology.triangles
     }
 
     fn distance(&self, centre: Vector) -> Option<f64> {

@@ -85,7 +85,7 @@ impl Mesh {
     }
 
     /// The angle of a triangle at one of its vertices \[rad\].
-    fn angle(&self, triangle: u32, vertex: u32) -> f64 {
+    pub(super) fn angle(&self, triangle: u32, vertex: u32) -> f64 {
         let corners = self.topology.triangles[triangle as usize];
         let at = |number: usize| self.topology.vertices[corners[number % 3] as usize];
         let corner = corners.iter().position(|corner| *corner == vertex).unwrap_or(0);

@@ -1,5 +1,6 @@
 //! From triangles to a surface: which corners are one vertex, which triangles meet in an edge.
 
+use super::tree::Tree;
 use crate::number::Vector;
 use std::collections::BTreeMap;
 
@@ -43,9 +44,7 @@ impl Topology {
         for (number, corners) in (1..).zip(corners) {
             let triangle = corners.map(|corner| welder.vertex(corner.into()));
             let [a, b, c] = triangle.map(|vertex| welder.vertices[vertex as usize]);
-            let longest = [b - a, c - b, a - c].iter().map(|edge| edge.length()).fold(0.0, f64::max);
-            let area = (b - a).cross(c - a).length();
-            if area.is_nan() || area <= longest * welder.tolerance {
+            if lacks_area([a, b, c], welder.tolerance) {
                 return Err(number);
             }
             let mut sorted = triangle;
@@ -80,6 +79,22 @@ impl Topology {
             edge.iter().for_each(|vertex| topology.edges_at_vertex[*vertex as usize].push(place));
         }
         Ok(topology)
+    }
+
+    /// Whether a triangle with these corners has no area.
+    pub(super) fn lacks_area(&self, corners: [Vector; 3]) -> bool {
+        lacks_area(corners, self.tolerance)
+    }
+
+    /// The corners of a triangle \[m\].
+    pub(super) fn corners(&self, triangle: &[u32; 3]) -> [Vector; 3] {
+        triangle.map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// The tree that finds its triangles.
+    pub(super) fn tree(&self) -> Tree {
+        let boxes: Vec<_> = self.triangles.iter().map(|triangle| around(&self.corners(triangle))).collect();
+        Tree::of(&boxes)
     }
 
     /// Turns triangles round until any two at an edge go along it in opposite directions; the first triangle of each
@@ -125,6 +140,25 @@ impl Topology {
         let pairs = self.edges.iter().zip(&self.at_edge);
         pairs.into_iter().all(|(edge, at)| matches!(at[..], [one, other] if along(one, *edge) != along(other, *edge)))
     }
+}
+
+/// Whether a triangle with these corners has no area: its height over the longest edge is below the tolerance \[m\].
+fn lacks_area([a, b, c]: [Vector; 3], tolerance: f64) -> bool {
+    let longest = [b - a, c - b, a - c].iter().map(|edge| edge.length()).fold(0.0, f64::max);
+    let area = (b - a).cross(c - a).length();
+    !area.is_finite() || area <= longest * tolerance
+}
+
+/// The smallest box around some places: lower and upper corner \[m\].
+pub(super) fn around(places: &[Vector]) -> [[f64; 3]; 2] {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for place in places.iter().map(|place| place.to_array()) {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(place[axis]);
+            high[axis] = high[axis].max(place[axis]);
+        }
+    }
+    [low, high]
 }
 
 /// Makes one vertex of corners that coincide.

@@ -1,0 +1,31 @@
+//! The meshes whose nodes the outside moves, as tables: which node has which number, and which triangles join them.
+
+use super::Resource;
+use crate::scene::{Boundary, Scene};
+use std::fmt::Write;
+
+/// The tables of a scene: two for each mesh.
+pub(super) fn tables(scene: &Scene) -> Vec<Resource> {
+    let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
+    meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).collect()
+}
+
+/// `<boundary>.nodes.csv`: number and place at time 0 of each node.
+fn nodes(mesh: &Boundary) -> Resource {
+    let mut table = "node,x,y,z\n".to_owned();
+    for (number, place) in (1..).zip(mesh.shape.vertices()) {
+        let [x, y, z] = place.to_array();
+        // Writing to a string does not fail.
+        let _ = writeln!(table, "{number},{x:?},{y:?},{z:?}");
+    }
+    Resource::new(format!("{}.nodes.csv", mesh.name), table)
+}
+
+/// `<boundary>.triangles.csv`: the nodes of each triangle, so that its normal is that of the surface.
+fn triangles(mesh: &Boundary) -> Resource {
+    let mut table = "a,b,c\n".to_owned();
+    for [a, b, c] in mesh.shape.triangles() {
+        let _ = writeln!(table, "{},{},{}", a + 1, b + 1, c + 1);
+    }
+    Resource::new(format!("{}.triangles.csv", mesh.name), table)
+}

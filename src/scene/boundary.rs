@@ -1,0 +1,42 @@
+//! `[boundary.<name>]`
+
+use super::{AxisMotion, Body, InputCourse, NodeMotion, Shape};
+
+/// `[boundary.<name>]`: where the outside world acts on the particles.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    /// Its name in the scene and in the unit's variables.
+    pub name: String,
+    /// What it is.
+    pub shape: Shape,
+    /// How it moves along x, y, z, and turns about them.
+    pub axes: [AxisMotion; 6],
+    /// What the nodes of a mesh do.
+    pub nodes: NodeMotion,
+    /// How a driven axis or node goes from where it stands to its new value.
+    pub input: InputCourse,
+    /// The point about which its moment is taken, at time 0 \[m\].
+    pub reference: [f64; 3],
+    /// Its properties as a rigid body that forces move.
+    pub body: Body,
+}
+
+impl Boundary {
+    /// The plane that it is and stays parallel to, whose particles are worked on in lanes.
+    pub(crate) fn shifting_plane(&self) -> Option<crate::surface::Plane> {
+        self.shape.plane().filter(|_| !self.turns())
+    }
+
+    /// How many nodes of it the outside moves, each by itself.
+    pub(crate) fn driven_nodes(&self) -> usize {
+        match self.nodes {
+            NodeMotion::Rigid => 0,
+            NodeMotion::Driven => self.shape.vertices().len(),
+        }
+    }
+
+    /// Whether it can turn.
+    pub(crate) fn turns(&self) -> bool {
+        self.axes[3..].iter().any(|motion| !motion.is_fixed())
+    }
+}
