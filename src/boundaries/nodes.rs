@@ -26,7 +26,8 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) {
         nodes.end.clone_from(&nodes.target);
         nodes.impulse.fill([0.0; 4]);
         let course = scene.boundaries[nodes.boundary as usize].input;
-        nodes.fastest = course.steepest() * farthest(&nodes.end, &nodes.start) / interval;
+        // Targets out of all bounds stay numbers that a state may have.
+        nodes.fastest = (course.steepest() * farthest(&nodes.end, &nodes.start) / interval).min(f64::MAX);
     }
 }
 

@@ -3,26 +3,31 @@
 use super::vtk::{Cloud, Kind, Values};
 use crate::geometry::Frame;
 use crate::number::Vector;
-use crate::scene::Scene;
-use crate::state::{BoundaryState, Particles};
+use crate::scene::{Boundary, Scene};
+use crate::state::{BoundaryState, Nodes, Particles};
 use crate::step::{BondRecord, ContactRecord};
-use crate::surface::Facets;
+use crate::surface::{Deforming, Facets, Surface};
 
 /// The surfaces of all boundaries where they stand, facet by facet, with what the particles do to each facet. A plane is shown as
 /// far as the particles reach beside it.
 pub(crate) fn boundaries(
     scene: &Scene,
     bodies: &Particles,
-    moved: &[BoundaryState],
+    (moved, nodes): (&[BoundaryState], &[Nodes]),
     (contacts, bonds): (&[ContactRecord], &[BondRecord]),
 ) -> Cloud {
     let mut shown = Shown::default();
     for (index, (boundary, moved)) in (0..).zip(scene.boundaries.iter().zip(moved)) {
         let frame = Frame::of(boundary.reference.into(), moved.displacement.into(), moved.orientation.0);
         let beside: Vec<Vector> = corners_around(bodies).map(|corner| frame.inside(corner)).collect();
-        let Some(facets) = boundary.shape.facets(&beside).filter(|facets| !facets.is_empty()) else { continue };
+        let bent = nodes.iter().find(|nodes| nodes.boundary == index).and_then(|nodes| bent(boundary, nodes));
+        let shape = bent.as_ref().map_or(&*boundary.shape, Deforming::surface);
+        let facets = |shape: &dyn Surface| shape.facets(&beside).filter(|facets| !facets.is_empty());
+        let Some([facets, first]) = facets(shape).zip(facets(&*boundary.shape)).map(<[Facets; 2]>::from) else {
+            continue;
+        };
         let mut bear = Bear { force: vec![Vector::zero(); facets.len()], pressing: vec![0.0; facets.len()] };
-        let at = |point: [f64; 3]| boundary.shape.facet_at(frame.inside(point.into()));
+        let at = |point: [f64; 3]| shape.facet_at(frame.inside(point.into()));
         for contact in contacts.iter().filter(|contact| contact.boundary == Some(index)) {
             let along = Vector::from(contact.normal) * contact.normal_force;
             bear.add(at(contact.point), along + contact.tangential_force.into(), contact.normal_force);
@@ -31,9 +36,18 @@ pub(crate) fn boundaries(
         for bond in bonds.iter().filter(|bond| law_at(bond.law) == Some(index)) {
             bear.add(at(bond.other), bond.force.into(), bond.carried.normal);
         }
-        shown.add(index, &facets, &frame, &bear);
+        shown.add(index, (&facets, &first), &frame, &bear);
     }
     shown.cloud()
+}
+
+/// A mesh as its nodes stand.
+fn bent(boundary: &Boundary, nodes: &Nodes) -> Option<Deforming> {
+    let mut mesh = boundary.shape.deforming()?;
+    // The run has stopped at a face without area.
+    mesh.follow(&nodes.displacement).ok()?;
+    mesh.sort();
+    Some(mesh)
 }
 
 /// The corners of the box around all particles \[m\].
@@ -84,12 +98,12 @@ struct Shown {
 
 impl Shown {
     /// Adds those of a boundary.
-    fn add(&mut self, index: u32, facets: &Facets, frame: &Frame, bear: &Bear) {
+    fn add(&mut self, index: u32, (facets, first): (&Facets, &Facets), frame: &Frame, bear: &Bear) {
         let (before, behind) = ((self.points[0].len() / 3) as u32, self.corners.len() as u32);
-        for point in &facets.points {
+        for (point, first) in facets.points.iter().zip(&first.points) {
             let now = frame.outside(*point - frame.reference()) + frame.pivot();
             self.points[0].extend(now.to_array());
-            self.points[1].extend((now - *point).to_array());
+            self.points[1].extend((now - *first).to_array());
         }
         self.corners.extend(facets.corners.iter().map(|corner| before + corner));
         self.ends.extend(facets.ends.iter().map(|end| behind + end));
@@ -189,12 +203,17 @@ tangential_stiffness = 4e8
         endfacet\n\
         endsolid sheet\n";
 
+    /// A scene at time 0.
+    fn begun(text: &str) -> Simulation {
+        let files = BTreeMap::from([("sheet.stl".to_owned(), SHEET.as_bytes().to_vec())]);
+        let source = Source { name: "scene.toml".into(), text: text.into(), files };
+        let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+        Simulation::new(Arc::new(scene)).unwrap()
+    }
+
     /// That scene after so many milliseconds.
     fn simulation(milliseconds: f64) -> Simulation {
-        let files = BTreeMap::from([("sheet.stl".to_owned(), SHEET.as_bytes().to_vec())]);
-        let source = Source { name: "scene.toml".into(), text: SCENE.into(), files };
-        let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-        let mut simulation = Simulation::new(Arc::new(scene)).unwrap();
+        let mut simulation = begun(SCENE);
         simulation.advance(1e-3 * milliseconds).unwrap();
         simulation
     }
@@ -202,7 +221,7 @@ tangential_stiffness = 4e8
     /// The cloud of a simulation.
     fn cloud(simulation: &Simulation) -> Cloud {
         let (state, contacts, bonds) = (simulation.state(), simulation.contacts(), simulation.bonds());
-        boundaries(simulation.scene(), &state.particles, &state.boundaries, (&contacts, &bonds))
+        boundaries(simulation.scene(), &state.particles, (&state.boundaries, &state.nodes), (&contacts, &bonds))
     }
 
     /// The numbers of a field of the facets.
@@ -249,6 +268,24 @@ tangential_stiffness = 4e8
             assert!(pressing > 0.0 && (pressure[facet] * area / pressing - 1.0).abs() < 1e-12, "{facet}");
             assert!((force[3 * facet + 2] / pressing + 1.0).abs() < 1e-2, "{}", force[3 * facet + 2]);
         }
+    }
+
+    #[test]
+    fn a_mesh_whose_nodes_move_is_shown_as_it_stands() {
+        let driven = SCENE.replace("motion = { prescribed = { \"rotation.z\" = 3.0 } }", "nodes = \"driven\"");
+        let mut simulation = begun(&driven);
+        simulation.set_node(crate::quantity::BoundaryIndex(1), (2, 0), 1e-5);
+        simulation.advance(2e-4).unwrap();
+        let cloud = cloud(&simulation);
+        let (_, Values::Vectors(gone)) = &cloud.fields[0] else { panic!("not vectors") };
+        // Behind the four corners of the plane: the third node of the sheet.
+        let expected = [12, 15, 18, 21].map(|first| (gone[first] * 1e5).round());
+        assert_eq!(expected, [0.0, 0.0, 1.0, 0.0]);
+        assert!((cloud.points[18] - 4.01e-3).abs() < 1e-15);
+        let force = numbers(&cloud, "force");
+        let sum = force[5] + force[8];
+        let expected = simulation.state().boundaries[1].force[2];
+        assert!(expected < 0.0 && (sum / expected - 1.0).abs() < 1e-9, "{sum} N, not {expected} N");
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
         Some(particles(scene, &bodies)),
         touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
-        moved.map(|moved| boundaries(scene, &bodies, &moved, loads())),
+        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
     ]
 }
 

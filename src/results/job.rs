@@ -1,7 +1,7 @@
 //! What is handed to the thread that writes.
 
 use crate::interface::Value;
-use crate::state::{BoundaryState, Break, Particles, State};
+use crate::state::{BoundaryState, Break, Nodes, Particles, State};
 use crate::step::{BondRecord, ContactRecord};
 use std::sync::mpsc::SyncSender;
 
@@ -26,8 +26,8 @@ pub(crate) enum Job {
         contacts: Option<Vec<ContactRecord>>,
         /// The bonds, if the scene has any.
         bonds: Option<Vec<BondRecord>>,
-        /// Where the boundaries stand, if the scene asks for them.
-        boundaries: Option<Vec<BoundaryState>>,
+        /// Where the boundaries and their nodes stand, if the scene asks for them.
+        boundaries: Option<(Vec<BoundaryState>, Vec<Nodes>)>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

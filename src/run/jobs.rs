@@ -18,6 +18,7 @@ pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let output = &scene.output;
     let contacts = (output.contacts || output.boundaries).then(|| simulation.contacts());
     let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
-    let boundaries = output.boundaries.then(|| simulation.state().boundaries.clone());
+    let boundaries =
+        output.boundaries.then(|| (simulation.state().boundaries.clone(), simulation.state().nodes.clone()));
     Job::Frame { time, particles, contacts, bonds, boundaries }
 }

@@ -17,7 +17,7 @@
 
 use super::edge::Edge;
 use super::face::Face;
-use super::{Features, Mesh};
+use super::{Features, Mesh, Surface};
 use crate::number::{Row, Vector};
 
 /// What a node gives to the motion of the surface at a foot, and takes from the load there.
@@ -104,6 +104,11 @@ impl Deforming {
     }
 
     /// The surface as it is now.
+    pub fn surface(&self) -> &dyn Surface {
+        &self.mesh
+    }
+
+    /// Its features as they are now.
     pub fn features(&self) -> &dyn Features {
         &self.mesh
     }
