@@ -275,10 +275,7 @@ impl Simulation {
 
     /// The time step of the start, by what was found.
     pub(super) fn first_step(&mut self, context: &Context) -> Result<(), RunError> {
-        let given = match self.scene.run.step {
-            Step::Given(step) => step,
-            Step::Automatic { .. } => 0.0,
-        };
+        let given = if let Step::Given(step) = self.scene.run.step { step } else { 0.0 };
         self.look(given, context)?;
         self.state.clock.step = self.automatic_step(self.state.clock.stable).unwrap_or(given);
         Ok(())
