@@ -241,6 +241,27 @@ pub enum RunError {
         /// Which pairs, and why so many.
         why: String,
     },
+    /// A sphere of a group where particles are taken away.
+    #[error(
+        "particle {id} of [boundary.{boundary}] is where {by} takes particles away, at t = {time} s; a group keeps all its particles, so \
+         a place that it does not reach is right"
+    )]
+    GroupLeaves {
+        /// The particle.
+        id: u32,
+        /// Its group.
+        boundary: String,
+        /// What takes particles away.
+        by: String,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// So many particles came that no number is left for another.
+    #[error("all numbers of particles are used up at t = {time} s; particles numbered from a lower one on are right")]
+    NoNumberLeft {
+        /// Time \[s\].
+        time: f64,
+    },
     /// A group of a scene that takes over another one's state would have to jump.
     #[error(
         "[boundary.{boundary}] has particle {id} {way:.3e} m from where it has come to; a group of the checkpoint's scene, of the \

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::Path;
 
 /// Modules that may be used by those of later rows and by their own, not by others of the same row.
-const ROWS: [&[&str]; 19] = [
+const ROWS: [&[&str]; 20] = [
     &["choices", "memory", "quantity", "number", "run_error"],
     &["geometry", "lanes", "document", "vtk_reader", "dual"],
     &["threads", "import", "packing"],
     &["contact", "bond", "motion", "surface", "region"],
+    &["exchange"],
     &["scene"],
     &["parameters"],
     &["scene_file"],
@@ -17,7 +18,7 @@ const ROWS: [&[&str]; 19] = [
     &["neighbours", "boundaries", "batches"],
     &["integration", "interactions"],
     &["bond_passes"],
-    &["stability", "books"],
+    &["stability", "books", "flow"],
     &["step"],
     &["statics", "averages"],
     &["interface"],

@@ -62,11 +62,15 @@ impl CoefficientTable {
     /// [`CoefficientTable::take`].
     pub(crate) fn of(law: &ContactLaw, scene: &Scene) -> Self {
         let (count, materials) = (Law::of(&law.choice()).places().count, scene.materials.len());
-        let mut present = scene.particles.iter().map(|particle| particle.material.0);
+        let now = scene.particles.iter().map(|particle| particle.material.0);
+        let mut present = now.chain(scene.insertions.iter().map(|insertion| insertion.material.0));
         let single = present.next().filter(|&first| present.all(|other| other == first));
         let mut particles = vec![0; materials];
         for particle in &scene.particles {
             particles[particle.material.index()] += 1;
+        }
+        for insertion in &scene.insertions {
+            particles[insertion.material.index()] += 2;
         }
         Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone(), particles }
     }

@@ -85,7 +85,8 @@ impl BondPass {
 
     /// Whether these two particles (indices into the scene's) may be bonded by this law.
     fn may_bond(&self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.sets[a as usize], self.sets[b as usize]);
+        // Particles that come later are of no set.
+        let (Some(&a), Some(&b)) = (self.sets.get(a as usize), self.sets.get(b as usize)) else { return false };
         [a, b] == self.between || [b, a] == self.between
     }
 

@@ -132,7 +132,7 @@ impl WallBondPass {
         let mut bonded = list.first.clone();
         bonded.sort_unstable();
         let near = |slot: usize| {
-            let member = self.sets[particles.id[slot] as usize] == self.set;
+            let member = self.sets.get(particles.id[slot] as usize) == Some(&self.set);
             let position = Vector::from(particles.position[slot]) - displacement;
             let distance = (position - self.point).dot(self.normal);
             let free = member && distance > 0.0 && bonded.binary_search(&(slot as u32)).is_err();

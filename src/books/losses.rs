@@ -57,6 +57,7 @@ pub(crate) fn lost(state: &State, losses: &Losses, held: &Held, loss: Loss) -> f
     match loss {
         Loss::BondDamping => bonds(|list| list.damped + list.relaxed),
         Loss::BondRelease => bonds(|list| list.released),
+        Loss::Removed => state.exchange.as_ref().map_or(0.0, |exchange| -exchange.net.energy()),
         _ => match Held::CAUSES.iter().position(|cause| *cause == loss) {
             Some(place) => taken - (held.0[place] - losses.initial_held[place]),
             None => taken,

@@ -3,6 +3,22 @@
 use crate::number::Vector;
 use crate::state::Row;
 
+/// Cundall's damping of everything, put aside.
+pub(crate) struct Damping(pub(super) Vec<Damped>, pub(super) [Damped; 2], pub(super) bool);
+
+/// Cundall's damping of one particle.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Damped {
+    /// Fraction of the force.
+    pub(super) linear: f64,
+    /// Fraction of the torque.
+    pub(super) angular: f64,
+    /// Whether gravity is damped.
+    pub(super) gravity: bool,
+    /// Whether applied forces are damped.
+    pub(super) applied: bool,
+}
+
 /// What damping takes from a component of a load: a fraction that lowers its power, also at rest.
 #[inline(always)]
 pub(super) fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Gravity, applied forces and Cundall's global damping.
 
 use super::Rows;
-use super::braking::{brake, brakes, taken};
+use super::braking::{Damped, brake, brakes, taken};
 use crate::boundaries::RigidBody;
 use crate::geometry::Quaternion;
 use crate::lanes::Shared;
@@ -17,28 +17,16 @@ pub(crate) type Load = [Vector; 2];
 pub(crate) struct Fields {
     /// Acceleration of gravity \[m/s²\].
     gravity: [f64; 3],
-    /// Applied force of each particle of the scene \[N\]; empty where there is none.
+    /// Applied force of each of the scene's own particles \[N\]; empty where there is none.
     applied: Vec<[f64; 3]>,
-    /// Damping of each particle of the scene; empty where there is none.
+    /// Damping of each of the scene's own particles; empty where there is none.
     pub(super) damping: Vec<Damped>,
+    /// Whether anything is damped.
+    pub(super) damps: bool,
+    /// Damping of particles that come later.
+    pub(super) newcomers: Damped,
     /// Damping of surfaces that forces move.
-    surfaces: Damped,
-}
-
-/// Cundall's damping of everything, put aside.
-pub(crate) struct Damping(Vec<Damped>, Damped);
-
-/// Cundall's damping of one particle.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Damped {
-    /// Fraction of the force.
-    pub(super) linear: f64,
-    /// Fraction of the torque.
-    pub(super) angular: f64,
-    /// Whether gravity is damped.
-    gravity: bool,
-    /// Whether applied forces are damped.
-    applied: bool,
+    pub(super) surfaces: Damped,
 }
 
 impl Fields {
@@ -66,39 +54,20 @@ impl Fields {
                 }
             }
         }
-        Self { gravity: scene.gravity, applied, damping, surfaces: Damped::default() }
-    }
-
-    /// Damps what the scene does not damp by this fraction of force and torque, gravity included.
-    pub(crate) fn damp_rest(&mut self, fraction: f64, count: usize) {
-        let rest = Damped { linear: fraction, angular: fraction, gravity: true, applied: true };
-        self.damping.resize(count, Damped::default());
-        for damped in self.damping.iter_mut().chain([&mut self.surfaces]) {
-            if damped.linear == 0.0 && damped.angular == 0.0 {
-                *damped = rest;
-            }
+        let mut newcomers = Damped::default();
+        for set in scene.damping.iter().filter(|set| set.newcomers != [0.0; 2]) {
+            let [linear, angular] = set.newcomers;
+            newcomers = Damped { linear, angular, gravity: set.gravity_damped, applied: set.applied_forces_damped };
         }
-    }
-
-    /// Takes all damping away, until [`Fields::damp_as`] puts it back.
-    pub(crate) fn without_damping(&mut self) -> Damping {
-        Damping(std::mem::take(&mut self.damping), std::mem::take(&mut self.surfaces))
-    }
-
-    /// Damps as before.
-    pub(crate) fn damp_as(&mut self, damping: Damping) {
-        (self.damping, self.surfaces) = (damping.0, damping.1);
-    }
-
-    /// Whether any particle is damped.
-    pub(crate) fn damps(&self) -> bool {
-        !self.damping.is_empty()
+        let damps = !scene.damping.is_empty();
+        Self { gravity: scene.gravity, applied, damping, damps, newcomers, surfaces: Damped::default() }
     }
 
     /// By which factors Cundall's damping makes force and torque on a particle of the scene larger, at most: where the motion
     /// changes its sign in every step, which is the mode that grows first, every load acts on the way out.
     pub(crate) fn amplification(&self, id: u32) -> [f64; 2] {
-        self.damping.get(id as usize).map_or([1.0; 2], |damped| [1.0 + damped.linear, 1.0 + damped.angular])
+        let damped = self.damped(id);
+        [1.0 + damped.linear, 1.0 + damped.angular]
     }
 
     /// The larger of these factors of a surface that forces move.
@@ -109,7 +78,7 @@ impl Fields {
     /// Damping of a body: the spheres of a group are damped alike.
     fn of_body(&self, body: &RigidBody) -> Damped {
         match body.members.first() {
-            Some(&member) => self.damping.get(member as usize).copied().unwrap_or_default(),
+            Some(&member) => self.damped(member),
             None => self.surfaces,
         }
     }
@@ -118,21 +87,22 @@ impl Fields {
     pub(crate) fn acceleration(&self, particles: &Particles) -> f64 {
         let gravity = Vector::from(self.gravity).length();
         let applied = |(id, force): (usize, &[f64; 3])| {
-            Vector::from(*force).length() / particles.velocity[particles.slot[id] as usize][3]
+            let slot = particles.slot_of(id as u32)?;
+            Some(Vector::from(*force).length() / particles.velocity[slot][3])
         };
-        gravity + self.applied.iter().enumerate().map(applied).fold(0.0, f64::max)
+        gravity + self.applied.iter().enumerate().filter_map(applied).fold(0.0, f64::max)
     }
 
     /// Gravity \[m/s²\], if nothing else acts and no book needs it separately: it is then added by the kick that
     /// follows.
     pub(crate) fn weight_alone(&self, state: &State) -> Option<[f64; 3]> {
-        let alone = self.damping.is_empty() && self.applied.is_empty() && state.ledger.is_none();
+        let alone = !self.damps && self.applied.is_empty() && state.ledger.is_none();
         (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
     }
 
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
     pub(crate) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
-        if self.damping.is_empty() && self.applied.is_empty() {
+        if !self.damps && self.applied.is_empty() {
             self.weigh(state, context);
             return [0.0; 3];
         }
@@ -148,11 +118,11 @@ impl Fields {
             let mut sum = [0.0; 6];
             rows.each_free(piece, |body| {
                 let id = ids[body.slot];
-                if self.damping.is_empty() {
+                if !self.damps {
                     add(body.force, self.loads(body.velocity[3], id));
                     return;
                 }
-                let damped = self.damping[id as usize];
+                let damped = self.damped(id);
                 let (before, after) = self.split(body.velocity[3], id, damped);
                 add(body.force, before);
                 let (mut losses, mut turns) = ([0.0; 3], [0.0; 3]);
@@ -259,7 +229,7 @@ impl Fields {
     }
 
     /// Weight and applied force \[N\].
-    pub(super) fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
+    pub(crate) fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
         let (weight, applied) = (self.weight(mass), self.applied(id));
         [weight[0] + applied[0], weight[1] + applied[1], weight[2] + applied[2]]
     }

@@ -1,6 +1,7 @@
 //! Velocity Verlet: half a step of velocity (a kick), a step of position (the drift), forces, the other half of the kick.
 
 mod braking;
+mod damped;
 mod fields;
 mod slopes;
 

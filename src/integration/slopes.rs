@@ -13,8 +13,8 @@ impl Fields {
     /// Damps the slopes of forces and torques on free particles, whose loads are those behind the damping: a fraction of a load
     /// that works is taken away, of one that is worked against added.
     pub(crate) fn damp_slopes(&self, particles: &Particles, force: &mut [RowSlopes], torque: &mut [RowSlopes]) {
-        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0 && !self.damping.is_empty()) {
-            let (damped, id) = (self.damping[particles.id[slot] as usize], particles.id[slot]);
+        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0 && self.damps()) {
+            let (damped, id) = (self.damped(particles.id[slot]), particles.id[slot]);
             let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
             let (_, after) = self.split(velocity[3], id, damped);
             for axis in 0..3 {

@@ -27,6 +27,10 @@ pub(super) const LOSSES: [(&str, &str); Loss::COUNT] = [
     ("energy.lost.bond_damping", "energy that damping and relaxation took of the bonds since the start"),
     ("energy.lost.bond_release", "elastic energy that broken bonds released since the start"),
     ("energy.lost.global_damping", "energy that global damping took since the start"),
+    (
+        "energy.lost.removed",
+        "kinetic, elastic and potential energy that left with particles since the start, less what came with others",
+    ),
 ];
 
 /// Whether a scene asks for losses and can have this one.
@@ -42,6 +46,7 @@ pub(super) fn is_booked(scene: &Scene, loss: Loss) -> bool {
         Loss::BondDamping => scene.bonds.iter().any(|bond| bond.law.dissipates()),
         Loss::BondRelease => scene.bonds.iter().any(|bond| !bond.law.breakage.is_empty()),
         Loss::GlobalDamping => !scene.damping.is_empty(),
+        Loss::Removed => scene.changes_number(),
     };
     scene.output.losses && possible()
 }

@@ -286,8 +286,11 @@ impl Interface {
         {
             return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
         }
-        if !value.is_finite() {
-            return Err(InterfaceError::NotFinite { index, name: variable.name.clone(), value });
+        is_finite(variable, index, value)?;
+        if variable.minimum.is_some_and(|minimum| value < minimum) {
+            let refusal =
+                format!("{value:?} found; a number of {:?} or above is right", variable.minimum.unwrap_or(0.0));
+            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
         }
         Ok(())
     }
@@ -328,7 +331,8 @@ impl Interface {
         let variable = self.variable(index)?;
         match variable.causality {
             Causality::Parameter => Err(InterfaceError::NoRate { index, name: variable.name.clone() }),
-            Causality::Input | Causality::Output => self.check(index, rate),
+            Causality::Output => self.check(index, rate),
+            Causality::Input => is_finite(variable, index, rate),
         }
     }
 
@@ -343,6 +347,12 @@ impl Interface {
         }
         Ok(())
     }
+}
+
+/// Whether a value for a variable is a finite number.
+fn is_finite(variable: &Variable, index: usize, value: f64) -> Result<(), InterfaceError> {
+    let refused = || InterfaceError::NotFinite { index, name: variable.name.clone(), value };
+    if value.is_finite() { Ok(()) } else { Err(refused()) }
 }
 
 #[cfg(test)]

@@ -85,8 +85,12 @@ quantities! {
     Viscosity Some("Pa.s"), 1 -1 -1 0;
     /// Force over velocity \[kg/s\]
     Damping Some("kg/s"), 1 0 -1 0;
+    /// Mass over time \[kg/s\]
+    MassFlow Some("kg/s"), 1 0 -1 0;
     /// Force over velocity and mass \[1/s\]
     DampingRate Some("1/s"), 0 0 -1 0;
+    /// A number of things over time \[1/s\]
+    CountRate Some("1/s"), 0 0 -1 0;
     /// Force over velocity, mass and length \[1/(m s)\]
     DampingRatePerLength Some("1/(m.s)"), 0 -1 -1 0;
     /// A whole number of things

@@ -7,10 +7,11 @@ use super::losses::{self, LOSSES};
 use super::{Causality, Findings, Quantity, Value, Variability, Variable};
 use crate::averages::Content;
 use crate::dual::Slopes;
+use crate::exchange::{Amount, Outside};
 use crate::motion::Seen;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::{BondList, BoundaryState, Loss, Nodes, State};
+use crate::state::{BondList, BoundaryState, Exchange, Loss, Nodes, State};
 use crate::step::{BoundaryDerivatives, Simulation};
 
 /// Names of the axes in variables.
@@ -33,6 +34,12 @@ pub(super) enum Each {
     Axis,
     /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
     Node,
+    /// One for each insertion: `<insertion>.<name>`.
+    Insertion,
+    /// One for each outlet: `<outlet>.<name>`.
+    Outlet,
+    /// One for each flow meter: `<flow_meter>.<name>`.
+    Meter,
     /// One for each region: `<region>.<name>`.
     Region,
     /// One for each region and axis: `<region>.<name>.<axis>`.
@@ -47,7 +54,7 @@ impl Each {
         match self {
             Self::Axis | Self::Node | Self::RegionAxis => &AXES,
             Self::Component => &COMPONENTS,
-            Self::Scene | Self::Boundary | Self::Region => &[""],
+            Self::Scene | Self::Boundary | Self::Region | Self::Insertion | Self::Outlet | Self::Meter => &[""],
         }
     }
 }
@@ -59,8 +66,8 @@ pub(super) struct At {
     boundary: BoundaryIndex,
     /// The node, from 0.
     node: usize,
-    /// The region.
-    region: usize,
+    /// The region, insertion, outlet or flow meter.
+    place: usize,
     /// The axis or component.
     axis: usize,
 }
@@ -88,7 +95,12 @@ impl Present<'_> {
 
     /// The particles in a region.
     fn content(&self, at: At) -> Content {
-        self.findings.content(self.simulation, at.region)
+        self.findings.content(self.simulation, at.place)
+    }
+
+    /// What is known of particles that come and go, in a scene that has any.
+    fn exchanged<T: Default>(&self, read: impl FnOnce(&Exchange) -> T) -> T {
+        self.simulation.state().exchange.as_ref().map(read).unwrap_or_default()
     }
 
     /// The lists of bonds.
@@ -108,7 +120,7 @@ pub(super) struct Write {
     pub(super) held: fn(&State, At) -> f64,
     /// The value before anything is given.
     start: fn(&Scene, At) -> f64,
-    /// Which of the axes of its boundary: along x, y, z, then about them; none where it is of a node.
+    /// Which of the axes of its boundary: along x, y, z, then about them; none where it is of something else.
     pub(super) axis: fn(At) -> Option<(BoundaryIndex, usize)>,
 }
 
@@ -121,7 +133,7 @@ pub(super) struct Row {
     pub(super) name: &'static str,
     /// What it belongs to.
     pub(super) each: Each,
-    /// What it is, with its sign. `{boundary}`, `{region}` and `{axis}` stand for the names.
+    /// What it is, with its sign. `{boundary}`, `{region}`, `{owner}` and `{axis}` stand for the names.
     description: &'static str,
     /// What is measured, and with it the unit and the type.
     pub(super) quantity: Quantity,
@@ -462,14 +474,14 @@ static OF_REGIONS: [Row; 6] = [
         description: "mean stress in {region}, component {axis}, tension positive: of contacts and bonds by the part of their \
                       branch inside, and of the velocities less their mean",
         quantity: Quantity::Pressure,
-        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.region, COMPONENT_PLACES[at.axis])),
+        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place, COMPONENT_PLACES[at.axis])),
         ..OF_REGION
     },
     Row {
         name: "porosity",
         description: "part of the volume of {region} that no particle fills; overlaps of particles count twice",
         read: |now, at| {
-            let volume = now.simulation.scene().regions[at.region].shape.volume();
+            let volume = now.simulation.scene().regions[at.place].shape.volume();
             Value::Real(1.0 - now.content(at).solid / volume)
         },
         ..OF_REGION
@@ -478,7 +490,7 @@ static OF_REGIONS: [Row; 6] = [
         name: "coordination",
         description: "contacts of a particle whose centre is in {region}, in the mean; those at boundaries count",
         minimum: Some(0.0),
-        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.region)),
+        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.place)),
         ..OF_REGION
     },
     Row {
@@ -504,6 +516,120 @@ static OF_REGIONS: [Row; 6] = [
         quantity: Quantity::Velocity,
         read: |now, at| Value::Real(now.content(at).velocity[at.axis]),
         ..OF_REGION
+    },
+];
+
+/// The rate of an insertion, as it is given.
+const RATE: Row = Row {
+    name: "rate",
+    each: Each::Insertion,
+    quantity: Quantity::MassFlow,
+    minimum: Some(0.0),
+    write: Some(Write {
+        set: |simulation, at, value| simulation.set_insertion_rate(at.place, value),
+        set_rate: |simulation, at, rate| simulation.set_insertion_rate_of_rate(at.place, rate),
+        held: |state, at| state.exchange.as_ref().map_or(0.0, |exchange| exchange.feeds[at.place].rate),
+        start: |scene, at| scene.insertions[at.place].rate().unwrap_or(0.0),
+        axis: |_| None,
+    }),
+    read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place].rate)),
+    ..OUTPUT
+};
+
+/// A number of particles that came, went or passed since the start.
+const EXCHANGED: Row = Row { name: "count", follows_inputs_at_start: false, ..COUNT };
+
+/// Their mass.
+const EXCHANGED_MASS: Row = Row { name: "mass", quantity: Quantity::Mass, follows_inputs_at_start: false, ..OUTPUT };
+
+/// Variables of each insertion.
+static OF_INSERTIONS: [Row; 4] = [
+    Row {
+        description: "mass that comes by {owner} in each second, held in a communication step, or the mean of what changes at its rate",
+        exists: |scene, at| matches!(scene.insertions[at.place].amount, Amount::MassRate(_)),
+        ..RATE
+    },
+    Row {
+        description: "number of particles that come by {owner} in each second, held in a communication step, or the mean of what \
+                      changes at its rate",
+        quantity: Quantity::CountRate,
+        exists: |scene, at| matches!(scene.insertions[at.place].amount, Amount::CountRate(_)),
+        ..RATE
+    },
+    Row {
+        each: Each::Insertion,
+        description: "number of particles that came by {owner} since the start",
+        read: |now, at| count(now.exchanged(|exchange| exchange.feeds[at.place].came.count)),
+        ..EXCHANGED
+    },
+    Row {
+        each: Each::Insertion,
+        description: "mass of the particles that came by {owner} since the start",
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place].came.mass)),
+        ..EXCHANGED_MASS
+    },
+];
+
+/// Variables of each outlet.
+static OF_OUTLETS: [Row; 2] = [
+    Row {
+        each: Each::Outlet,
+        description: "number of particles that {owner} took away since the start",
+        read: |now, at| count(now.exchanged(|exchange| exchange.outlets[at.place].count)),
+        ..EXCHANGED
+    },
+    Row {
+        each: Each::Outlet,
+        description: "mass of the particles that {owner} took away since the start",
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.outlets[at.place].mass)),
+        ..EXCHANGED_MASS
+    },
+];
+
+/// Variables of each flow meter.
+static OF_METERS: [Row; 3] = [
+    Row {
+        name: "mass_flow",
+        each: Each::Meter,
+        description: "mass that passed {owner} towards its front in a second, less what went back: mean over the last communication step",
+        quantity: Quantity::MassFlow,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place].mass_flow)),
+        ..OUTPUT
+    },
+    Row {
+        each: Each::Meter,
+        description: "mass that passed {owner} towards its front since the start, less what went back",
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place].mass)),
+        ..EXCHANGED_MASS
+    },
+    Row {
+        each: Each::Meter,
+        description: "number of particles that passed {owner} towards its front since the start, less those that went back",
+        minimum: None,
+        read: |now, at| Value::Integer(now.exchanged(|exchange| exchange.meters[at.place].net_count())),
+        ..EXCHANGED
+    },
+];
+
+/// Variables of what lies outside of the domain.
+static OF_DOMAIN: [Row; 2] = [
+    Row {
+        name: "domain.count",
+        description: "number of particles taken away since the start because they were outside of the domain",
+        exists: |scene, _| scene.domain.is_some() && scene.outside == Outside::Remove,
+        read: |now, _| count(now.exchanged(|exchange| exchange.outside.count)),
+        ..EXCHANGED
+    },
+    Row {
+        name: "domain.mass",
+        description: "mass of the particles taken away since the start because they were outside of the domain",
+        minimum: Some(0.0),
+        exists: |scene, _| scene.domain.is_some() && scene.outside == Outside::Remove,
+        read: |now, _| Value::Real(now.exchanged(|exchange| exchange.outside.mass)),
+        ..EXCHANGED_MASS
     },
 ];
 
@@ -535,6 +661,7 @@ static OF_LOSSES: [Row; Loss::COUNT + 1] = [
     lost::<9>(),
     lost::<10>(),
     lost::<11>(),
+    lost::<12>(),
     Row {
         name: "energy.physical_residual",
         description: "kinetic, elastic and potential energy and all losses since the start, less what boundaries and forces \
@@ -693,21 +820,26 @@ impl PartialEq for Source {
     }
 }
 
-/// The variables of a scene, boundary by boundary, then region by region, then of the whole.
+/// The variables of a scene, boundary by boundary, then region by region, of what comes, goes and passes, then of the whole.
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
-    let none = At { boundary: BoundaryIndex(0), node: 0, region: 0, axis: 0 };
+    let none = At { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
     let of_boundaries = boundaries.flat_map(|boundary| {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
         let of_nodes =
             OF_NODES.iter().flat_map(move |row| nodes.clone().map(move |node| (row, At { boundary, node, ..none })));
         OF_BOUNDARIES.iter().map(move |row| (row, At { boundary, ..none })).chain(of_nodes)
     });
-    let regions = 0..scene.regions.len();
-    let of_regions = regions.flat_map(|region| OF_REGIONS.iter().map(move |row| (row, At { region, ..none })));
-    let of_scene = OF_SCENE.iter().chain(&OF_LOSSES).map(|row| (row, none));
+    let each = |rows: &'static [Row], count: usize| {
+        (0..count).flat_map(move |place| rows.iter().map(move |row| (row, At { place, ..none })))
+    };
+    let exchange = each(&OF_INSERTIONS, scene.insertions.len())
+        .chain(each(&OF_OUTLETS, scene.outlets.len()))
+        .chain(each(&OF_METERS, scene.meters.len()));
+    let of_scene = OF_SCENE.iter().chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
     let places = of_boundaries
-        .chain(of_regions)
+        .chain(each(&OF_REGIONS, scene.regions.len()))
+        .chain(exchange)
         .chain(of_scene)
         .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: At { axis, ..at } }));
     places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
@@ -716,7 +848,9 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 /// All rows.
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
-    OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(&OF_SCENE).chain(&OF_LOSSES)
+    let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN);
+    let of_parts = OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
+    of_parts.chain(&OF_SCENE).chain(&OF_LOSSES)
 }
 
 impl Source {
@@ -731,7 +865,10 @@ impl Source {
         let owner = match row.each {
             Each::Scene => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.region].name,
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place].name,
+            Each::Insertion => &scene.insertions[at.place].name,
+            Each::Outlet => &scene.outlets[at.place].name,
+            Each::Meter => &scene.meters[at.place].name,
         };
         let own = row.each.names()[at.axis];
         let number = (at.node + 1).to_string();
@@ -740,7 +877,7 @@ impl Source {
         let described = row.description.replace("{axis}", own).replace("{node}", &number);
         Variable {
             name: parts.collect::<Vec<_>>().join("."),
-            description: described.replace("{boundary}", owner).replace("{region}", owner),
+            description: described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner),
             quantity: row.quantity,
             causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
             variability: row.variability,

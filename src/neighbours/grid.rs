@@ -174,5 +174,5 @@ fn corners(position: &[Row], context: &Context) -> ([f64; 3], [f64; 3]) {
             high[axis] = high[axis].max(upper[axis]);
         }
     }
-    (low, high)
+    if position.is_empty() { ([0.0; 3], [0.0; 3]) } else { (low, high) }
 }

@@ -55,6 +55,8 @@ pub(crate) struct Search {
     skin: Option<f64>,
     /// Mean radius of the particles \[m\].
     mean: f64,
+    /// Whether particles come.
+    inserts: bool,
     /// Whether anything can touch.
     touching: bool,
     /// Whether particles can touch each other.
@@ -74,9 +76,8 @@ pub(crate) struct Search {
 impl Search {
     /// Reads what concerns the search from the scene.
     pub(crate) fn of(scene: &Scene) -> Self {
-        let radii = || scene.particles.iter().map(|particle| particle.radius);
         let laws = laws(scene);
-        let here = present(scene);
+        let here = scene.present();
         let meet = |a: usize, b: usize| here[a] && here[b] && laws.between(a as u32, b as u32).is_some();
         let count = scene.materials.len();
         let planes = scene.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
@@ -87,15 +88,16 @@ impl Search {
             histories: (0..scene.contacts.len()).map(|law| scene.kept_rows(law)).collect(),
             planes: planes.collect(),
             boundaries: scene.boundaries.iter().map(boundary).collect(),
-            sizes: Sizes::of(radii()),
-            smallest: radii().fold(f64::INFINITY, f64::min),
+            sizes: Sizes::of(scene.radii()),
+            smallest: scene.radii().fold(f64::INFINITY, f64::min),
             reach: 0.0,
-            largest: radii().fold(0.0, f64::max),
+            largest: scene.radii().fold(0.0, f64::max),
             skin: scene.run.skin,
-            mean: radii().sum::<f64>() / scene.particles.len().max(1) as f64,
-            touching: !scene.contacts.is_empty() && !scene.particles.is_empty(),
+            mean: scene.mean_radius(),
+            inserts: !scene.insertions.is_empty(),
+            touching: !scene.contacts.is_empty() && scene.has_particles(),
             pairs: (0..count).any(|a| (0..count).any(|b| meet(a, b))),
-            needed: !scene.particles.is_empty() && (!scene.contacts.is_empty() || !scene.bonds.is_empty()),
+            needed: scene.has_particles() && (!scene.contacts.is_empty() || !scene.bonds.is_empty()),
             laws,
             order: Order::default(),
             found: Vec::new(),
@@ -129,8 +131,8 @@ impl Search {
     /// Whether every two bodies that may touch once they have come nearer to each other by `way` \[m\] are in a list of near
     /// bodies. Lists of surfaces other than planes report only what touches.
     pub(crate) fn holds_all_within(&self, state: &State, way: f64) -> bool {
-        if !self.touching {
-            return false; // there are no lists
+        if !self.touching || self.inserts {
+            return false; // there are no lists, or what comes is in none
         }
         let tells = |(shape, _, turns): &(Shape, Vector, bool)| {
             shape.material().is_none() || (shape.plane().is_some() && !turns)
@@ -187,6 +189,9 @@ impl Search {
             return;
         }
         let skin = if self.touching { state.neighbours.skin + self.reach } else { 0.0 };
+        if self.inserts {
+            self.sizes.count(&state.particles);
+        }
         let grid = Grid::around(&state.particles, &self.sizes, skin, bonds::longest(state), context);
         self.order.find(&grid, &self.sizes, &state.particles, context);
         self.order.apply(&mut state.particles, context);
@@ -284,7 +289,7 @@ impl Search {
 }
 
 /// A mesh as its nodes stand, its triangles sorted. One without area is told when forces are evaluated.
-fn sorted(mut mesh: Deforming, nodes: &Nodes) -> Deforming {
+pub(crate) fn sorted(mut mesh: Deforming, nodes: &Nodes) -> Deforming {
     let _ = mesh.follow(&nodes.displacement);
     mesh.sort();
     mesh
@@ -299,22 +304,13 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 fn laws(scene: &Scene) -> Laws {
     let (materials, governing) = (scene.materials.len(), scene.governing_laws());
     let groups = scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
-    let here = present(scene);
+    let here = scene.present();
     let mut met = (0..here.len().pow(2))
         .filter(|entry| here[entry / materials] && here[entry % materials])
         .map(|entry| governing.rows()[entry]);
     let first = met.next().flatten();
     let only = first.filter(|_| !groups && met.all(|law| law == first));
     Laws { governing, only, count: scene.contacts.len() }
-}
-
-/// Whether each material is that of a particle.
-fn present(scene: &Scene) -> Vec<bool> {
-    let mut present = vec![false; scene.materials.len()];
-    for particle in &scene.particles {
-        present[particle.material.index()] = true;
-    }
-    present
 }
 
 /// How far the particle that has moved most since the lists were made is from where it was \[m\].

@@ -2,7 +2,7 @@
 
 use super::near_pairs;
 use crate::number::Vector;
-use crate::state::{Particles, Row};
+use crate::state::{GONE, Particles, Row};
 
 /// Margin of the remembered pairs over the distance that is asked for.
 const MARGIN: f64 = 0.2;
@@ -11,7 +11,7 @@ const MARGIN: f64 = 0.2;
 /// positions alone, so it is not part of the state.
 #[derive(Debug, Default)]
 pub(crate) struct PairCache {
-    /// Positions at that time, of each of the scene's particles.
+    /// Positions at that time, by index; not a number where there was no such particle.
     reference: Vec<Row>,
     /// Pairs not further apart than the distance and its margin: indices into the scene's particles.
     pairs: Vec<[u32; 2]>,
@@ -37,10 +37,14 @@ impl PairCache {
 
     /// Whether any particle has moved further than this \[m\], or is a new one.
     fn outdated(&self, particles: &Particles, most: f64) -> bool {
-        self.reference.len() != particles.len()
+        self.reference.len() != particles.slot.len()
             || self.reference.iter().zip(&particles.slot).any(|(then, &slot)| {
+                if slot == GONE {
+                    return !then[0].is_nan();
+                }
                 let moved = Vector::from(particles.position[slot as usize]) - Vector::from(*then);
-                moved.dot(moved) > most * most
+                let way = moved.dot(moved);
+                way > most * most || way.is_nan()
             })
     }
 
@@ -51,7 +55,8 @@ impl PairCache {
             self.pairs.push([a, b].map(|slot| particles.id[slot as usize]));
         });
         self.reference.clear();
-        self.reference.extend(particles.slot.iter().map(|&slot| particles.position[slot as usize]));
+        let place = |&slot: &u32| if slot == GONE { [f64::NAN; 4] } else { particles.position[slot as usize] };
+        self.reference.extend(particles.slot.iter().map(place));
         self.searches += 1;
     }
 }

@@ -1,5 +1,7 @@
 //! Levels of sizes: particles that differ much in radius are looked for in cells of different size.
 
+use crate::state::Particles;
+
 /// Radii in one level differ by no more than this factor, unless there are very many levels.
 const RANGE: f64 = 2.0;
 
@@ -38,6 +40,15 @@ impl Sizes {
             return Self::single(0.0, 0);
         }
         sizes
+    }
+
+    /// Counts the particles of each level.
+    pub(crate) fn count(&mut self, particles: &Particles) {
+        self.counts.fill(0);
+        for row in &particles.position {
+            let level = self.level(row[3]);
+            self.counts[level] += 1;
+        }
     }
 
     /// The level of a radius \[m\].

@@ -2,7 +2,7 @@
 
 mod crowd;
 mod dense;
-mod generator;
+pub(crate) mod generator;
 mod keys;
 mod lattice;
 pub(crate) mod overlaps;

@@ -24,6 +24,15 @@ impl Cuboid {
         point.to_array().iter().enumerate().all(|(axis, at)| (lower[axis]..=upper[axis]).contains(at))
     }
 
+    /// The centre of a sphere that lies whole inside, any as likely \[m\].
+    pub(super) fn place(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
+        let [lower, upper] = self.corners;
+        let room = [0, 1, 2].map(|axis| upper[axis] - lower[axis] - 2.0 * radius);
+        let fits = room.iter().all(|room| *room >= 0.0);
+        let mut along = |axis: usize| lower[axis] + radius + room[axis] * uniform();
+        fits.then(|| Vector::new(along(0), along(1), along(2)))
+    }
+
     /// Volume of the part of a sphere that is inside \[m³\]: the sum over the corners of the box of the part of the sphere
     /// beyond each, with alternating signs.
     pub(super) fn volume_of_sphere(&self, centre: Vector, radius: f64) -> f64 {

@@ -38,6 +38,41 @@ impl Cylinder {
         PI * self.radius * self.radius * self.length
     }
 
+    /// The smallest box around it: lower and upper corner \[m\].
+    pub(super) fn bounds(&self) -> [[f64; 3]; 2] {
+        let ends = [self.from, self.from + self.along * self.length].map(Vector::to_array);
+        let along = self.along.to_array();
+        let wide = along.map(|part| self.radius * (1.0 - part * part).max(0.0).sqrt());
+        let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max];
+        let corner = |of: fn(f64, f64) -> f64, sign: f64| {
+            [0, 1, 2].map(|axis| of(ends[0][axis], ends[1][axis]) + sign * wide[axis])
+        };
+        [corner(low, -1.0), corner(high, 1.0)]
+    }
+
+    /// The centre of a sphere that lies whole inside, any as likely \[m\].
+    pub(super) fn place_of(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
+        let (room, wide) = (self.length - 2.0 * radius, self.radius - radius);
+        if room < 0.0 || wide < 0.0 {
+            return None;
+        }
+        let along = self.along.to_array();
+        // The axis of the scene that is least along the cylinder begins the directions across it.
+        let least = (0..3).fold(0, |least, axis| if along[axis].abs() < along[least].abs() { axis } else { least });
+        let mut start = [0.0; 3];
+        start[least] = 1.0;
+        let across = self.along.cross(start.into());
+        let across = across * (1.0 / across.length());
+        let (x, y) = loop {
+            let (x, y) = (2.0 * uniform() - 1.0, 2.0 * uniform() - 1.0);
+            if x * x + y * y <= 1.0 {
+                break (x, y);
+            }
+        };
+        let height = radius + room * uniform();
+        Some(self.from + self.along * height + (across * x + self.along.cross(across) * y) * wide)
+    }
+
     /// How far a point is along the axis from where it begins \[m\], and the way to it from the axis \[m\].
     fn place(&self, point: Vector) -> (f64, Vector) {
         let way = point - self.from;

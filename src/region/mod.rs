@@ -40,6 +40,23 @@ impl Region {
         }
     }
 
+    /// The smallest box around it: lower and upper corner \[m\].
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        match self {
+            Self::Box(cuboid) => cuboid.corners,
+            Self::Cylinder(cylinder) => cylinder.bounds(),
+        }
+    }
+
+    /// The centre of a sphere of this radius \[m\] that lies whole inside, any as likely; none where it does not fit. `uniform` hands
+    /// out numbers from 0 to below 1.
+    pub fn place(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
+        match self {
+            Self::Box(cuboid) => cuboid.place(radius, uniform),
+            Self::Cylinder(cylinder) => cylinder.place_of(radius, uniform),
+        }
+    }
+
     /// Volume of the part of a sphere that is inside, from its centre \[m\] and radius \[m\] \[m³\]: for a box in closed form,
     /// to rounding of the sphere's volume; for a cylinder to 1e-12 of it.
     pub fn volume_of_sphere(&self, centre: Vector, radius: f64) -> f64 {

@@ -8,12 +8,13 @@ mod trial;
 
 pub use stiffness::{StiffnessReport, stiffness};
 
+use crate::exchange::{Amount, Outside};
 use crate::interface::Interface;
 use crate::results::Refusal;
 use crate::results::files::Checkpoint;
 use crate::results::schedule::Schedule;
 use crate::run::remarks::remarks;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Insertion, Scene, Step};
 use crate::step::Simulation;
 use rules::rules;
 use std::fmt;
@@ -67,6 +68,11 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
     let savings = savings::of(scene, &simulation);
+    if scene.changes_number() {
+        let what =
+            "the number of particles changes: memory, cost, time and what is written are as measured at the start";
+        remarks.push(what.to_owned());
+    }
     remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));
     let (outputs, steps, time) = match forecast {
         Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
@@ -143,6 +149,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     }));
     uses.extend(scene.forces.iter().map(|force| format!("force {} on {} particles", force.name, force.members.len())));
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
+    uses.extend(exchange(scene));
     if scene.output.energy {
         uses.push("the algorithmic energy book".to_owned());
     }
@@ -163,6 +170,34 @@ fn contact_law(law: &ContactLaw) -> String {
     let chosen: Vec<_> =
         parts.iter().filter(|(_, name)| *name != "none").map(|(kind, name)| format!("{kind} {name}")).collect();
     format!("contact {}: {}", law.name, chosen.join(", "))
+}
+
+/// What lets particles come and go, a line each.
+fn exchange(scene: &Scene) -> Vec<String> {
+    let mut uses: Vec<String> = scene.insertions.iter().map(insertion).collect();
+    uses.extend(
+        scene
+            .outlets
+            .iter()
+            .map(|outlet| format!("outlet {}: looked at after each half of the smallest radius", outlet.name)),
+    );
+    uses.extend(scene.meters.iter().map(|meter| format!("flow meter {}: every particle in every step", meter.name)));
+    if scene.domain.is_some() && scene.outside == Outside::Remove {
+        uses.push("domain: takes away what leaves it".to_owned());
+    }
+    uses
+}
+
+/// An insertion in one line.
+fn insertion(insertion: &Insertion) -> String {
+    let [least, most] = insertion.sizes.bounds();
+    let radii = if least == most { format!("{least:?} m") } else { format!("{least:?} to {most:?} m") };
+    let amount = match insertion.amount {
+        Amount::MassRate(rate) => format!("{rate:?} kg/s"),
+        Amount::CountRate(rate) => format!("{rate:?} particles a second"),
+        Amount::Mass(mass) => format!("{mass:?} kg"),
+    };
+    format!("insertion {}: {amount}, radius {radii}", insertion.name)
 }
 
 /// A boundary in one line.

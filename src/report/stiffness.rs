@@ -28,7 +28,7 @@ pub fn stiffness(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> R
     let boundaries: Vec<_> = (0..scene.boundaries.len()).map(|index| BoundaryIndex(index as u32)).collect();
     let refused = |source| Refusal::Stiffness { scene: scene_name.to_owned(), source };
     let found = statics::stiffness(&simulation, &boundaries).map_err(refused)?;
-    let number = |list: &Vec<u32>| list.iter().map(|&index| scene.particles[index as usize].id.0).collect();
+    let number = |list: &Vec<u32>| list.iter().map(|&index| simulation.number(index)).collect();
     let unheld = [&found.rattlers, &found.loose].map(number);
     let names = scene.boundaries.iter().map(|boundary| boundary.name.clone()).collect();
     Ok(StiffnessReport { found, names, unheld })

@@ -1,6 +1,7 @@
 //! Why a command did not do its work.
 
 use super::vtk::EncodeError;
+use crate::interface::InterfaceError;
 use crate::state::snapshot::SnapshotError;
 use crate::step::RunError;
 use std::io;
@@ -167,6 +168,16 @@ pub enum InputsError {
         column: String,
         /// The field.
         found: String,
+    },
+    /// A number that an input does not take.
+    #[error("{}, line {line}: {source}", path.display())]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// Why.
+        source: InterfaceError,
     },
     /// A time out of order.
     #[error("{}, line {line}: time {time:?} found; {right} is right", path.display())]

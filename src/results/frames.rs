@@ -5,7 +5,7 @@ use super::job::Job;
 use super::vtk::{Cloud, Kind, Values};
 use crate::scene::Scene;
 use crate::state::Particles;
-use crate::step::{BondRecord, ContactRecord};
+use crate::step::{BondRecord, ContactRecord, number};
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
 pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
@@ -15,21 +15,21 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
     let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
     [
         Some(particles(scene, &bodies)),
-        touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, touching)),
+        touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
     ]
 }
 
-/// All particles, in the order of the scene whatever their order in memory.
+/// All particles, in the order of the scene whatever their order in memory, those that came later behind them.
 pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
-    let slots = || particles.slot.iter().map(|&slot| slot as usize);
+    let slots = || particles.slots();
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
     let damage = (!particles.bonds.is_empty()).then(|| ("damage", Values::Scalars(particles.damage())));
     let fields = vec![
         ("radius", Values::Scalars(fourth(&particles.position))),
-        ("id", Values::Integers(scene.particles.iter().map(|particle| i64::from(particle.id.0)).collect())),
+        ("id", Values::Integers(slots().map(|slot| i64::from(number(scene, particles, particles.id[slot]))).collect())),
         ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
         ("velocity", Values::Vectors(three(&particles.velocity))),
         ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
@@ -52,8 +52,8 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.
 ///
 /// A wall has no id: `id2` is then −1, and `boundary` is its place in the scene; between particles `boundary` is −1.
-pub(crate) fn contacts(scene: &Scene, contacts: &[ContactRecord]) -> Cloud {
-    let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
+pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[ContactRecord]) -> Cloud {
+    let id = |particle: u32| i64::from(number(scene, particles, particle));
     let vectors = |of: fn(&ContactRecord) -> [f64; 3]| Values::Vectors(contacts.iter().flat_map(of).collect());
     let scalars = |of: fn(&ContactRecord) -> f64| Values::Scalars(contacts.iter().map(of).collect());
     let integers = |of: &dyn Fn(&ContactRecord) -> i64| Values::Integers(contacts.iter().map(of).collect());
@@ -80,7 +80,7 @@ pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
         let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
         [x, y, z]
     };
-    let id = |particle: u32| scene.particles.get(particle as usize).map_or(-1, |found| i64::from(found.id.0));
+    let id = |particle: u32| i64::from(number(scene, particles, particle));
     let ids = bonds.iter().flat_map(|bond| [id(bond.first), bond.second.map_or(-1, id)]).collect();
     let plane = |bond: &BondRecord| {
         let plane = scene.bonds.get(bond.law as usize).and_then(|law| law.plane);

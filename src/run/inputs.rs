@@ -55,6 +55,10 @@ impl Inputs {
             let number = |column: usize| number(path, line, &names[column], &record[column]);
             let now = number(time)?;
             let row = chosen.iter().map(|(column, _)| number(*column)).collect::<Result<Vec<_>, _>>()?;
+            for ((_, index), value) in chosen.iter().zip(&row) {
+                let refused = |source| InputsError::Refused { path: path.to_owned(), line, source };
+                interface.check(*index, *value).map_err(refused)?;
+            }
             table.add(now, &row).map_err(|right| InputsError::Time {
                 path: path.to_owned(),
                 line,

@@ -3,6 +3,7 @@
 use crate::scene::Scene;
 use crate::state::State;
 use crate::state::boundaries::Inertial;
+use crate::state::exchange::Net;
 use crate::step::Simulation;
 use serde::Serialize;
 
@@ -18,6 +19,8 @@ struct Account {
     /// Impulses since time 0 of inputs, of springs and dashpots to the ground, and of what stiff contacts add to the inertia
     /// of light bodies \[N s\].
     of_bodies: [[f64; 3]; 3],
+    /// What came less what went.
+    net: Net,
     /// Time \[s\].
     time: f64,
 }
@@ -39,6 +42,9 @@ pub struct MomentumBalance {
     pub support: [f64; 3],
     /// Impulse of what stiff contacts add to the inertia of light bodies \[N s\].
     pub added_inertia: [f64; 3],
+    /// Momentum that came with particles less what went with others, where the number of particles changes \[N s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exchanged: Option<[f64; 3]>,
     /// What the impulses leave of the change, over the largest of all these numbers.
     pub relative_residual: f64,
 }
@@ -59,23 +65,44 @@ impl Start {
         let less = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
         let (weight, applied) = constant_forces(simulation.scene(), simulation.state());
         let duration = end.time - start.time;
-        let over_time = |force: [f64; 3]| force.map(|force| force * duration);
+        // What was there for a part of the time only: its mass, or the force on it, times that part.
+        let part = |now: f64, then: f64, times: [f64; 2]| (now - then) * start.time - (times[1] - times[0]);
+        let [begun, ended] = [&start.net, &end.net];
+        let mass_time = part(ended.mass, begun.mass, [begun.mass_time, ended.mass_time]);
+        let gravity = simulation.scene().gravity;
         let change = less(end.momentum, start.momentum);
+        let exchanged = less(ended.momentum, begun.momentum);
         let [inputs, support, added_inertia] = [0, 1, 2].map(|term| less(end.of_bodies[term], start.of_bodies[term]));
         let terms = [
-            over_time(weight),
-            [0, 1, 2].map(|axis| applied[axis] * duration + inputs[axis]),
+            [0, 1, 2].map(|axis| weight[axis] * duration + gravity[axis] * mass_time),
+            [0, 1, 2].map(|axis| {
+                let times = [begun.applied_time[axis], ended.applied_time[axis]];
+                let gone = part(ended.applied[axis], begun.applied[axis], times);
+                applied[axis] * duration + gone + inputs[axis]
+            }),
             less(end.boundaries, start.boundaries),
             less(end.damping, start.damping),
             support,
             added_inertia,
+            exchanged,
         ];
         let rest = terms.iter().fold(change, |rest, &term| less(rest, term));
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, number| most.max(number.abs()));
         let scale = largest(terms.as_flattened()).max(largest(&change));
         let [gravity, applied, boundaries, damping, ..] = terms;
         let relative_residual = if scale > 0.0 { largest(&rest) / scale } else { 0.0 };
-        MomentumBalance { change, gravity, applied, boundaries, damping, support, added_inertia, relative_residual }
+        let exchanged = simulation.scene().changes_number().then_some(exchanged);
+        MomentumBalance {
+            change,
+            gravity,
+            applied,
+            boundaries,
+            damping,
+            support,
+            added_inertia,
+            exchanged,
+            relative_residual,
+        }
     }
 }
 
@@ -107,7 +134,8 @@ fn account(scene: &Scene, state: &State) -> Account {
             }
         }
     }
-    Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, time: state.clock.time }
+    let net = state.exchange.as_ref().map_or_else(Net::default, |exchange| exchange.net);
+    Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, net, time: state.clock.time }
 }
 
 /// Along which axes forces move a particle with this owner.
@@ -135,7 +163,8 @@ fn constant_forces(scene: &Scene, state: &State) -> ([f64; 3], [f64; 3]) {
     }
     for force in &scene.forces {
         for &member in &force.members {
-            let free = free_axes(scene, particles.owner[particles.slot[member as usize] as usize]);
+            let Some(slot) = particles.slot_of(member) else { continue };
+            let free = free_axes(scene, particles.owner[slot]);
             for axis in (0..3).filter(|&axis| free[axis]) {
                 applied[axis] += force.force[axis];
             }

@@ -1,5 +1,6 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
+use crate::exchange::Amount;
 use crate::scene::{Scene, Step};
 use crate::step::{COLLAPSING_COHESION, Simulation};
 
@@ -24,6 +25,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(cohesion(scene));
     remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
+    remarks.extend(full(scene, simulation));
     remarks
 }
 
@@ -39,6 +41,23 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     (step > NEAR_THE_BOUND * stable).then(|| {
         format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
     })
+}
+
+/// On what insertions did not let come for want of room.
+fn full(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let feeds = simulation.state().exchange.iter().flat_map(|exchange| &exchange.feeds);
+    let told = scene.insertions.iter().zip(feeds).filter(|(_, feed)| feed.dropped > 0.0);
+    told.map(|(insertion, feed)| {
+        let what = match insertion.amount {
+            Amount::CountRate(_) => "particles",
+            Amount::MassRate(_) | Amount::Mass(_) => "kg",
+        };
+        format!(
+            "[insertion.{}]: {:.4e} {what} found no room; a larger region, or one from which spheres move away faster, lets more come",
+            insertion.name, feed.dropped
+        )
+    })
+    .collect()
 }
 
 /// Remarks on intervals that are not a whole number of given steps.

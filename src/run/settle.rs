@@ -143,7 +143,7 @@ fn come_to_rest(
         let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
         simulation.advance(count * clock.step)?;
         looks.pop_front();
-        looks.push_back(unbalanced_force(simulation));
+        looks.push_back(if simulation.is_filling() { f64::INFINITY } else { unbalanced_force(simulation) });
     }
 }
 
@@ -226,13 +226,16 @@ fn unbalanced_force(simulation: &mut Simulation) -> f64 {
     if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
 }
 
-/// The scene with boundaries that stand still but for their free axes, and without books to keep.
+/// The scene with boundaries that stand still but for their free axes, insertions without a rate, and without books to keep.
 fn standing_still(scene: &Scene) -> Arc<Scene> {
     let mut still = scene.clone();
     for boundary in &mut still.boundaries {
         for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
             *axis = AxisMotion::Fixed;
         }
+    }
+    for insertion in &mut still.insertions {
+        insertion.stop();
     }
     still.output.energy = false;
     Arc::new(still)

@@ -254,8 +254,9 @@ pub(crate) fn told(path: &Path) -> String {
 fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
     let ledger = simulation.state().ledger.as_ref()?;
     let kinetic = simulation.kinetic_energy();
-    let residual = kinetic - ledger.initial_kinetic - ledger.total();
-    let scale = ledger.turnover.max(kinetic).max(ledger.initial_kinetic);
+    let residual = simulation.energy_residual_beside(kinetic)?;
+    let exchanged = simulation.exchanged();
+    let scale = ledger.turnover.max(kinetic).max(ledger.initial_kinetic).max(exchanged.turnover);
     Some(EnergyBook {
         initial_kinetic: ledger.initial_kinetic,
         kinetic,

@@ -6,6 +6,8 @@
 mod accuracy;
 mod body;
 mod boundary;
+mod damping;
+mod exchange;
 mod governing;
 mod output;
 mod parameters;
@@ -14,12 +16,16 @@ mod source;
 mod statics;
 
 pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
+pub use crate::exchange::Outside;
 pub use crate::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::packing::PackingProgress;
 pub use crate::surface::Shape;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
+pub use damping::{AppliedForce, Damping};
+pub(crate) use exchange::Known;
+pub use exchange::{FlowMeter, Insertion, Outlet, Way};
 pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
@@ -65,6 +71,14 @@ pub struct Scene {
     pub regions: Vec<Region>,
     /// The box that particles may not leave \[m\]: lower and upper corner.
     pub domain: Option<[[f64; 3]; 2]>,
+    /// What happens to particles outside of it.
+    pub outside: Outside,
+    /// Particles that come, in the order of the file.
+    pub insertions: Vec<Insertion>,
+    /// Where particles are taken away, in the order of the file.
+    pub outlets: Vec<Outlet>,
+    /// Polygons at which is counted what passes, in the order of the file.
+    pub meters: Vec<FlowMeter>,
     /// What a run writes.
     pub output: Output,
     /// Numbers of the text that a unit shows as its parameters; none in a scene built in code.
@@ -218,32 +232,6 @@ impl Particle {
     pub fn mass(&self) -> f64 {
         4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
     }
-}
-
-/// `[damping.<name>]`: Cundall's damping of the unbalanced force.
-#[derive(Clone, Debug)]
-pub struct Damping {
-    /// Its name in the scene.
-    pub name: String,
-    /// Fraction of the force, for each particle of the scene (0: not damped), scale included.
-    pub linear: Vec<f64>,
-    /// Fraction of the torque, for each particle of the scene, scale included.
-    pub angular: Vec<f64>,
-    /// Whether gravity is part of the force that is damped.
-    pub gravity_damped: bool,
-    /// Whether applied forces are part of the force that is damped.
-    pub applied_forces_damped: bool,
-}
-
-/// `[force.<name>]`: a constant force on each of some particles.
-#[derive(Clone, Debug)]
-pub struct AppliedForce {
-    /// Its name in the scene.
-    pub name: String,
-    /// Indices into [`Scene::particles`], ascending.
-    pub members: Vec<u32>,
-    /// Force on each \[N\].
-    pub force: [f64; 3],
 }
 
 impl Scene {

@@ -12,12 +12,12 @@ mod limiter;
 mod network;
 mod surfaces;
 
-use crate::boundaries::RigidBody;
+use crate::boundaries::{RigidBody, sphere_inertia};
 use crate::contact::Response;
 use crate::integration::Fields;
 use crate::interactions::{Ahead, Kind, Link, Pass};
-use crate::scene::Scene;
-use crate::state::{Particles, State};
+use crate::scene::{Insertion, Scene};
+use crate::state::{GONE, Particles, State};
 use crate::threads::Context;
 pub use limiter::{Limiter, LimiterKind, Mode};
 use network::Network;
@@ -162,7 +162,8 @@ impl System<'_> {
             Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0], across: false })
         });
         let mut limit: Option<(f64, Meeting)> = None;
-        for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(groups) {
+        let coming = self.scene.insertions.iter().map(smallest_to_come);
+        for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(coming).chain(groups) {
             let closing = 2.0 * speed + (2.0 * ahead.acceleration * meeting.radius).sqrt();
             let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
             for pass in self.passes {
@@ -177,10 +178,11 @@ impl System<'_> {
         limit
     }
 
-    /// Largest speed of a particle \[m/s\].
+    /// Largest speed of a particle, of those to come as they come \[m/s\].
     pub(crate) fn fastest(&self) -> f64 {
         let squares = self.state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        squares.fold(0.0, f64::max).sqrt()
+        let coming = self.scene.insertions.iter().map(Insertion::fastest);
+        coming.fold(squares.fold(0.0, f64::max).sqrt(), f64::max)
     }
 }
 
@@ -221,6 +223,14 @@ impl Meeting {
         self.across = across > along;
         along.max(across)
     }
+}
+
+/// The smallest particle that an insertion lets come.
+fn smallest_to_come(insertion: &Insertion) -> Meeting {
+    let [radius, _] = insertion.sizes.bounds();
+    let mass = insertion.mass(radius);
+    let turn = 1.0 / mass + radius * radius / sphere_inertia(mass, radius);
+    Meeting { radius, mass, turn, particle: GONE, across: false }
 }
 
 /// The smallest particle that forces move.

@@ -6,7 +6,7 @@
 //! ([`Pass::check`](crate::interactions::Pass::check)).
 
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{NearParts, Nodes, Row, State, WallContacts};
+use super::{Exchange, GONE, NearParts, Nodes, Row, State, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -100,7 +100,17 @@ impl State {
     /// Whether this can be a state of the simulation that `other` is one of, as far as it shows without the laws.
     pub(crate) fn check(&self, other: &Self) -> Result<(), StateFault> {
         self.check_lists()?;
-        self.particles.check_same(&other.particles)?;
+        demand(
+            self.exchange.is_some() == other.exchange.is_some(),
+            "exchange",
+            0,
+            "particles that come and go where the scene has any",
+        )?;
+        if let (Some(exchange), Some(other)) = (&self.exchange, &other.exchange) {
+            exchange.check_same(other)?;
+        } else {
+            self.particles.check_same(&other.particles)?;
+        }
         let same = "as many as the scene has";
         demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
@@ -142,7 +152,8 @@ impl State {
         }
         let broken = |it: &super::Break| {
             let bodies = [it.first].into_iter().chain(it.second);
-            (it.law as usize) < self.bonds.len() && bodies.into_iter().all(|body| (body as usize) < count)
+            (it.law as usize) < self.bonds.len()
+                && bodies.into_iter().all(|body| (body as usize) < self.particles.slot.len())
         };
         demand_all(self.breaks.iter().map(broken), "breaks", "a bond law and particles of the scene")?;
         demand_all(self.boundaries.iter().map(BoundaryState::is_finite), "boundaries", FINITE)?;
@@ -152,7 +163,11 @@ impl State {
         self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
         self.losses.iter().try_for_each(Losses::check)?;
         all_finite(&self.damping_force, "damping_force")?;
-        all_finite(&self.damping_impulse, "damping_impulse")
+        all_finite(&self.damping_impulse, "damping_impulse")?;
+        let sound = self.exchange.as_ref().is_none_or(Exchange::is_sound);
+        demand(sound, "exchange", 0, FINITE)?;
+        let stay = self.exchange.is_some() || self.particles.slot.len() == count;
+        demand(stay, "slot", self.particles.slot.len(), "one for each particle")
     }
 }
 
@@ -183,7 +198,7 @@ impl Particles {
     fn check(&self) -> Result<(), StateFault> {
         let count = self.len();
         let lengths = [self.position.len(), self.velocity.len(), self.angular_velocity.len(), self.force.len()];
-        let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len(), self.slot.len()];
+        let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len()];
         let right = "one for each particle";
         demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", right)?;
         demand(
@@ -192,7 +207,8 @@ impl Particles {
             self.orientation.len(),
             right,
         )?;
-        demand(self.bonds.is_empty() || self.bonds.len() == count, "bonds", self.bonds.len(), right)?;
+        demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), right)?;
+        self.check_places()?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
         demand_all(numbers, "id", "each particle in one slot")?;
         let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
@@ -206,6 +222,23 @@ impl Particles {
             (&self.orientation, "orientation"),
         ];
         rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
+    }
+
+    /// Whether places that no particle has are marked as such, and those of the later ones can be taken again.
+    fn check_places(&self) -> Result<(), StateFault> {
+        let there = self.slot.iter().filter(|slot| **slot != GONE).count();
+        demand(there == self.len(), "slot", there, "a slot of each particle, and of no other,")?;
+        demand(
+            self.numbers.len() <= self.slot.len(),
+            "numbers",
+            self.numbers.len(),
+            "one for each particle that came",
+        )?;
+        let own = self.slot.len() - self.numbers.len();
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        let empty = (own..self.slot.len()).filter(|&index| self.slot[index] == GONE).map(|index| index as u32);
+        demand(free.into_iter().eq(empty), "free", 0, "the places that are free, each once")
     }
 
     /// Whether they are these particles somewhere else. Both have been checked.
@@ -223,6 +256,16 @@ impl Particles {
                 && self.owner[slot] == other.owner[there]
         };
         demand_all((0..self.len()).map(same), "particles", "the scene's radius, mass, inertia, material and group")
+    }
+}
+
+impl Exchange {
+    /// Whether it has as many insertions, outlets and flow meters as another.
+    fn check_same(&self, other: &Self) -> Result<(), StateFault> {
+        let right = "as many as the scene has";
+        demand(self.feeds.len() == other.feeds.len(), "feeds", self.feeds.len(), right)?;
+        demand(self.outlets.len() == other.outlets.len(), "outlets", self.outlets.len(), right)?;
+        demand(self.meters.len() == other.meters.len(), "meters", self.meters.len(), right)
     }
 }
 

@@ -240,7 +240,7 @@ mod tests {
             text.contains("second: option visit_u32") && text.contains("history: list of (bytes, 32 for each"),
             "{text}"
         );
-        assert!(text.ends_with("damping_impulse: 3 of visit_f64 visit_f64 visit_f64 } "), "{text}");
+        assert!(text.ends_with("turnover: visit_f64 } } } "), "{text}");
     }
 
     #[test]

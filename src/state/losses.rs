@@ -30,11 +30,13 @@ pub enum Loss {
     BondRelease,
     /// Cundall's global damping.
     GlobalDamping,
+    /// Particles that went, less what came with others: kinetic, elastic and potential energy.
+    Removed,
 }
 
 impl Loss {
     /// How many there are.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 13;
     /// All, in order.
     pub const ALL: [Self; Self::COUNT] = [
         Self::NormalDamping,
@@ -49,6 +51,7 @@ impl Loss {
         Self::BondDamping,
         Self::BondRelease,
         Self::GlobalDamping,
+        Self::Removed,
     ];
 
     /// Its name in outputs.
@@ -66,6 +69,7 @@ impl Loss {
             Self::BondDamping => "bond_damping",
             Self::BondRelease => "bond_release",
             Self::GlobalDamping => "global_damping",
+            Self::Removed => "removed",
         }
     }
 }

@@ -8,12 +8,14 @@ pub mod boundaries;
 mod check;
 pub mod clock;
 pub mod contacts;
+pub mod exchange;
 pub mod foresight;
 mod in_place;
 mod layout;
 pub mod ledger;
 pub mod losses;
 pub mod nodes;
+mod number;
 pub mod particles;
 mod plain;
 pub mod snapshot;
@@ -24,11 +26,13 @@ pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::Clock;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
+pub use exchange::Exchange;
 pub use foresight::Foresight;
 pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
 pub use nodes::Nodes;
-pub use particles::Particles;
+pub use number::Newcomer;
+pub use particles::{GONE, Particles};
 
 pub use crate::number::Row;
 
@@ -72,6 +76,8 @@ pub struct State {
     pub damping_force: [f64; 3],
     /// Impulse of global damping on the particles since time 0 \[N s\].
     pub damping_impulse: [f64; 3],
+    /// Particles that come and go, where the scene has any.
+    pub exchange: Option<Exchange>,
 }
 
 clone_in_place!(State {
@@ -90,7 +96,8 @@ clone_in_place!(State {
     ledger,
     losses,
     damping_force,
-    damping_impulse
+    damping_impulse,
+    exchange
 });
 
 impl State {
@@ -115,6 +122,9 @@ impl State {
         }
         if let Some(losses) = &mut self.losses {
             losses.begin_counting();
+        }
+        if let Some(exchange) = &mut self.exchange {
+            exchange.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

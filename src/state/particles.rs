@@ -4,6 +4,9 @@ use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
+/// The slot of a particle that is no longer there.
+pub const GONE: u32 = u32::MAX;
+
 /// Particles in the order of the neighbour list, rows of 32 bytes.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
@@ -31,15 +34,22 @@ pub struct Particles {
     /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs.
     #[serde(with = "plain")]
     pub owner: Vec<u32>,
-    /// Index into the scene's particles, of each slot here.
+    /// Index of the particle in each slot here: into the scene's particles, and behind these into the places of those that come
+    /// later. A place is taken again when its particle has gone; the scene's own never are.
     #[serde(with = "plain")]
     pub id: Vec<u32>,
-    /// Slot here, of each of the scene's particles.
+    /// Slot here, by index; [`GONE`] where there is no such particle any more.
     #[serde(with = "plain")]
     pub slot: Vec<u32>,
-    /// Bonds made and bonds broken so far, of each of the scene's particles; empty in a scene without bonds.
+    /// Bonds made and bonds broken so far, by index; empty in a scene without bonds.
     #[serde(with = "plain")]
     pub bonds: Vec<[u32; 2]>,
+    /// Numbers in outputs of the particles that came later, by index less the number of the scene's own. None is used twice.
+    #[serde(with = "plain")]
+    pub numbers: Vec<u32>,
+    /// Indices behind the scene's own that are free, the next to be taken last.
+    #[serde(with = "plain")]
+    pub free: Vec<u32>,
 }
 
 clone_in_place!(Particles {
@@ -53,7 +63,9 @@ clone_in_place!(Particles {
     owner,
     id,
     slot,
-    bonds
+    bonds,
+    numbers,
+    free
 });
 
 impl Particles {
@@ -76,9 +88,10 @@ impl Particles {
         }
     }
 
-    /// Bonds broken over bonds made, of each of the scene's particles; 0 where none was made.
+    /// Bonds broken over bonds made, of each particle by ascending index; 0 where none was made.
     pub fn damage(&self) -> Vec<f64> {
-        self.bonds.iter().map(|&[made, broken]| f64::from(broken) / f64::from(made.max(1))).collect()
+        let there = self.bonds.iter().zip(&self.slot).filter(|(_, slot)| **slot != GONE);
+        there.map(|(&[made, broken], _)| f64::from(broken) / f64::from(made.max(1))).collect()
     }
 
     /// How many there are.

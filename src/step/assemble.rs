@@ -5,6 +5,7 @@ use crate::bond_passes::BondPass;
 use crate::bond_passes::walls::WallBondPass;
 use crate::boundaries::RigidBody;
 use crate::boundaries::{course, sphere_inertia};
+use crate::flow;
 use crate::interactions::Pass;
 use crate::interactions::contacts::ContactPass;
 use crate::interactions::surfaces::SurfacePass;
@@ -19,7 +20,7 @@ use std::sync::Mutex;
 /// The state of a scene at time 0, without lists and forces.
 pub(super) fn state(scene: &Scene) -> State {
     let particles = particles(scene);
-    let mean = scene.particles.iter().map(|p| p.radius).sum::<f64>() / scene.particles.len().max(1) as f64;
+    let mean = scene.mean_radius();
     let lists = Neighbours { skin: scene.run.skin.unwrap_or(neighbours::FIRST_SKIN * mean), ..Neighbours::default() };
     State {
         clock: Clock::default(),
@@ -37,6 +38,7 @@ pub(super) fn state(scene: &Scene) -> State {
         losses: scene.output.losses.then(Losses::default),
         damping_force: [0.0; 3],
         damping_impulse: [0.0; 3],
+        exchange: flow::begun(scene),
         particles,
     }
 }
@@ -104,8 +106,7 @@ fn nodes(scene: &Scene) -> Vec<Nodes> {
 /// Surfaces and contact laws that can meet: boundary and law.
 fn meetings(scene: &Scene) -> Vec<(u32, u32)> {
     let (mut meetings, governing) = (Vec::new(), scene.governing_laws());
-    let mut present = vec![false; scene.materials.len()];
-    scene.particles.iter().for_each(|particle| present[particle.material.index()] = true);
+    let present = scene.present();
     for (index, boundary) in (0..).zip(&scene.boundaries) {
         let Some(material) = boundary.shape.material() else { continue };
         for law in 0..scene.contacts.len() as u32 {

@@ -72,7 +72,7 @@ impl Simulation {
 
     /// Whether the scene puts two particles (index) so deep into each other that they may get there again.
     fn began_deep(&self, ids: [u32; 2]) -> bool {
-        let [a, b] = ids.map(|id| &self.scene.particles[id as usize]);
+        let [Some(a), Some(b)] = ids.map(|id| self.scene.particles.get(id as usize)) else { return false };
         let apart = (Vector::from(a.position) - Vector::from(b.position)).length();
         a.radius + b.radius - apart > 0.5 * DEEPEST * a.radius.min(b.radius)
     }

@@ -169,6 +169,16 @@ fn told(slopes: &BoundarySlopes, length: f64) -> BoundaryDerivatives {
 /// Refuses what slopes do not follow.
 fn refuse(scene: &Scene) -> Result<(), NoDerivative> {
     let refused = |what: String, right| Err(NoDerivative::Refused { what, right });
+    let right = "a scene whose particles stay";
+    if let Some(insertion) = scene.insertions.first() {
+        return refused(format!("[insertion.{}] particles that come", insertion.name), right);
+    }
+    if let Some(outlet) = scene.outlets.first() {
+        return refused(format!("[outlet.{}] particles that go", outlet.name), right);
+    }
+    if scene.removes() {
+        return refused("[domain] outside = \"remove\", particles that go".to_owned(), right);
+    }
     for boundary in &scene.boundaries {
         let name = &boundary.name;
         if boundary.axes.iter().any(|axis| axis.servo().is_some()) {

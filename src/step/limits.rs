@@ -58,8 +58,7 @@ impl Simulation {
         mean_overlap(&self.state, &self.scene)
     }
 
-    /// The stable time step of the network of contacts and bonds as it may become soon, and of impacts to come; with what
-    /// limits it.
+    /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
         let (mut counter, context) = (self.state.foresight.counter, self.standing());
         let (sight, found) = self.foresee(self.state.clock.step, FASTER, 0.0, &mut counter, &context);

@@ -19,7 +19,7 @@ impl Simulation {
     }
 
     /// What causes of loss hold and may give back.
-    fn held(&self) -> Held {
+    pub(super) fn held(&self) -> Held {
         let mut sum = [0.0; 3];
         for pass in &self.passes {
             sum.iter_mut().zip(pass.held_energy(&self.state)).for_each(|(sum, part)| *sum += part);

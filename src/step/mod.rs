@@ -4,6 +4,7 @@ mod assemble;
 mod coefficients;
 mod depth;
 mod derivatives;
+mod exchange;
 mod limits;
 mod losses;
 mod observe;
@@ -26,11 +27,13 @@ pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};
 pub(crate) use run_checks::COLLAPSING_COHESION;
+pub use run_checks::number;
 pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
 use crate::boundaries::felt::{self, Felt};
 use crate::boundaries::{RigidBody, course, nodes, rigid_body};
+use crate::flow::Flow;
 use crate::geometry::Quaternion;
 use crate::integration::{self, Fields};
 use crate::interactions::Pass;
@@ -67,6 +70,8 @@ pub struct Simulation {
     search: neighbours::Search,
     /// Which contacts bonds suppress.
     suppression: Suppression,
+    /// What lets particles come and go; none where their number stays.
+    flow: Option<Flow>,
     /// Whether anything turns the particles.
     turning: bool,
     /// Whether a servo moves a boundary.
@@ -128,6 +133,7 @@ impl Simulation {
     fn with(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
         let mut simulation = Self {
+            flow: Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations())),
             turning: passes.iter().any(|pass| pass.has_torque()),
             passes,
             fields: Fields::of(&scene),
@@ -136,7 +142,7 @@ impl Simulation {
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
-            workers: Workers::new(scene.run.threads, scene.particles.len()),
+            workers: Workers::new(scene.run.threads, most_particles(&scene)),
             scene,
             state,
             room: Room::default(),
@@ -170,7 +176,7 @@ impl Simulation {
     /// Gives the particles the orientation of time 0, where a bond needs one and they have none.
     fn give_orientations(&mut self) {
         if self.passes.iter().any(|pass| pass.needs_orientations()) {
-            self.state.particles.orientation.resize(self.scene.particles.len(), Quaternion::identity().to_row());
+            self.state.particles.orientation.resize(self.state.particles.len(), Quaternion::identity().to_row());
         }
     }
 
@@ -316,11 +322,17 @@ impl Simulation {
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
         self.state.breaks.clear();
+        if let Some(flow) = &self.flow {
+            flow.begin(&mut self.state, interval);
+        }
         let mut workers = std::mem::take(&mut self.workers);
         let (elapsed, result) = workers.run(|threads| self.run(interval, threads));
         self.workers = workers;
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
+        if let Some(flow) = &self.flow {
+            flow.end(&mut self.state, elapsed);
+        }
         result.map_err(|error| self.named(error))
     }
 
@@ -400,8 +412,9 @@ impl Simulation {
         self.state.foresight.travel += farthest;
         let outdated = self.search.outdated(&mut self.state, context);
         let mut result = if self.is_depth_due(speed * step, travelled) { self.check_depth() } else { Ok(()) };
-        if outdated {
-            result = result.and_then(|()| self.check_domain());
+        let changed = self.exchange(farthest, step);
+        if outdated || !matches!(changed, Ok(false)) {
+            result = result.and(changed.map(|_| ())).and_then(|()| self.check_domain());
             self.rebuild(context);
         }
         if !self.scene.bonds.is_empty() {
@@ -486,6 +499,11 @@ impl Simulation {
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
         Ok(())
     }
+}
+
+/// So many particles may be there as make threads worth while.
+fn most_particles(scene: &Scene) -> usize {
+    if scene.insertions.is_empty() { scene.particles.len() } else { usize::MAX }
 }
 
 /// Divides an interval into equal time steps: of exactly `step`, where a whole number of them fits, otherwise shorter.

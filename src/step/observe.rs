@@ -10,6 +10,7 @@ use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::State;
 use crate::state::contacts::{TOUCHING, is_resting, is_told};
+use crate::state::exchange::Net;
 use crate::state::ledger::Source;
 use crate::surface;
 use crate::threads::Context;
@@ -178,7 +179,7 @@ impl Simulation {
     /// The same, where the kinetic energy is known \[J\].
     pub fn energy_residual_beside(&self, kinetic: f64) -> Option<f64> {
         let ledger = self.state.ledger.as_ref()?;
-        Some(kinetic - ledger.initial_kinetic - ledger.total())
+        Some(kinetic - ledger.initial_kinetic - ledger.total() - self.exchanged().kinetic)
     }
 
     /// Energy that contacts, bonds and global damping took in since the book was opened and do not hold as elastic
@@ -197,7 +198,12 @@ impl Simulation {
         let given: f64 = self.state.boundaries.iter().map(|boundary| boundary.work).sum();
         let kinds = [Source::Contacts, Source::Bonds, Source::Walls, Source::Damping];
         let returned: f64 = kinds.into_iter().map(|kind| ledger.work_of(kind)).sum();
-        Some(given - returned - (elastic - ledger.initial_elastic))
+        Some(given - returned - (elastic - ledger.initial_elastic - self.exchanged().elastic))
+    }
+
+    /// What came less what went.
+    pub fn exchanged(&self) -> Net {
+        self.state.exchange.as_ref().map_or_else(Net::default, |exchange| exchange.net)
     }
 
     /// Threads at work.

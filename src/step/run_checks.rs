@@ -4,7 +4,8 @@ use super::{RunError, Simulation};
 use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
-use crate::state::Clock;
+use crate::scene::{Outside, Scene};
+use crate::state::{Clock, GONE, Particles};
 use crate::surface;
 
 /// Way of a particle in one time step, over its radius, that counts as an error instead of motion.
@@ -15,6 +16,14 @@ pub(crate) const COLLAPSING_COHESION: f64 = 0.07;
 
 /// Energy out of nothing, over all that was turned over, that no law and no time step below the stable one makes.
 const LARGEST_GAIN: f64 = 0.25;
+
+/// The number that a particle carries in outputs, by its index: the scene's, or that with which it came.
+pub fn number(scene: &Scene, particles: &Particles, index: u32) -> u32 {
+    match scene.particles.get(index as usize) {
+        Some(particle) => particle.id.0,
+        None => particles.number_of_newcomer(index).unwrap_or(index),
+    }
+}
 
 impl Simulation {
     /// Refuses a step in which a particle would move further than makes sense.
@@ -129,7 +138,8 @@ impl Simulation {
 
     /// Finds a particle outside the domain.
     pub(super) fn check_domain(&self) -> Result<(), RunError> {
-        let Some([low, high]) = self.scene.domain else { return Ok(()) };
+        let stops = self.scene.outside == Outside::Stop;
+        let Some([low, high]) = self.scene.domain.filter(|_| stops) else { return Ok(()) };
         let particles = &self.state.particles;
         for (slot, row) in particles.position.iter().enumerate() {
             if (0..3).any(|axis| row[axis] < low[axis] || row[axis] > high[axis]) {
@@ -155,15 +165,19 @@ impl Simulation {
         if closing > 0.0 { Cause::Impact { speed: closing } } else { Cause::Load }
     }
 
-    /// The number in the scene of a particle by its index.
-    pub(super) fn number(&self, index: u32) -> u32 {
-        self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0)
+    /// The number of a particle by its index; of none, that of the next to come.
+    pub fn number(&self, index: u32) -> u32 {
+        let next = self.state.exchange.as_ref().filter(|_| index == GONE).map(|exchange| exchange.next);
+        next.unwrap_or_else(|| number(&self.scene, &self.state.particles, index))
     }
 
     /// The error with the particle's number in the scene instead of its index.
     pub(super) fn named(&self, mut error: RunError) -> RunError {
         match &mut error {
-            RunError::Runaway { id, .. } | RunError::NotFinite { id, .. } | RunError::Escaped { id, .. } => {
+            RunError::Runaway { id, .. }
+            | RunError::NotFinite { id, .. }
+            | RunError::Escaped { id, .. }
+            | RunError::GroupLeaves { id, .. } => {
                 *id = self.number(*id);
             }
             RunError::Behind { id, boundary, cause, .. } => {
@@ -186,6 +200,7 @@ impl Simulation {
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
             | RunError::Collapsed { .. }
+            | RunError::NoNumberLeft { .. }
             | RunError::Memory { .. } => {}
         }
         error

@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::boundaries::{course, nodes, placing, rigid_body};
+use crate::flow;
 use crate::scene::{AxisMotion, Scene};
 use crate::state::{BoundaryState, State};
 use std::sync::Arc;
@@ -11,9 +12,12 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, mut neighbours, contacts, walls, bonds, .. } = reached;
+        let State { particles, mut neighbours, contacts, walls, bonds, exchange, .. } = reached;
         neighbours.made_at = 0;
-        let mut state = State { particles, neighbours, contacts, walls, bonds, ..assemble::state(&scene) };
+        let mut state = State { particles, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+        if let Some(exchange) = &mut state.exchange {
+            flow::begin_anew(&scene, exchange);
+        }
         for ((boundary, begun), ended) in scene.boundaries.iter().zip(&mut state.boundaries).zip(&reached.boundaries) {
             stay(&boundary.axes, begun, ended);
         }
@@ -30,7 +34,8 @@ impl Simulation {
     pub fn place(&mut self, begun: Option<&State>) -> Result<(), RunError> {
         self.way_back.forget();
         let (coefficients, tuned) = (self.state.coefficients.clone(), self.state.tuned.clone());
-        let from = State { coefficients, tuned, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
+        let mut from = State { coefficients, tuned, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
+        take_rates(&mut from, &self.state);
         let before = std::mem::replace(&mut self.state, from);
         self.put(&before, begun.is_none()).inspect_err(|_| self.state = before)
     }
@@ -78,6 +83,7 @@ impl Simulation {
         for (moved, given) in self.state.nodes.iter_mut().zip(&other.state.nodes) {
             nodes::take_inputs(moved, given);
         }
+        take_rates(&mut self.state, &other.state);
     }
 
     /// Lets every count and book begin anew at the present state.
@@ -102,6 +108,15 @@ impl Simulation {
             ledger.initial_elastic = elastic;
         }
         self.open_losses();
+    }
+}
+
+/// Gives insertions the rates that they were given in another state.
+fn take_rates(state: &mut State, other: &State) {
+    let feeds = state.exchange.iter_mut().flat_map(|exchange| &mut exchange.feeds);
+    let given = other.exchange.iter().flat_map(|exchange| &exchange.feeds);
+    for (feed, given) in feeds.zip(given) {
+        (feed.rate, feed.rate_of_rate) = (given.rate, given.rate_of_rate);
     }
 }
 

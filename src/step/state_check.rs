@@ -1,6 +1,7 @@
 //! States from outside are checked before they are used.
 
 use super::{LONGEST_AUTOMATIC_STEP, Simulation};
+use crate::flow;
 use crate::scene::Step;
 use crate::state::{State, StateFault, demand};
 
@@ -12,6 +13,9 @@ impl Simulation {
         state.check(&self.state)?;
         self.search.check(state)?;
         let count = state.particles.len();
+        if let Some(exchange) = &state.exchange {
+            flow::check(&self.scene, &state.particles, exchange)?;
+        }
         let orientations =
             state.particles.orientation.len() == count || !self.passes.iter().any(|it| it.needs_orientations());
         demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;

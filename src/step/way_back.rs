@@ -32,6 +32,8 @@ pub(super) struct WayBack {
     given: Vec<Given>,
     /// The same of the nodes of meshes: values and rates.
     nodes: Vec<[Row; 2]>,
+    /// Rates of insertions that were given for them, and how they change, insertion by insertion.
+    rates: Vec<[f64; 2]>,
     /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
     close: bool,
 }
@@ -57,6 +59,7 @@ impl WayBack {
             self.intervals.clear();
             self.given.clear();
             self.nodes.clear();
+            self.rates.clear();
             self.holds = true;
         }
         self.intervals.push(interval);
@@ -65,6 +68,8 @@ impl WayBack {
         self.given.extend(state.boundaries.iter().map(given));
         let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
         self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
+        let feeds = state.exchange.iter().flat_map(|exchange| &exchange.feeds);
+        self.rates.extend(feeds.map(|feed| [feed.rate, feed.rate_of_rate]));
     }
 }
 
@@ -104,6 +109,11 @@ impl Simulation {
                 self.state.nodes.iter_mut().flat_map(|nodes| nodes.target.iter_mut().zip(&mut nodes.target_rate));
             for ((target, rate), given) in nodes.zip(&way.nodes[number * count..]) {
                 [*target, *rate] = *given;
+            }
+            let feeds = self.state.exchange.iter_mut().flat_map(|exchange| &mut exchange.feeds);
+            let count = self.scene.insertions.len();
+            for (feed, rates) in feeds.zip(&way.rates[number * count..]) {
+                [feed.rate, feed.rate_of_rate] = *rates;
             }
             if number < last {
                 self.advance(interval).expect("steps that were made before can be made again");

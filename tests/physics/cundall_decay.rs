@@ -14,7 +14,14 @@ use std::f64::consts::PI;
 pub(crate) fn damping(scene: &Scene, linear: f64, angular: f64, gravity_damped: bool) -> Vec<Damping> {
     let each = |fraction: f64| vec![fraction; scene.particles.len()];
     let (linear, angular) = (each(linear), each(angular));
-    vec![Damping { name: "cundall".into(), linear, angular, gravity_damped, applied_forces_damped: false }]
+    vec![Damping {
+        name: "cundall".into(),
+        linear,
+        angular,
+        newcomers: [0.0; 2],
+        gravity_damped,
+        applied_forces_damped: false,
+    }]
 }
 
 /// Gravity \[m/s²\].

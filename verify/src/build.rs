@@ -274,6 +274,7 @@ fn damping(case: &Case, particles: &[Particle]) -> Result<Vec<Damping>, Mistake>
         }
     };
     Ok(vec![Damping {
+        newcomers: [0.0; 2],
         name: "damping".into(),
         linear: of("gamma_l", damping.gamma_l)?,
         angular: of("gamma_a", damping.gamma_a)?,

@@ -7,7 +7,7 @@ use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
 use crate::document::{SceneError, SceneErrors};
 use crate::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Particle, Scene};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, Scene};
 use std::collections::BTreeSet;
 
 impl Scene {
@@ -65,6 +65,9 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
     let mut particles = vec![0_usize; count];
     for particle in &scene.particles {
         particles[particle.material.index()] += 1;
+    }
+    for insertion in &scene.insertions {
+        particles[insertion.material.index()] += 2;
     }
     let mut walls = vec![false; count];
     for boundary in &scene.boundaries {
@@ -156,7 +159,7 @@ fn numbers(scene: &Scene) -> Vec<Finding> {
 
 /// Particles outside the domain.
 fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
-    let Some([lower, upper]) = scene.domain else { return };
+    let Some([lower, upper]) = scene.domain.filter(|_| scene.outside == Outside::Stop) else { return };
     let inside = |position: &[f64; 3]| (0..3).all(|axis| (lower[axis]..=upper[axis]).contains(&position[axis]));
     let mut lost = scene.particles.iter().filter(|particle| !inside(&particle.position));
     if let Some(first) = lost.next() {

@@ -1,6 +1,7 @@
 //! Materials, what two of them have in common, and which law governs them.
 
-use super::raw_tables::{Law, Named, RawTables};
+use super::named_tables::Named;
+use super::raw_tables::{Law, RawTables};
 use crate::contact::{Material, PairProperties, Scheme, Switches};
 use crate::document::Faults;
 use crate::document::Mistake;

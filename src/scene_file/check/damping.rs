@@ -29,12 +29,19 @@ pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, 
             }
             each
         });
+        let all = damping.particles.is_none();
+        let newcomers = if all { [damping.linear.get(), damping.angular.get()] } else { [0.0; 2] };
+        if all && damping.scale.is_some() && !written.insertions.is_empty() {
+            let what = "a scale, which particles that come later have none of".to_owned();
+            let right = "particles = .. that names those to be damped, or no scale, is right".to_owned();
+            faults.add(&table, "scale", Mistake::Senseless { what, right });
+        }
         let gravity = written.gravity.0 != [0.0; 3];
         let gravity_damped = said(damping.gravity_damped, gravity, &table, "gravity_damped", faults);
         let applied = !written.forces.is_empty();
         let forces_damped = said(damping.applied_forces_damped, applied, &table, "applied_forces_damped", faults);
         let name = name.clone();
-        list.push(Damping { name, linear, angular, gravity_damped, applied_forces_damped: forces_damped });
+        list.push(Damping { name, linear, angular, newcomers, gravity_damped, applied_forces_damped: forces_damped });
     }
     list
 }

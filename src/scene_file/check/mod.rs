@@ -7,8 +7,10 @@ mod boundaries;
 mod consistency;
 mod contacts;
 mod damping;
+mod exchange;
 mod finding;
 mod motion;
+mod named_tables;
 mod particles;
 mod place;
 pub(super) mod raw_tables;
@@ -48,6 +50,7 @@ pub(super) fn scene(
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let regions = regions(&written, &mut faults);
+    let exchange::Parts { insertions, outlets, meters } = exchange::parts(&written, &regions, &materials, &mut faults);
     let mut scene = Scene {
         bonds,
         run,
@@ -61,7 +64,11 @@ pub(super) fn scene(
         damping,
         forces,
         regions,
+        outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
+        insertions,
+        outlets,
+        meters,
         output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
@@ -70,7 +77,9 @@ pub(super) fn scene(
     if let Some([found, right]) = scene.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Wrong { found, right });
     }
-    for finding in consistency::laws(&scene).into_iter().chain(consistency::places(&scene)) {
+    let found =
+        consistency::laws(&scene).into_iter().chain(consistency::places(&scene)).chain(exchange::objections(&scene));
+    for finding in found {
         report(finding, document, &mut faults);
     }
     faults.finish().map(|()| scene)

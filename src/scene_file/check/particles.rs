@@ -1,7 +1,8 @@
 //! From particle sets as they are written to the particles of the scene.
 
+use super::named_tables::Named;
 use super::place::Place;
-use super::raw_tables::{Named, RawTables};
+use super::raw_tables::RawTables;
 use super::set_reader::{SetReader, Unnumbered};
 use crate::contact::Material;
 use crate::document::Faults;

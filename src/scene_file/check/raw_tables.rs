@@ -1,5 +1,6 @@
 //! Every table of the text as its own type; from here on only relations between tables can be wrong.
 
+use super::named_tables::{Named, all, names};
 use crate::bond::keys::Keys;
 use crate::contact::PairProperties;
 use crate::contact::cohesion::CohesionChoice;
@@ -9,6 +10,7 @@ use crate::contact::tangential::TangentialChoice;
 use crate::document::Mistake;
 use crate::document::messages;
 use crate::document::{Document, Faults};
+use crate::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::region;
 use crate::scene::{AxisMotion, Output};
 use crate::scene_file::tables::{
@@ -17,9 +19,6 @@ use crate::scene_file::tables::{
 };
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
-
-/// Tables by name, in the order of the text.
-pub(super) type Named<T> = Vec<(String, T)>;
 
 /// The whole text.
 pub(in crate::scene_file) struct RawTables {
@@ -45,6 +44,12 @@ pub(in crate::scene_file) struct RawTables {
     pub(super) forces: Named<ForceTable>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
+    /// `[insertion.<name>]`
+    pub(super) insertions: Named<InsertionKeys>,
+    /// `[outlet.<name>]`
+    pub(super) outlets: Named<OutletKeys>,
+    /// `[flow_meter.<name>]`
+    pub(super) meters: Named<MeterKeys>,
     /// `[domain]`
     pub(super) domain: Option<DomainTable>,
     /// `[output]`
@@ -123,6 +128,9 @@ impl RawTables {
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
         let regions = all(document, "region", faults);
+        let insertions = all(document, "insertion", faults);
+        let outlets = all(document, "outlet", faults);
+        let meters = all(document, "flow_meter", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
         let output = document.read("output", faults);
         if faults.count() > 0 {
@@ -142,6 +150,9 @@ impl RawTables {
             damping,
             forces,
             regions,
+            insertions,
+            outlets,
+            meters,
             domain,
             output,
         })
@@ -165,39 +176,6 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
             false => faults.at_line(line, "", &name, mistake),
         }
     }
-}
-
-/// The names of the tables below a table; each must be a name.
-fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec<String> {
-    if document.has(kind) && !document.is_table(kind) {
-        let (found, right) = (document.written(kind).to_owned(), format!("a table [{kind}.<name>]"));
-        faults.add("", kind, Mistake::Wrong { found, right });
-    }
-    let (names, others): (Vec<String>, Vec<String>) = document.names(kind).into_iter().partition(|name| is_name(name));
-    for found in others {
-        let line = document.line_of_name(kind, &found);
-        let bare = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
-        let shown = if !found.is_empty() && found.chars().all(bare) { found.clone() } else { format!("{found:?}") };
-        faults.at_line(line, &format!("{kind}.{shown}"), "", Mistake::Name { found });
-    }
-    names
-}
-
-/// `[A-Za-z_][A-Za-z0-9_]*`
-fn is_name(text: &str) -> bool {
-    let starts = text.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-    starts && text.chars().all(|character| character.is_ascii_alphanumeric() || character == '_')
-}
-
-/// All tables of a kind.
-fn all<T: DeserializeOwned>(document: &Document, kind: &str, faults: &mut Faults) -> Named<T> {
-    let mut tables = Vec::new();
-    for name in names(document, kind, faults) {
-        if let Some(table) = document.read(&format!("{kind}.{name}"), faults) {
-            tables.push((name, table));
-        }
-    }
-    tables
 }
 
 /// All properties of pairs; both orders of one pair must say the same.

@@ -13,6 +13,7 @@ pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{Between, StepKey};
 
 use crate::contact::Scheme;
+use crate::exchange::Outside;
 use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
 use crate::scene::Accuracy;
 use serde::Deserialize;
@@ -21,7 +22,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene_file) const TABLES: [&str; 13] = [
+pub(in crate::scene_file) const TABLES: [&str; 16] = [
     "run",
     "gravity",
     "material",
@@ -33,6 +34,9 @@ pub(in crate::scene_file) const TABLES: [&str; 13] = [
     "damping",
     "force",
     "region",
+    "insertion",
+    "outlet",
+    "flow_meter",
     "domain",
     "output",
 ];
@@ -151,4 +155,6 @@ pub(in crate::scene_file) struct DomainTable {
     /// Its corners \[m\].
     #[serde(rename = "box")]
     pub(in crate::scene_file) corners: Corners,
+    /// What happens to particles outside of it.
+    pub(in crate::scene_file) outside: Option<Outside>,
 }

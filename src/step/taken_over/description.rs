@@ -1,7 +1,8 @@
 //! What must be known of a scene to understand a state that it has reached.
 
 use crate::bond::{self, formulation::FormulationChoice};
-use crate::scene::{Boundary, Output, Scene};
+use crate::exchange::Amount;
+use crate::scene::{Boundary, Insertion, Output, Scene};
 use crate::state::{State, StateFault, demand};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -22,6 +23,10 @@ pub struct Description {
     course: u64,
     /// Numbers of the particles, ascending: first and count of each series.
     particles: Vec<[u32; 2]>,
+    /// Materials: names.
+    materials: Vec<String>,
+    /// Insertions: name, and what is to come, without the value of a rate.
+    insertions: Vec<(String, String)>,
     /// Boundaries: name and shape.
     boundaries: Vec<(String, String)>,
     /// Contact laws: name, and names of what they remember of a contact.
@@ -53,6 +58,8 @@ impl Description {
             fingerprint: scene.fingerprint,
             course: course(scene),
             particles,
+            materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
+            insertions: scene.insertions.iter().map(|it| (it.name.clone(), amount(it))).collect(),
             boundaries: scene.boundaries.iter().map(|it| (it.name.clone(), shape(it).to_owned())).collect(),
             contacts: (0..scene.contacts.len())
                 .map(|law| (scene.contacts[law].name.clone(), memory(scene, law)))
@@ -77,7 +84,12 @@ impl Description {
         demand(ascend, "particles", 0, "ascending numbers")?;
         let same = "as many as are described";
         let count = self.particles.iter().map(|&[_, count]| u64::from(count)).sum::<u64>();
-        demand(count == state.particles.len() as u64, "particles", state.particles.len(), same)?;
+        let own = state.particles.slot.len() - state.particles.numbers.len();
+        demand(count == own as u64, "particles", own, same)?;
+        let known = state.particles.material.iter().all(|&material| (material as usize) < self.materials.len());
+        demand(known, "material", 0, "materials of the scene")?;
+        let feeds = state.exchange.as_ref().map_or(0, |exchange| exchange.feeds.len());
+        demand(feeds == self.insertions.len(), "feeds", feeds, same)?;
         demand(state.boundaries.len() == self.boundaries.len(), "boundaries", state.boundaries.len(), same)?;
         demand(state.contacts.len() == self.contacts.len(), "contacts", state.contacts.len(), same)?;
         demand(state.bonds.len() == self.bonds.len(), "bonds", state.bonds.len(), same)?;
@@ -100,6 +112,17 @@ impl Description {
     /// Numbers of the particles, ascending.
     pub(super) fn ids(&self) -> impl Iterator<Item = u32> + '_ {
         self.particles.iter().flat_map(|&[first, count]| (0..count).map(move |k| first + k))
+    }
+
+    /// The place here of each of the other scene's materials that has a name of this scene's.
+    pub(super) fn material_here(&self, scene: &Scene, there: u32) -> Option<u32> {
+        let name = self.materials.get(there as usize)?;
+        scene.materials.iter().position(|material| material.name == *name).map(|place| place as u32)
+    }
+
+    /// Place of the insertion that has this one's name and lets come what it does.
+    pub(super) fn insertion(&self, insertion: &Insertion) -> Option<usize> {
+        self.insertions.iter().position(|(name, what)| *name == insertion.name && *what == amount(insertion))
     }
 
     /// Place of the boundary that has this one's name and shape.
@@ -169,6 +192,15 @@ impl Description {
 /// Names of what is kept of a contact of a law.
 fn memory(scene: &Scene, law: usize) -> Vec<String> {
     scene.kept_rows(law).iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// What an insertion lets come: a mass, or by which kind of rate.
+fn amount(insertion: &Insertion) -> String {
+    match insertion.amount {
+        Amount::MassRate(_) => "mass_rate".to_owned(),
+        Amount::CountRate(_) => "count_rate".to_owned(),
+        Amount::Mass(mass) => format!("mass {mass:?}"),
+    }
 }
 
 /// The shape of a boundary, in one word.

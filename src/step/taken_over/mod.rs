@@ -5,6 +5,7 @@
 //! If it differs from the other one only in its end and its outputs, the run continues bit for bit.
 
 mod description;
+mod exchange;
 mod history;
 
 pub use description::Description;
@@ -43,14 +44,15 @@ impl Simulation {
     /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
     /// outside has been checked by [`Description::check`].
     pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
-        let numbers = Numbers::of(&scene, from);
+        let mut numbers = Numbers::of(&scene, from);
         let mut state = assemble::state(&scene);
+        let mut left = from.differences(&scene);
+        left.extend(exchange::put_newcomers(&scene, &mut state, reached, (from, &mut numbers)));
         state.clock.time = reached.clock.time;
         state.clock.lost = reached.clock.lost;
         state.clock.steps = reached.clock.steps;
         state.clock.rebuilds = reached.clock.rebuilds;
         put_particles(&mut state, reached, &numbers);
-        let mut left = from.differences(&scene);
         put_boundaries(&scene, &mut state, reached, from);
         history::put_contacts(&scene, &mut state, reached, (from, &numbers));
         let mut simulation = Self::with(scene, state);
@@ -59,6 +61,7 @@ impl Simulation {
         let Self { scene, bodies, state, .. } = &mut simulation;
         rigid_body::place_groups(scene, bodies, state);
         check_groups(scene, state, &there)?;
+        exchange::take_gone(state, reached, &numbers);
         simulation.check_room()?;
         simulation.rebuild(&simulation.standing());
         let time = simulation.state.clock.time;
@@ -77,8 +80,7 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
         particles.orientation.resize(particles.len(), Quaternion::identity().to_row());
     }
     for (there, here) in numbers.here.iter().enumerate() {
-        let Some(slot) = here.map(|here| here as usize) else { continue };
-        let from = other.slot[there] as usize;
+        let (Some(slot), Some(from)) = (here.map(|here| here as usize), other.slot_of(there as u32)) else { continue };
         for axis in 0..3 {
             particles.position[slot][axis] = other.position[from][axis];
             particles.velocity[slot][axis] = other.velocity[from][axis];

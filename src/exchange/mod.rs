@@ -1,0 +1,13 @@
+//! How particles come and go, as a scene writes it: sizes of what comes, how much of it, polygons that are passed.
+//!
+//! Pure functions and keys. Who comes where and when is found in [`crate::flow`].
+
+mod keys;
+mod polygon;
+mod size_keys;
+mod sizes;
+
+pub use keys::{Amount, Outside};
+pub(crate) use keys::{InsertionKeys, MeterKeys, OutletKeys};
+pub use polygon::Polygon;
+pub use sizes::Sizes;
