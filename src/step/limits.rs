@@ -142,8 +142,7 @@ impl Simulation {
     }
 
     /// How much faster anything may become before the next look. The farther a given step is below the stable one, the more
-    /// speed is foreseen, and the fewer looks a bed takes that begins to move. What is foreseen adds to the inertia of light
-    /// bodies that forces move: a scene with such a body foresees no more than any other.
+    /// speed is foreseen, and the fewer looks a bed takes that begins to move; not so where that would add to inertia.
     fn foreseen_growth(&self) -> f64 {
         let far_below = |step: f64| self.state.foresight.looks > 0 && self.state.clock.stable > FAR_BELOW * step;
         match self.scene.run.step {
