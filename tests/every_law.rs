@@ -352,11 +352,17 @@ fn what_the_platforms_own_functions_make_is_told_to_another_process() {
     println!("hash own = {made:016x}");
 }
 
+/// The name of a test of this file, as the program of the tests knows it.
+fn named(test: &str) -> String {
+    let module = module_path!().split_once("::").map_or("", |(_, module)| module);
+    format!("{module}::{test}")
+}
+
 /// What a test of this file tells in a process of its own, where the C library is asked not to use some features of
 /// the processor. It reads that when a process starts.
 fn told(test: &str, hidden: &str) -> BTreeMap<String, String> {
     let output = std::process::Command::new(std::env::current_exe().expect("a test is a file"))
-        .args(["--exact", test, "--nocapture"])
+        .args(["--exact", &named(test), "--nocapture"])
         .env("GLIBC_TUNABLES", format!("glibc.cpu.hwcaps={hidden}"))
         .output()
         .expect("a process starts");

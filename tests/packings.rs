@@ -63,7 +63,7 @@ fn small_boxes_are_filled_further_by_longer_shaking() {
     (1..=2).for_each(|seed| expect(seed, [5.0; 3], 0.55));
 }
 
-/// `cargo test --release --test packings -- --ignored --nocapture`
+/// `cargo test --release --test library packings:: -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes; docs/scene.md has the figures"]
 fn success_and_time_of_dense_packings() {

@@ -283,3 +283,24 @@ fn a_file_is_short_or_has_a_reason() {
     let short: Vec<_> = LONG.iter().filter(|(name, _)| !long.iter().any(|path| path == name)).collect();
     assert!(short.is_empty(), "no longer long, to be taken from the list: {short:?}");
 }
+
+/// The tests that Cargo does not find by itself: those that no program of tests names would never run.
+#[test]
+fn every_file_of_tests_is_part_of_a_program() {
+    let tests = root().join("tests");
+    let programs = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let modules = fs::read_to_string(tests.join("main.rs")).unwrap();
+    let is_named = |name: &str| {
+        modules.contains(&format!("mod {name};\n")) || programs.contains(&format!("[[test]]\nname = \"{name}\""))
+    };
+    let found: Vec<String> = fs::read_dir(&tests)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "rs") || path.join("mod.rs").exists())
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .filter(|name| name != "main")
+        .collect();
+    assert!(found.len() > 30, "{found:?}");
+    let lost: Vec<_> = found.iter().filter(|name| !is_named(name)).collect();
+    assert!(lost.is_empty(), "in no program: {lost:?}");
+}

@@ -304,7 +304,7 @@ fn a_damaged_scene_or_file_is_accepted_or_refused_and_never_panics() {
     assert!(refused > 500, "only {refused} refused");
 }
 
-/// `cargo test --test scenes -- --ignored`
+/// `cargo test --test library scenes:: -- --ignored`
 #[test]
 #[ignore = "takes a minute"]
 fn twenty_thousand_damaged_scenes_end_in_words() {

@@ -1,6 +1,6 @@
 //! Known failures of the engine's bond: each shown in `engine_exact`, and its absence in the other formulations.
 
-use crate::placement::turn;
+use crate::bond_laws::placement::turn;
 use cograin::number::Vector;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;

@@ -1,6 +1,6 @@
 //! Points worked out by hand: breakage, damping, the first steps of the engine's bond.
 
-use crate::placement::RADII;
+use crate::bond_laws::placement::RADII;
 use cograin::bond::breakage::{Rule, cause_name, distance::Distance, stress::ByStress};
 use cograin::bond::damping::DampingLoad;
 use cograin::bond::formulation::FormulationChoice;

@@ -1,7 +1,7 @@
 //! Along its axis a chain of bonds swings as masses on springs do, each mode at its closed form.
 
-use crate::chain::{AXIAL, CLAMP, MASS, Motion, chain, in_order, simulation};
-use crate::stage::assert_close;
+use crate::physics::chain::{AXIAL, CLAMP, MASS, Motion, chain, in_order, simulation};
+use crate::physics::stage::assert_close;
 use std::f64::consts::PI;
 
 /// Bonds of the chain.

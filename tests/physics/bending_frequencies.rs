@@ -1,8 +1,8 @@
 //! A clamped chain swings with its own eigenfrequencies, and a long one with those of a Timoshenko beam that ends half a
 //! bond behind its last centre.
 
-use crate::chain::{BENDING, CLAMP, INERTIA, LENGTH, MASS, Motion, SHEAR, chain, in_order, simulation};
-use crate::stage::assert_close;
+use crate::physics::chain::{BENDING, CLAMP, INERTIA, LENGTH, MASS, Motion, SHEAR, chain, in_order, simulation};
+use crate::physics::stage::assert_close;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 

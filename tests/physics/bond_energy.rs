@@ -1,7 +1,7 @@
 //! Kinetic energy, what bonds store and what broken ones released add up to the work of the boundary, to the square of the step.
 
-use crate::chain::{AXIAL, MASS, Motion, chain, simulation};
-use crate::stage::assert_near;
+use crate::physics::chain::{AXIAL, MASS, Motion, chain, simulation};
+use crate::physics::stage::assert_near;
 
 /// The most by which energy is missing or over in the course of a chain that one end draws and swings \[J\].
 ///

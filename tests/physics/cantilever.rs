@@ -1,8 +1,8 @@
 //! The tip of a clamped chain under a force across moves as its springs in series do: a beam's deflection, less its share
 //! 1/(4 N²) of bending, plus shear.
 
-use crate::chain::{BENDING, CLAMP, LENGTH, MASS, SHEAR, chain, in_order, simulation};
-use crate::stage::assert_close;
+use crate::physics::chain::{BENDING, CLAMP, LENGTH, MASS, SHEAR, chain, in_order, simulation};
+use crate::physics::stage::assert_close;
 use cograin::step::Simulation;
 use std::f64::consts::TAU;
 

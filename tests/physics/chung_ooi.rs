@@ -4,10 +4,10 @@
 //! Source: Y. C. Chung & J. Y. Ooi, *Granular Matter* 13 (2011) 643–656. Sliding throughout, e_t = 1 − µ (1 + e)/tan θ, and
 //! r ω' = r ω − 5/2 µ (1 + e) v_n; e is the restitution that was measured, since friction follows the impulse that acted.
 
-use crate::stage::{
+use crate::physics::stage::{
     HERTZ, Rebound, Stage, assert_close, assert_near, hertz_duration, hit, material, properties, rigid,
 };
-use crate::stage::{scene, sphere};
+use crate::physics::stage::{scene, sphere};
 use cograin::contact::{LawChoice, Material, Switches};
 use cograin::scene::Particle;
 

@@ -3,8 +3,8 @@
 //! Two equal spheres of radius R, R* = R/2, cohesion energy density C. Hertz with `sjkr`, small overlaps: 4/3 E* √R* δ^(3/2) =
 //! C 2 π R* δ at δ/R* = (3 π C/(2 E*))². Linear springs: k_n δ against C 2 π R* δ = C π R δ; from C = k_n/(π R) on nothing holds.
 
-use crate::cundall_decay::damping;
-use crate::stage::{SMOOTH, SPRING, Stage, assert_close, material, properties, scene, sphere};
+use crate::physics::cundall_decay::damping;
+use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, properties, scene, sphere};
 use cograin::contact::cohesion::{CohesionChoice, sjkr};
 use cograin::contact::{LawChoice, PairProperties};
 use cograin::quantity::NonNegative;

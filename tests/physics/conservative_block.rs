@@ -1,6 +1,6 @@
 //! A ringing block of bonded spheres that nothing damps keeps its energy over a million steps near the stable one.
 
-use crate::chain::simulation;
+use crate::physics::chain::simulation;
 use cograin::step::Simulation;
 
 /// Spheres along each edge.

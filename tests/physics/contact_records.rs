@@ -1,7 +1,7 @@
 //! What is reported of contacts is what acted: the reported forces add up to those on the particles.
 
-use crate::momentum::{cloud, whole_law};
-use crate::stage::{HERTZ, Stage, assert_near, material, scene};
+use crate::physics::momentum::{cloud, whole_law};
+use crate::physics::stage::{HERTZ, Stage, assert_near, material, scene};
 use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, NoKeys};
 

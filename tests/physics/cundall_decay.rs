@@ -4,7 +4,7 @@
 //! Source: P. A. Cundall, *Analytical and Computational Methods in Engineering Rock Mechanics* (1987), chapter 4;
 //! half a cycle under k (1 − a), half under k (1 + a): T/T₀ = ½ (1/√(1 − a) + 1/√(1 + a)).
 
-use crate::stage::{SMOOTH, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
+use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
 use cograin::contact::PairProperties;
 use cograin::quantity::NonNegative;
 use cograin::scene::{Damping, Scene};

@@ -3,8 +3,8 @@
 //! It looks at each component of force and velocity, and the velocity is that of the scene's frame. This is the
 //! documents' damping; the tests show what it does, so that nobody expects otherwise.
 
-use crate::cundall_decay::damping;
-use crate::stage::{SMOOTH, Stage, assert_close, assert_near, material, properties, scene, sphere};
+use crate::physics::cundall_decay::damping;
+use crate::physics::stage::{SMOOTH, Stage, assert_close, assert_near, material, properties, scene, sphere};
 
 /// Two spheres meet along this direction, all moving with `drift` along it besides. Returns their velocities along it
 /// before and after \[m/s\].

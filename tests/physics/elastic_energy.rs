@@ -1,7 +1,7 @@
 //! Elastic spheres without friction keep their energy, kinetic and stored, to the error of the step.
 
-use crate::momentum::cloud;
-use crate::stage::{SMOOTH, Stage, assert_close, material, properties, scene};
+use crate::physics::momentum::cloud;
+use crate::physics::stage::{SMOOTH, Stage, assert_close, material, properties, scene};
 
 /// Young's modulus \[Pa\] with ν = 0, so that E* is half of it.
 const MODULUS: f64 = 1e7;

@@ -1,7 +1,7 @@
 //! Which body is called i and which j, and in which order a scene lists them, is of no consequence.
 
-use crate::momentum::{cloud, whole_law};
-use crate::stage::{Stage, assert_near, material, scene};
+use crate::physics::momentum::{cloud, whole_law};
+use crate::physics::stage::{Stage, assert_near, material, scene};
 use cograin::scene::Particle;
 
 /// Runs these bodies for a while.

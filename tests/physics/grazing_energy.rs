@@ -3,7 +3,7 @@
 //! k_t follows the overlap while the spring stays as it is; a spring that was stretched under a small overlap is worth
 //! more under a large one (D. Elata & J. G. Berryman, *Mech. Mater.* 24 (1996) 229–240). The test shows how much.
 
-use crate::stage::{HERTZ, hertz_duration, hit, material, properties, rigid, sphere};
+use crate::physics::stage::{HERTZ, hertz_duration, hit, material, properties, rigid, sphere};
 use cograin::contact::tangential::{TangentialChoice, turned_history};
 use cograin::contact::{LawChoice, NoKeys, Scheme};
 

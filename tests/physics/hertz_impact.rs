@@ -3,8 +3,10 @@
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 11.4; set-ups 1 and 2 of Y. C. Chung & J. Y. Ooi,
 //! *Granular Matter* 13 (2011) 643–656.
 
-use crate::stage::{SMOOTH, Stage, assert_close, hertz_duration, hertz_overlap, material, plane, properties, rigid};
-use crate::stage::{scene, sphere};
+use crate::physics::stage::{
+    SMOOTH, Stage, assert_close, hertz_duration, hertz_overlap, material, plane, properties, rigid,
+};
+use crate::physics::stage::{scene, sphere};
 use std::f64::consts::PI;
 
 /// Time steps in a contact, and what is then right to: the step errs by (π/steps)²/24 and more where the force is not linear.

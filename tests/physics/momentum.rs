@@ -2,7 +2,7 @@
 //!
 //! Every contact force acts on both bodies along one line, and the arms of both add up to their distance.
 
-use crate::stage::{HERTZ, Stage, assert_near, material, properties, scene, sphere};
+use crate::physics::stage::{HERTZ, Stage, assert_near, material, properties, scene, sphere};
 use cograin::contact::cohesion::{CohesionChoice, sjkr};
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::{LawChoice, NoKeys, PairProperties};

@@ -4,7 +4,7 @@
 //! Source: set-ups 4 and 5 of Chung & Ooi (2011) with the parameters of A. H. Kharaz, D. A. Gorham & A. D. Salman,
 //! *Powder Technol.* 120 (2001) 281–291; gross sliding: e_t = 1 − µ (1 + e)/tan θ, r ω' = −5/2 µ (1 + e) v_n.
 
-use crate::stage::{
+use crate::physics::stage::{
     HERTZ, Rebound, assert_close, assert_near, hertz_duration, hit, material, properties, rigid, sphere,
 };
 
@@ -62,8 +62,9 @@ fn elastic_sliding_impacts_collapse_on_one_line() {
             let unit = friction * speed;
             let surface = (rebound.velocity[0] - radius * rebound.spin[1]) / unit;
             // The arm is half an overlap short of the radius: up to 2 % for the soft sphere.
-            let margin =
-                7.0 * crate::stage::hertz_overlap(effective, radius, sphere(radius, density).mass(), speed) / radius;
+            let margin = 7.0
+                * crate::physics::stage::hertz_overlap(effective, radius, sphere(radius, density).mass(), speed)
+                / radius;
             assert_near(surface, psi - 7.0, margin.max(5e-3), "slip after");
             assert_near(radius * rebound.spin[1] / unit, 5.0, margin.max(5e-3), "spin after");
         }

@@ -2,7 +2,7 @@
 //!
 //! `cargo test --test physics orders -- --nocapture` prints the errors.
 
-use crate::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, scene, sphere};
+use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, scene, sphere};
 use cograin::contact::rolling::{RollingChoice, rocking};
 use cograin::contact::{LawChoice, PairProperties, Scheme};
 use cograin::quantity::NonNegative;

@@ -1,7 +1,7 @@
 //! A wave packet runs along a chain of bonds with its group velocity, c₀ cos(q a/2).
 
-use crate::chain::{AXIAL, LENGTH, MASS, Motion, chain, in_order, simulation};
-use crate::stage::assert_close;
+use crate::physics::chain::{AXIAL, LENGTH, MASS, Motion, chain, in_order, simulation};
+use crate::physics::stage::assert_close;
 
 /// Spheres of the chain, which is free at both ends; the packet starts in its middle.
 const SPHERES: usize = 601;

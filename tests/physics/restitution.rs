@@ -3,7 +3,7 @@
 //! Source: set-up 3 of Chung & Ooi (2011); Tsuji's damping with the factor √(5/6) is exact for Hertz's force where
 //! the attractive end of the contact is kept.
 
-use crate::stage::{SMOOTH, assert_near, hertz_duration, hit, material, properties, rigid, sphere};
+use crate::physics::stage::{SMOOTH, assert_near, hertz_duration, hit, material, properties, rigid, sphere};
 use cograin::contact::LawChoice;
 use cograin::contact::normal::{NormalChoice, hooke};
 use cograin::quantity::Positive;
@@ -53,7 +53,7 @@ fn hooke_rebounds_with_the_restitution_given() {
     let law = LawChoice { normal: NormalChoice::Hooke(keys), ..SMOOTH };
     let mass = ball().mass();
     // The spring stores at its largest overlap what Hertz's contact does there.
-    let deepest = crate::stage::hertz_overlap(MODULUS, 0.0025, mass, 3.9);
+    let deepest = crate::physics::stage::hertz_overlap(MODULUS, 0.0025, mass, 3.9);
     let stiffness = 16.0 / 15.0 * 0.0025_f64.sqrt() * MODULUS * deepest.sqrt();
     for given in [0.3, 0.6, 0.9, 1.0] {
         // The dashpot acts at once and ends at once: half a step at either end, first order.

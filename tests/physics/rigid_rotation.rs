@@ -1,7 +1,7 @@
 //! Bonded bodies that turn rigidly under load keep their forces and their energy through a thousand turns.
 
-use crate::chain::{AXIAL, LENGTH, MASS, chain, simulation};
-use crate::stage::assert_close;
+use crate::physics::chain::{AXIAL, LENGTH, MASS, chain, simulation};
+use crate::physics::stage::assert_close;
 use cograin::step::{PlacedBond, PlacedParticle, Placement, Simulation};
 use std::f64::consts::{PI, TAU};
 

@@ -3,7 +3,9 @@
 //! Source: J. Ai et al., *Powder Technol.* 206 (2011) 269–282: with torque µ_r R N a rolling sphere slows at
 //! 5 µ_r g/7; on an incline it gains 5 (sin θ − µ_r cos θ) g/7, or holds for µ_r ≥ tan θ.
 
-use crate::stage::{HERTZ, SMOOTH, Stage, assert_close, assert_near, material, plane, properties, scene, sphere};
+use crate::physics::stage::{
+    HERTZ, SMOOTH, Stage, assert_close, assert_near, material, plane, properties, scene, sphere,
+};
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::{LawChoice, NoKeys, PairProperties};
 use cograin::quantity::NonNegative;

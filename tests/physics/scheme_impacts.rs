@@ -2,7 +2,7 @@
 //!
 //! `cargo test --test physics scheme_impacts -- --nocapture` prints the tables.
 
-use crate::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, rigid, scene, sphere};
+use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, rigid, scene, sphere};
 use cograin::contact::normal::{NormalChoice, hooke};
 use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, NoKeys, Scheme};

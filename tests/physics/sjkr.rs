@@ -3,7 +3,7 @@
 //!
 //! The area of the documents is negative for overlapping spheres; taken at its word it would push.
 
-use crate::stage::{HERTZ, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
+use crate::physics::stage::{HERTZ, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
 use cograin::contact::cohesion::{CohesionChoice, sjkr};
 use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, NoKeys, PairProperties};

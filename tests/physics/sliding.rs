@@ -2,7 +2,7 @@
 //!
 //! Source: any mechanics text; ω = 5 µ g t/(2 r) while it slides, u = 5 u₀/7 once it rolls.
 
-use crate::stage::{HERTZ, Stage, assert_close, assert_near, material, plane, properties, scene, sphere};
+use crate::physics::stage::{HERTZ, Stage, assert_close, assert_near, material, plane, properties, scene, sphere};
 use cograin::contact::LawChoice;
 use cograin::contact::tangential::TangentialChoice;
 

@@ -3,8 +3,10 @@
 //! Source: set-ups 6 and 7 of Chung & Ooi (2011). While it slides, v_t' = µ (1 + e) v_n and
 //! r ω' = r ω − 5/2 µ (1 + e) v_n.
 
-use crate::stage::sphere;
-use crate::stage::{HERTZ, Stage, assert_close, assert_near, hertz_duration, hit, material, properties, rigid, scene};
+use crate::physics::stage::sphere;
+use crate::physics::stage::{
+    HERTZ, Stage, assert_close, assert_near, hertz_duration, hit, material, properties, rigid, scene,
+};
 
 /// Radius \[m\].
 const R: f64 = 0.1;

@@ -1,7 +1,7 @@
 //! The whole time step, linearised by trying it: the engine makes one time step from rest with each freedom of each sphere
 //! moving a little, and the loads that follow are stiffness and damping, as full matrices.
 
-use crate::with_step;
+use crate::stable_step::with_step;
 use cograin::scene::Scene;
 use cograin::step::Simulation;
 use nalgebra::DMatrix;

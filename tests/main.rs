@@ -1,0 +1,40 @@
+//! The tests of the library from outside, as one program: each file is a subject.
+//!
+//! Tests that need a process of their own stand in programs of their own (`Cargo.toml`).
+
+mod bond_energies;
+mod bond_laws;
+mod bond_lists;
+mod bond_order;
+mod bonded_block;
+mod bonds;
+mod books;
+mod coefficients;
+mod derivatives;
+mod every_law;
+mod exchange;
+mod foreseen_step;
+mod forged_states;
+mod free_groups;
+mod lanes;
+mod layers;
+mod loaded;
+mod losses;
+mod motions;
+mod neighbours;
+mod nodes;
+mod packings;
+mod physics;
+mod random_scenes;
+mod regions;
+mod rooms;
+mod same_bits;
+mod scenes;
+mod schemes;
+mod servo;
+mod stable_step;
+mod starting;
+mod statics;
+mod suppressed_contacts;
+mod surface_courses;
+mod surfaces;
