@@ -44,7 +44,7 @@ fn missing_resources_are_named() {
     let nowhere = uri(&unit.folder.join("nowhere"));
     refused(&unit, Some(&unit.identity), Some(&nowhere), &["nowhere/scene.toml"]);
     refused(&unit, Some(&unit.identity), None, &["fmuResourceLocation is missing"]);
-    refused(&unit, Some(&unit.identity), Some("http://somewhere/resources"), &["no file: URI"]);
+    refused(&unit, Some(&unit.identity), Some("http://somewhere/resources"), &["not a file: URI"]);
 
     let gone = Unpacked::new();
     let file = resources(&source(), None).into_iter().find(|entry| entry.path.ends_with("bed.csv")).unwrap();

@@ -79,7 +79,7 @@ fn bonds_that_broke_before_a_kill_are_told_once() {
     complaint(&cograin(&[&"run", &scene, &"-o", &broken, &"--resume"]).output().unwrap(), 0);
     assert_same(&broken, &whole);
     let breakage = fs::read_to_string(whole.join("breakage.csv")).unwrap();
-    assert!(breakage.starts_with("time,id1,id2,cause,energy\n"), "{breakage}");
+    assert!(breakage.starts_with("time,id1,id2,cause,energy,position.x,"), "{breakage}");
     let broken = breakage.lines().count() - 1;
     assert!(broken > 0, "nothing broke");
     let summary = summary(&whole);
