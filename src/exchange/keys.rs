@@ -53,7 +53,7 @@ pub(crate) struct InsertionKeys {
     mass: Option<Positive>,
     /// Velocity \[m/s\]; absent: at rest.
     velocity: Option<Triple>,
-    /// By how much each component of the velocity differs from that at most, as likely \[m/s\].
+    /// By how much each component of the velocity differs from that at most, all values equally likely \[m/s\].
     scatter: Option<NonNegative>,
 }
 

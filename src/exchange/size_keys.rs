@@ -20,7 +20,7 @@ pub(crate) struct SizesKeys {
     by_number: Option<Shares>,
     /// Shares of the mass, class by class.
     by_mass: Option<Shares>,
-    /// Least and largest radius, all as likely \[m\].
+    /// Least and largest radius, all between equally likely \[m\].
     uniform: Option<Bounds>,
     /// A normal distribution by number.
     normal: Option<NormalKeys>,

@@ -46,7 +46,7 @@ impl Sizes {
         }
     }
 
-    /// A radius \[m\]. `uniform` hands out numbers from 0 to below 1, as likely.
+    /// A radius \[m\]. `uniform` hands out numbers from 0 to below 1, all equally likely.
     pub fn draw(&self, uniform: &mut dyn FnMut() -> f64) -> f64 {
         match self {
             Self::Fixed(radius) => *radius,

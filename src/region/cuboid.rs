@@ -24,7 +24,7 @@ impl Cuboid {
         point.to_array().iter().enumerate().all(|(axis, at)| (lower[axis]..=upper[axis]).contains(at))
     }
 
-    /// The centre of a sphere that lies whole inside, any as likely \[m\].
+    /// The centre of a sphere that lies whole inside, all places equally likely \[m\].
     pub(super) fn place(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
         let [lower, upper] = self.corners;
         let room = [0, 1, 2].map(|axis| upper[axis] - lower[axis] - 2.0 * radius);

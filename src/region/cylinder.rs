@@ -50,7 +50,7 @@ impl Cylinder {
         [corner(low, -1.0), corner(high, 1.0)]
     }
 
-    /// The centre of a sphere that lies whole inside, any as likely \[m\].
+    /// The centre of a sphere that lies whole inside, all places equally likely \[m\].
     pub(super) fn place_of(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
         let (room, wide) = (self.length - 2.0 * radius, self.radius - radius);
         if room < 0.0 || wide < 0.0 {

@@ -48,7 +48,7 @@ impl Region {
         }
     }
 
-    /// The centre of a sphere of this radius \[m\] that lies whole inside, any as likely; none where it does not fit. `uniform` hands
+    /// The centre of a sphere of this radius \[m\] that lies whole inside, all places equally likely; none where it does not fit. `uniform` hands
     /// out numbers from 0 to below 1.
     pub fn place(&self, radius: f64, uniform: &mut dyn FnMut() -> f64) -> Option<Vector> {
         match self {

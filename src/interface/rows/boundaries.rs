@@ -1,0 +1,284 @@
+//! Variables of each boundary and of its nodes.
+
+use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
+use crate::interface::{Quantity, Value, Variability};
+use crate::motion::Seen;
+use crate::scene::Scene;
+
+/// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
+const fn given<const FIRST: usize>() -> Option<Write> {
+    Some(Write {
+        set: |simulation, at, value| simulation.set_input(at.boundary, FIRST + at.axis, value),
+        set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis, rate),
+        held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
+        start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis].first_input(),
+        axis: |at| Some((at.boundary, FIRST + at.axis)),
+    })
+}
+
+/// What the outside sees of an axis: 0 to 2 along x, y, z, 3 to 5 about them.
+fn seen(scene: &Scene, at: At, first: usize) -> Seen {
+    scene.boundaries[at.boundary.index()].axes[first + at.axis].seen()
+}
+
+/// Whether the outside moves it.
+fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Input
+}
+
+/// Whether its displacement follows from something else than an input of that name.
+fn moves_by_itself(scene: &Scene, at: At, first: usize) -> bool {
+    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate | Seen::Load | Seen::Rate | Seen::Servo)
+}
+
+/// Whether forces move it.
+fn is_free(scene: &Scene, at: At, first: usize) -> bool {
+    matches!(seen(scene, at, first), Seen::PlaceAndRate | Seen::Load)
+}
+
+/// Whether the outside loads it.
+fn is_loaded(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Load
+}
+
+/// Whether the outside gives its velocity.
+fn is_steered(scene: &Scene, at: At, first: usize) -> bool {
+    seen(scene, at, first) == Seen::Rate
+}
+
+/// Whether a servo moves it.
+fn is_served(scene: &Scene, at: At) -> bool {
+    seen(scene, at, 0) == Seen::Servo
+}
+
+/// Mass of a boundary: of its particles, or as the scene gives it; 0 for one that has none \[kg\].
+fn mass(scene: &Scene, at: At) -> f64 {
+    let boundary = &scene.boundaries[at.boundary.index()];
+    let members = boundary.shape.members().iter();
+    let particles = members.filter_map(|&member| scene.particles.get(member as usize));
+    particles.map(crate::scene::Particle::mass).sum::<f64>() + boundary.body.mass
+}
+
+/// Variables of each boundary, inputs first.
+pub(super) static OF_BOUNDARIES: [Row; 19] = [
+    Row {
+        name: "displacement",
+        description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
+                      communication step; at initialisation taken without motion",
+        quantity: Quantity::Length,
+        exists: |scene, at| is_driven(scene, at, 0),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "rotation",
+        description: "rotation of {boundary} about {axis} since the scene's time 0, to be reached at the end of the \
+                      communication step; at initialisation taken without motion",
+        quantity: Quantity::Angle,
+        exists: |scene, at| is_driven(scene, at, 3),
+        write: given::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "velocity",
+        description: "velocity of {boundary} along {axis}; held in a communication step, or the mean of what changes at its rate",
+        quantity: Quantity::Velocity,
+        exists: |scene, at| is_steered(scene, at, 0),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "angular_velocity",
+        description: "angular velocity of {boundary} about {axis}; held in a communication step, or the mean of what changes \
+                      at its rate",
+        quantity: Quantity::AngularVelocity,
+        exists: |scene, at| is_steered(scene, at, 3),
+        write: given::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "target_force",
+        description: "force of the particles on {boundary} along {axis} that its servo is to reach; held in a communication \
+                      step, or changing at its rate",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_served(scene, at),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "applied_force",
+        description: "force that the outside lays on {boundary} along {axis}, without its weight; held in a communication \
+                      step, or changing at its rate",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_loaded(scene, at, 0),
+        write: given::<0>(),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "applied_moment",
+        description: "moment that the outside lays on {boundary} about {axis} through its moved reference point; held in a \
+                      communication step, or changing at its rate",
+        quantity: Quantity::Torque,
+        exists: |scene, at| is_loaded(scene, at, 3),
+        write: given::<3>(),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "displacement",
+        description: "displacement of {boundary} along {axis} since the scene's time 0",
+        quantity: Quantity::Length,
+        follows_inputs_at_start: false,
+        exists: |scene, at| moves_by_itself(scene, at, 0),
+        read: |now, at| Value::Real(now.boundary(at).displacement[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis]),
+        has_rate: true,
+        ..OF_AXIS
+    },
+    Row {
+        name: "rotation",
+        description: "rotation of {boundary} about {axis} since the scene's time 0",
+        quantity: Quantity::Angle,
+        follows_inputs_at_start: false,
+        exists: |scene, at| moves_by_itself(scene, at, 3),
+        read: |now, at| Value::Real(now.boundary(at).rotation[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "velocity",
+        description: "velocity of {boundary} along {axis}",
+        quantity: Quantity::Velocity,
+        follows_inputs_at_start: false,
+        exists: |scene, at| is_free(scene, at, 0),
+        read: |now, at| Value::Real(now.boundary(at).velocity[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "angular_velocity",
+        description: "angular velocity of {boundary} about {axis}",
+        quantity: Quantity::AngularVelocity,
+        follows_inputs_at_start: false,
+        exists: |scene, at| is_free(scene, at, 3),
+        read: |now, at| Value::Real(now.boundary(at).angular_velocity[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "force",
+        description: "force of the particles on {boundary} along {axis}",
+        quantity: Quantity::Force,
+        read: |now, at| Value::Real(now.boundary(at).force[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis]),
+        has_rate: true,
+        ..OF_AXIS
+    },
+    Row {
+        name: "moment",
+        description: "moment of the particles on {boundary} about {axis} through its moved reference point",
+        quantity: Quantity::Torque,
+        read: |now, at| Value::Real(now.boundary(at).moment[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis]),
+        has_rate: true,
+        ..OF_AXIS
+    },
+    Row {
+        name: "servo_error",
+        description: "what the force of the particles on {boundary} along {axis} lacks of its target",
+        quantity: Quantity::Force,
+        exists: |scene, at| is_served(scene, at),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis] - now.boundary(at).force[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "mean_force",
+        description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
+        quantity: Quantity::Force,
+        read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "mean_moment",
+        description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
+        quantity: Quantity::Torque,
+        read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "work",
+        each: Each::Boundary,
+        description: "work done by {boundary} on the particles since the start",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(now.boundary(at).work),
+        ..OUTPUT
+    },
+    Row {
+        name: "stiffness",
+        description: "condensed static stiffness of {boundary} along {axis}: force it takes more for each metre further, when \
+                      everything else has come to rest again",
+        quantity: Quantity::Stiffness,
+        follows_inputs_at_start: false,
+        exists: |scene, at| scene.output.stiffness && !is_free(scene, at, 0),
+        read: |now, at| {
+            let found = now.findings.stiffness(now.simulation, at.boundary);
+            Value::Real(found.map_or(f64::NAN, |stiffness| stiffness[at.axis]))
+        },
+        ..OF_AXIS
+    },
+    Row {
+        name: "mass",
+        each: Each::Boundary,
+        description: "mass of {boundary}; its weight and inertia are not in its force",
+        quantity: Quantity::Mass,
+        variability: Variability::Constant,
+        minimum: Some(0.0),
+        follows_inputs_at_start: false,
+        exists: |scene, at| mass(scene, at) > 0.0,
+        constant: Some(mass),
+        read: |now, at| Value::Real(mass(now.simulation.scene(), at)),
+        ..OUTPUT
+    },
+];
+
+/// An output of each node and axis.
+pub(super) const OF_NODE: Row = Row { each: Each::Node, quantity: Quantity::Force, ..OUTPUT };
+
+/// Variables of each node that moves by itself, inputs first.
+pub(super) static OF_NODES: [Row; 3] = [
+    Row {
+        name: "displacement",
+        description: "displacement of node {node} of {boundary} along {axis} since the scene's time 0, to be reached at the end of \
+                      the communication step; at initialisation taken without motion",
+        quantity: Quantity::Length,
+        write: Some(Write {
+            set: |simulation, at, value| simulation.set_node(at.boundary, (at.node, at.axis), value),
+            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node, at.axis), rate),
+            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |nodes| nodes.target[at.node][at.axis]),
+            start: |_, _| 0.0,
+            axis: |_| None,
+        }),
+        read: |now, at| now.node(at, |nodes| &nodes.target),
+        ..OF_NODE
+    },
+    Row {
+        name: "force",
+        description: "force of the particles on {boundary} along {axis}, the part of node {node}",
+        read: |now, at| now.node(at, |nodes| &nodes.force),
+        ..OF_NODE
+    },
+    Row {
+        name: "mean_force",
+        description: "force of the particles on {boundary} along {axis}, the part of node {node}, mean over the last communication \
+                      step",
+        read: |now, at| now.node(at, |nodes| &nodes.mean_force),
+        ..OF_NODE
+    },
+];

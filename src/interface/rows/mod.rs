@@ -1,0 +1,114 @@
+//! What the outside may give and know: one row for each kind of variable.
+//!
+//! A row says everything of its variables: name, unit, when a scene has them, how they are read and written. The unit's
+//! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
+
+mod boundaries;
+mod exchange;
+mod regions;
+mod row;
+mod scene;
+
+use crate::interface::{Causality, Variable};
+use crate::quantity::BoundaryIndex;
+use crate::scene::Scene;
+use boundaries::{OF_BOUNDARIES, OF_NODES};
+use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use regions::OF_REGIONS;
+use row::Each;
+pub(super) use row::{At, Present, ReadSlopes, Row};
+use scene::{OF_LOSSES, OF_SCENE};
+
+/// Where a variable's row stands, and which of the row's variables it is.
+#[derive(Clone, Copy)]
+pub(super) struct Source {
+    /// The row.
+    pub(super) row: &'static Row,
+    /// Which of its variables.
+    pub(super) at: At,
+}
+
+impl std::fmt::Debug for Source {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} {:?}", self.row.name, self.at)
+    }
+}
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.row, other.row) && self.at == other.at
+    }
+}
+
+/// The variables of a scene, boundary by boundary, then region by region, of what comes, goes and passes, then of the whole.
+pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
+    let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
+    let none = At { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
+    let of_boundaries = boundaries.flat_map(|boundary| {
+        let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
+        let of_nodes =
+            OF_NODES.iter().flat_map(move |row| nodes.clone().map(move |node| (row, At { boundary, node, ..none })));
+        OF_BOUNDARIES.iter().map(move |row| (row, At { boundary, ..none })).chain(of_nodes)
+    });
+    let each = |rows: &'static [Row], count: usize| {
+        (0..count).flat_map(move |place| rows.iter().map(move |row| (row, At { place, ..none })))
+    };
+    let exchange = each(&OF_INSERTIONS, scene.insertions.len())
+        .chain(each(&OF_OUTLETS, scene.outlets.len()))
+        .chain(each(&OF_METERS, scene.meters.len()));
+    let of_scene = OF_SCENE.iter().chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
+    let places = of_boundaries
+        .chain(each(&OF_REGIONS, scene.regions.len()))
+        .chain(exchange)
+        .chain(of_scene)
+        .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: At { axis, ..at } }));
+    places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
+}
+
+/// All rows.
+#[cfg(test)]
+pub(super) fn all() -> impl Iterator<Item = &'static Row> {
+    let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN);
+    let of_parts = OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
+    of_parts.chain(&OF_SCENE).chain(&OF_LOSSES)
+}
+
+impl Source {
+    /// The node that it is of, from 0.
+    pub(super) fn node(&self) -> Option<usize> {
+        (self.row.each == Each::Node).then_some(self.at.node)
+    }
+
+    /// The variable.
+    fn variable(self, scene: &Scene) -> Variable {
+        let Self { row, at } = self;
+        let owner = match row.each {
+            Each::Scene => "",
+            Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place].name,
+            Each::Insertion => &scene.insertions[at.place].name,
+            Each::Outlet => &scene.outlets[at.place].name,
+            Each::Meter => &scene.meters[at.place].name,
+        };
+        let own = row.each.names()[at.axis];
+        let number = (at.node + 1).to_string();
+        let node = if row.each == Each::Node { format!("node[{number}]") } else { String::new() };
+        let parts = [owner, &node, row.name, own].into_iter().filter(|part| !part.is_empty());
+        let described = row.description.replace("{axis}", own).replace("{node}", &number);
+        Variable {
+            name: parts.collect::<Vec<_>>().join("."),
+            description: described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner),
+            quantity: row.quantity,
+            causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
+            variability: row.variability,
+            start: match row.write {
+                Some(write) => Some((write.start)(scene, at)),
+                None => row.constant.map(|constant| constant(scene, at)),
+            },
+            minimum: row.minimum,
+            maximum: None,
+            follows_inputs_at_start: row.follows_inputs_at_start && row.write.is_none(),
+            source: super::Source::Row(self),
+        }
+    }
+}

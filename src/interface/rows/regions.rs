@@ -1,0 +1,60 @@
+//! Variables of each region.
+
+use super::row::{COMPONENT_PLACES, Each, OUTPUT, Row};
+use crate::interface::{Quantity, Value};
+
+/// What most outputs of regions have in common.
+pub(super) const OF_REGION: Row = Row { each: Each::Region, ..OUTPUT };
+
+/// Variables of each region.
+pub(super) static OF_REGIONS: [Row; 6] = [
+    Row {
+        name: "stress",
+        each: Each::Component,
+        description: "mean stress in {region}, component {axis}, tension positive: of contacts and bonds by the part of their \
+                      branch inside, and of the velocities less their mean",
+        quantity: Quantity::Pressure,
+        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place, COMPONENT_PLACES[at.axis])),
+        ..OF_REGION
+    },
+    Row {
+        name: "porosity",
+        description: "part of the volume of {region} that no particle fills; overlaps of particles count twice",
+        read: |now, at| {
+            let volume = now.simulation.scene().regions[at.place].shape.volume();
+            Value::Real(1.0 - now.content(at).solid / volume)
+        },
+        ..OF_REGION
+    },
+    Row {
+        name: "coordination",
+        description: "contacts of a particle whose centre is in {region}, in the mean; those at boundaries count",
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.place)),
+        ..OF_REGION
+    },
+    Row {
+        name: "temperature",
+        description: "a third of the mean square of the velocity in {region} less the mean velocity, by mass",
+        quantity: Quantity::GranularTemperature,
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.content(at).temperature()),
+        ..OF_REGION
+    },
+    Row {
+        name: "mass",
+        description: "mass in {region}, of each particle by the part of its volume inside",
+        quantity: Quantity::Mass,
+        minimum: Some(0.0),
+        read: |now, at| Value::Real(now.content(at).mass),
+        ..OF_REGION
+    },
+    Row {
+        name: "velocity",
+        each: Each::RegionAxis,
+        description: "mean velocity of the mass in {region} along {axis}; 0 where there is none",
+        quantity: Quantity::Velocity,
+        read: |now, at| Value::Real(now.content(at).velocity[at.axis]),
+        ..OF_REGION
+    },
+];

@@ -1,0 +1,181 @@
+//! What a kind of variable says of itself, and what many kinds have in common.
+
+use crate::averages::Content;
+use crate::dual::Slopes;
+use crate::interface::{Findings, Quantity, Value, Variability};
+use crate::quantity::BoundaryIndex;
+use crate::scene::Scene;
+use crate::state::{BondList, BoundaryState, Exchange, Nodes, State};
+use crate::step::{BoundaryDerivatives, Simulation};
+
+/// Names of the axes in variables.
+pub(in crate::interface) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Names of the components of a symmetric tensor in variables.
+pub(in crate::interface) const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "zx"];
+
+/// Row and column of each.
+pub(in crate::interface) const COMPONENT_PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
+
+/// How many variables a row stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::interface) enum Each {
+    /// One: `<name>`.
+    Scene,
+    /// One for each boundary: `<boundary>.<name>`.
+    Boundary,
+    /// One for each boundary and axis: `<boundary>.<name>.<axis>`.
+    Axis,
+    /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
+    Node,
+    /// One for each insertion: `<insertion>.<name>`.
+    Insertion,
+    /// One for each outlet: `<outlet>.<name>`.
+    Outlet,
+    /// One for each flow meter: `<flow_meter>.<name>`.
+    Meter,
+    /// One for each region: `<region>.<name>`.
+    Region,
+    /// One for each region and axis: `<region>.<name>.<axis>`.
+    RegionAxis,
+    /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
+    Component,
+}
+
+impl Each {
+    /// What tells the variables of a boundary or a region apart; one empty name where there is one.
+    pub(super) fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Axis | Self::Node | Self::RegionAxis => &AXES,
+            Self::Component => &COMPONENTS,
+            Self::Scene | Self::Boundary | Self::Region | Self::Insertion | Self::Outlet | Self::Meter => &[""],
+        }
+    }
+}
+
+/// Which of the variables of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::interface) struct At {
+    /// The boundary.
+    pub(super) boundary: BoundaryIndex,
+    /// The node, from 0.
+    pub(super) node: usize,
+    /// The region, insertion, outlet or flow meter.
+    pub(super) place: usize,
+    /// The axis or component.
+    pub(super) axis: usize,
+}
+
+/// A simulation, and what has been found of it.
+#[derive(Clone, Copy)]
+pub(in crate::interface) struct Present<'a> {
+    /// The simulation.
+    pub(in crate::interface) simulation: &'a Simulation,
+    /// What took a pass to find.
+    pub(in crate::interface) findings: &'a Findings,
+}
+
+impl Present<'_> {
+    /// The state of a boundary.
+    pub(super) fn boundary(&self, at: At) -> &BoundaryState {
+        &self.simulation.state().boundaries[at.boundary.index()]
+    }
+
+    /// A component of a row of a node.
+    pub(super) fn node(&self, at: At, rows: fn(&Nodes) -> &[[f64; 4]]) -> Value {
+        let nodes = self.simulation.state().nodes_of(at.boundary.index());
+        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.node][at.axis]))
+    }
+
+    /// The particles in a region.
+    pub(super) fn content(&self, at: At) -> Content {
+        self.findings.content(self.simulation, at.place)
+    }
+
+    /// What is known of particles that come and go, in a scene that has any.
+    pub(super) fn exchanged<T: Default>(&self, read: impl FnOnce(&Exchange) -> T) -> T {
+        self.simulation.state().exchange.as_ref().map(read).unwrap_or_default()
+    }
+
+    /// The lists of bonds.
+    pub(super) fn bonds(&self) -> &[BondList] {
+        &self.simulation.state().bonds
+    }
+}
+
+/// How an input is given.
+#[derive(Clone, Copy)]
+pub(in crate::interface) struct Write {
+    /// Takes a value for the next communication step.
+    pub(in crate::interface) set: fn(&mut Simulation, At, f64),
+    /// Takes the rate at which the value goes on in the next communication step.
+    pub(in crate::interface) set_rate: fn(&mut Simulation, At, f64),
+    /// The value last given.
+    pub(in crate::interface) held: fn(&State, At) -> f64,
+    /// The value before anything is given.
+    pub(super) start: fn(&Scene, At) -> f64,
+    /// Which of the axes of its boundary: along x, y, z, then about them; none where it is of something else.
+    pub(in crate::interface) axis: fn(At) -> Option<(BoundaryIndex, usize)>,
+}
+
+/// Reads how a variable of a boundary changes with inputs.
+pub(in crate::interface) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> Slopes;
+
+/// A kind of variable.
+pub(in crate::interface) struct Row {
+    /// Its name, behind that of what it belongs to.
+    pub(in crate::interface) name: &'static str,
+    /// What it belongs to.
+    pub(in crate::interface) each: Each,
+    /// What it is, with its sign. `{boundary}`, `{region}`, `{owner}` and `{axis}` stand for the names.
+    pub(super) description: &'static str,
+    /// What is measured, and with it the unit and the type.
+    pub(in crate::interface) quantity: Quantity,
+    /// When it changes.
+    pub(super) variability: Variability,
+    /// Its lower bound, where nature sets one.
+    pub(super) minimum: Option<f64>,
+    /// Whether its value at the start follows from the start values of the inputs.
+    pub(super) follows_inputs_at_start: bool,
+    /// Whether the scene has it.
+    pub(super) exists: fn(&Scene, At) -> bool,
+    /// Its value, where it is a constant.
+    pub(super) constant: Option<fn(&Scene, At) -> f64>,
+    /// How it is given, where it is an input.
+    pub(in crate::interface) write: Option<Write>,
+    /// Its present value.
+    pub(in crate::interface) read: fn(Present, At) -> Value,
+    /// How it changes with inputs, where that is followed.
+    pub(in crate::interface) slopes: Option<ReadSlopes>,
+    /// Whether its rate is known.
+    pub(in crate::interface) has_rate: bool,
+}
+
+/// What most rows have in common: an output that every scene has.
+pub(in crate::interface) const OUTPUT: Row = Row {
+    name: "",
+    each: Each::Scene,
+    description: "",
+    quantity: Quantity::Ratio,
+    variability: Variability::Continuous,
+    minimum: None,
+    follows_inputs_at_start: true,
+    exists: |_, _| true,
+    constant: None,
+    write: None,
+    read: |_, _| Value::Real(0.0),
+    slopes: None,
+    has_rate: false,
+};
+
+/// An output of each boundary and axis.
+pub(in crate::interface) const OF_AXIS: Row = Row { each: Each::Axis, ..OUTPUT };
+
+/// A number of things.
+pub(in crate::interface) const COUNT: Row =
+    Row { quantity: Quantity::Count, variability: Variability::Discrete, minimum: Some(0.0), ..OUTPUT };
+
+/// A number of things as a value.
+pub(super) fn count(number: u64) -> Value {
+    Value::Integer(i32::try_from(number).unwrap_or(i32::MAX))
+}
