@@ -13,29 +13,31 @@ from conftest import ROOT
 
 
 def boundaries(slave):
-    """The boundaries of a unit that are led by displacements, each with its driven axes."""
-    axes = {}
+    """The boundaries of a unit that are led by displacements, each with its inputs; those of nodes are as good as others."""
+    inputs = {}
     for name in slave.inputs:
-        boundary, quantity, axis = name.split(".")
-        if quantity in ("applied_force", "applied_moment", "target_force"):
+        boundary, *_, quantity, _ = name.split(".") if not name.endswith(".rate") else (None, "rate", None)
+        if quantity in ("applied_force", "applied_moment", "target_force", "rate"):
             continue
         assert quantity == "displacement", f"{name} is an input that this test does not know"
-        axes.setdefault(boundary, []).append(axis)
-    return axes
+        inputs.setdefault(boundary, []).append(name)
+    return inputs
 
 
 def test_change_of_work_is_minus_mean_force_times_displacement(unit, model, course, slave):
     subject = slave(unit(model))
     driven = boundaries(subject)
     if not driven:
-        pytest.skip(f"{model} is led by forces alone: tests/loaded.rs and tests/servo.rs hold the books of such boundaries")
-    assert len(subject.inputs) == sum(map(len, driven.values())), f"{model} is led by forces, too"
+        pytest.skip(f"{model} is led by no displacement: tests/loaded.rs and tests/servo.rs hold the books of forces")
+    leading = [name for name in subject.inputs if not name.endswith(".rate")]
+    assert len(leading) == sum(map(len, driven.values())), f"{model} is led by forces, too"
     work, exchanged, before = dict.fromkeys(driven, 0.0), dict.fromkeys(driven, 0.0), 0.0
     for step in range(1, course.steps + 1):
         displacement = course.displacement(step)
         subject.step(displacement, course.interval)
-        for boundary, axes in driven.items():
-            now, *forces = subject.get(f"{boundary}.work", *(f"{boundary}.mean_force.{axis}" for axis in axes))
+        for boundary, inputs in driven.items():
+            means = [name.replace(".displacement.", ".mean_force.") for name in inputs]
+            now, *forces = subject.get(f"{boundary}.work", *means)
             terms = [force * (displacement - before) for force in forces]
             exchanged[boundary] += math.fsum(map(abs, terms))
             error = now - work[boundary] + math.fsum(terms)
