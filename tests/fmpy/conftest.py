@@ -116,7 +116,7 @@ class Slave:
     def step(self, displacement, interval):
         """Moves every driven axis there during one communication step; gives all real outputs."""
         for name in self.inputs:
-            self.set(name, displacement)
+            self.set(name, abs(displacement) if name.endswith(".rate") else displacement)  # nothing is fed backwards
         self.unit.step(interval, until=self.time + interval)
         return self.get(*self.reals)
 
