@@ -62,8 +62,13 @@ def report(rows, options, stroke):
     """Prints the comparisons of the page; gives the bounds of the turning points [kg]."""
     start = rows["everything.mass"][0]
     left = rows["everything.mass"] - start - rows["feed.mass"] + rows["drain.mass"] + rows["spilt.mass"]
-    print(f"mass: {start:.4f} kg at first + {rows['feed.mass'][-1]:.4f} fed in = {rows['everything.mass'][-1]:.4f} there", end="")
-    print(f" + {rows['drain.mass'][-1]:.4f} run out + {rows['spilt.mass'][-1]:.4f} spilt; largest error {np.abs(left).max():.1e} kg")
+    print(
+        f"mass: {start:.4f} kg at first + {rows['feed.mass'][-1]:.4f} fed in = {rows['everything.mass'][-1]:.4f} there",
+        end="",
+    )
+    print(
+        f" + {rows['drain.mass'][-1]:.4f} run out + {rows['spilt.mass'][-1]:.4f} spilt; largest error {np.abs(left).max():.1e} kg"
+    )
     inflow, outflow = flows(rows)
     law = beverloo(MOUTH), beverloo(HOLE)
     print(f"hopper, gate open {inflow:.4f} kg/s, Beverloo {law[0]:.4f}; bin {outflow:.4f} kg/s, Beverloo {law[1]:.4f}")
@@ -71,7 +76,9 @@ def report(rows, options, stroke):
     highest, lowest = turns(rows)
     for found, (low, high), name in zip((highest, lowest), turning, ("maxima", "minima"), strict=True):
         said = ", ".join(f"{1e3 * mass:.1f}" for mass in found[:, 1])
-        print(f"{name} of the mass in the bin {said} g; {1e3 * low:.1f} to {1e3 * high:.1f} g by thresholds, gate and fall")
+        print(
+            f"{name} of the mass in the bin {said} g; {1e3 * low:.1f} to {1e3 * high:.1f} g by thresholds, gate and fall"
+        )
     if len(highest) > 1:
         low, high = period(turning, *law)
         said = ", ".join(f"{time:.3f}" for time in np.diff(highest[:, 0]))

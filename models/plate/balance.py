@@ -26,7 +26,7 @@ class Bed:
         """A frame by its number."""
         grains = meshio.read(folder / f"particles_{number:06d}.vtu")
         contacts = meshio.read(folder / f"contacts_{number:06d}.vtu")
-        of = {name: values for name, values in contacts.point_data.items()}
+        of = contacts.point_data
         skin = of["boundary"].ravel() == 0  # the first boundary of the scene
         push = of["normal_force"].reshape(-1, 1) * of["normal"] + of["tangential_force"]
         mass = float(grains.point_data["mass"].sum())
@@ -60,8 +60,12 @@ def report(program, scene, settled, inputs, plate, rows, options):
     reference = np.mean([navier(design, bed.points, bed.forces) for bed in beds])
     evenly = navier_evenly(design, -weight)
     reached = deflection[at_end].mean()
-    print(f"  deflection of the middle {1e6 * reached:.3f} µm, ± {1e6 * deflection[at_end].std():.3f} µm in the last 40 ms")
-    print(f"  after Navier, under the forces at the contacts {1e6 * reference:.3f} µm: {reached / reference - 1.0:+.2%}")
+    print(
+        f"  deflection of the middle {1e6 * reached:.3f} µm, ± {1e6 * deflection[at_end].std():.3f} µm in the last 40 ms"
+    )
+    print(
+        f"  after Navier, under the forces at the contacts {1e6 * reference:.3f} µm: {reached / reference - 1.0:+.2%}"
+    )
     print(f"  after Navier, under the weight spread out evenly {1e6 * evenly:.3f} µm: {reached / evenly - 1.0:+.2%}")
     turnover = np.abs(force * np.diff(deflection, prepend=0.0)).sum()
     print(f"  work of the grains on the skin: unit {-work[-1]:.12e} J, plate {plate_work[-1]:.12e} J: ", end="")

@@ -33,7 +33,7 @@ def arguments():
 
 
 def run(options, unit, cells):
-    """The coupled run with a plate of so many elements along an edge: plate, rows, places of all nodes of the skin."""
+    """The coupled run with a plate of so many elements along an edge: plate, rows of COLUMNS, and names and rows of the skin's course."""
     skin = unit.nodes("skin")
     lifts = [name for name in skin.names("displacement") if name.endswith(".z")]
     through = Plate(Design(), cells).through(skin.places)

@@ -13,7 +13,7 @@ from conftest import ROOT
 
 
 def boundaries(slave):
-    """The boundaries of a unit that are led by displacements, each with its inputs; those of nodes are as good as others."""
+    """The boundaries of a unit that are led by displacements, each with its inputs, those of nodes too."""
     inputs = {}
     for name in slave.inputs:
         boundary, *_, quantity, _ = name.split(".") if not name.endswith(".rate") else (None, "rate", None)
