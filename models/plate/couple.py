@@ -33,7 +33,7 @@ def arguments():
 
 
 def run(options, unit, cells):
-    """The coupled run with a plate of so many elements along an edge: plate, rows of COLUMNS, and names and rows of the skin's course."""
+    """The coupled run with a plate of so many elements: plate, rows of COLUMNS, names and rows of the course of the skin."""
     skin = unit.nodes("skin")
     lifts = [name for name in skin.names("displacement") if name.endswith(".z")]
     through = Plate(Design(), cells).through(skin.places)

@@ -69,6 +69,7 @@ COURSES = {
     "piston_load": Course(interval=1e-4, steps=20),
     "triaxial": Course(interval=2e-5, steps=20),
     "drum": Course(interval=1e-3, steps=20),
+    "hopper": Course(interval=1e-3, steps=40),  # the first grains reach the gate after 31 ms
     "plate": Course(interval=1e-4, steps=4),
     "wheel": Course(interval=1e-3, steps=20),
     "brazilian": Course(interval=1e-5, steps=8, amplitude=-2e-6),
