@@ -1,10 +1,13 @@
 """How fast a flat-bottomed silo runs out: spheres per second through orifices of several diameters.
 
-A silo of 64 mm is filled with 5,000 spheres of 4 mm; they come to rest, then the orifice is opened and a flow meter counts. Rates are
-fitted between a tenth and six tenths of the spheres. LIGGGHTS 3.8.0 gave 456, 1265 and 2542 per second for the same silo of 48-sided
-meshes, at 4.5, 6 and 7.5 diameters.
+A silo is filled with spheres of 4 mm; they come to rest, then an orifice is opened and a flow meter counts. There are two silos:
 
-    python3 benches/silo.py [--cograin FILE] [--orifices 4.5 6 7.5] [--seed 0] [--shape revolved | meshed]
+narrow  64 mm, 5,000 spheres: the silo of which LIGGGHTS 3.8.0 emptied 456, 1265 and 2542 spheres per second through orifices of 4.5, 6
+        and 7.5 diameters (48-sided meshes, one packing). Rates are fitted between a tenth and six tenths of the spheres.
+wide    144 mm, 29,000 spheres: orifices of 6 to 15 diameters, of which the widest is 2.4 times narrower than the silo. Rates are fitted
+        from 0.2 s after the opening, until 0.8 s or until four tenths of the spheres are out.
+
+    python3 benches/silo.py [narrow | wide] [--orifices 4.5 6 7.5] [--seeds 0 1 2] [--shape revolved | meshed] [--cograin FILE]
 
 Beverloo's law (Chem. Eng. Sci. 15 (1961) 260-269), W = C rho sqrt(g) (D - k d)^2.5, is fitted where there are three orifices or more.
 """
@@ -14,20 +17,42 @@ import csv
 import math
 import subprocess
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
-DIAMETER, SILO, DENSITY, GRAVITY = 4e-3, 64e-3, 2500.0, 9.81
-HEIGHT = 94.7e-3  # of the packing before it has come to rest [m]
-REST = 0.8  # how long it gets for that [s]
+DIAMETER, DENSITY, GRAVITY = 4e-3, 2500.0, 9.81
+SOLID_FRACTION = 0.55  # of the packing before it has come to rest
+BULK_DENSITY = 1450.0  # of the bed at rest [kg/m3]
+REST = 0.8  # how long the packing gets for that [s]
+STEP = 2e-5  # half of the stable one [s]
 SIDES = 48  # of the meshed silo
-LIGGGHTS = {4.5: 456.0, 6.0: 1265.0, 7.5: 2542.0}  # spheres per second
+LIGGGHTS = {4.5: 456.0, 6.0: 1265.0, 7.5: 2542.0}  # spheres per second, narrow silo
+
+
+@dataclass
+class Silo:
+    """Its size, and when its rate is fitted."""
+
+    radius: float  # [m]
+    height: float  # of the packing before it has come to rest [m]
+    orifices: tuple  # [diameters of a sphere]
+    counted: tuple  # from and to which part of the spheres
+    after: float = 0.0  # from when, after the opening [s]
+    until: float = math.inf  # and until when [s]
+
+
+SILOS = {
+    "narrow": Silo(32e-3, 94.7e-3, tuple(LIGGGHTS), (0.1, 0.6)),
+    "wide": Silo(72e-3, 108e-3, (6.0, 8.0, 10.0, 12.0, 15.0), (0.0, 0.4), 0.2, 0.8),
+}
 
 HEAD = f"""
 gravity = [0.0, 0.0, -{GRAVITY}]
 [run]
 end = END
-step = 1e-5
+step = {STEP}
 seed = SEED
+threads = 1
 [material.glass]
 youngs_modulus = 5e6
 poissons_ratio = 0.25
@@ -40,8 +65,8 @@ friction = 0.5
 [particles.grains]
 material = "glass"
 [particles.grains.packing]
-cylinder = {{ from = [0.0, 0.0, 0.0], to = [0.0, 0.0, {HEIGHT}], radius = PACKED }}
-solid_fraction = 0.55
+cylinder = {{ from = [0.0, 0.0, 0.0], to = [0.0, 0.0, HEIGHT], radius = PACKED }}
+solid_fraction = {SOLID_FRACTION}
 radius = [{DIAMETER / 2}, {DIAMETER / 2}]
 [output]
 history_interval = 0.02
@@ -55,14 +80,16 @@ polygon = [[-0.04, -0.04, -0.006], [-0.04, 0.04, -0.006], [0.04, 0.04, -0.006], 
 """
 
 
-def revolved(hole, closed):
-    """Wall and bottom as surfaces of revolution, exact; a gate closes the orifice."""
+def revolved(silo, hole):
+    """Wall and bottom as surfaces of revolution, exact; the orifice is closed if `hole` is 0."""
     shapes = [
-        ("wall", f"cylinder = {{ from = [0.0, 0.0, 0.0], to = [0.0, 0.0, 0.2], radius = {SILO / 2} }}"),
-        ("bottom", f"disc = {{ centre = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = {SILO / 2 + 1e-4}, hole = {hole} }}"),
+        ("wall", f"cylinder = {{ from = [0.0, 0.0, 0.0], to = [0.0, 0.0, 0.2], radius = {silo.radius} }}"),
+        (
+            "bottom",
+            f"disc = {{ centre = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = {silo.radius + 1e-4}"
+            + (f", hole = {hole} }}" if hole else " }"),
+        ),
     ]
-    if closed:
-        shapes.append(("gate", f"disc = {{ centre = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = {hole} }}"))
     return "".join(f'[boundary.{name}]\n{shape}\nmaterial = "glass"\n' for name, shape in shapes)
 
 
@@ -78,12 +105,14 @@ def between(one, other):
     return [triangle for pair in both for triangle in pair]
 
 
-def meshed(hole, closed, folder):
+def meshed(silo, hole, folder):
     """The same of triangles, as one STL file for each boundary."""
-    low, high, inner = ring(SILO / 2, 0.0), ring(SILO / 2, 0.2), ring(hole, 0.0)
-    parts = {"wall": between(low, high), "bottom": between(inner, low)}
-    if closed:
-        parts["gate"] = [((0.0, 0.0, 0.0), inner[k], inner[k + 1]) for k in range(SIDES)]
+    low, high = ring(silo.radius, 0.0), ring(silo.radius, 0.2)
+    if hole:
+        bottom = between(ring(hole, 0.0), low)
+    else:
+        bottom = [((0.0, 0.0, 0.0), low[k], low[k + 1]) for k in range(SIDES)]
+    parts = {"wall": between(low, high), "bottom": bottom}
     text = ""
     for name, triangles in parts.items():
         facets = (
@@ -95,13 +124,6 @@ def meshed(hole, closed, folder):
     return text
 
 
-def run(program, scene, folder, *options):
-    """Runs a scene; ends with what the program says if it refuses."""
-    done = subprocess.run([program, "run", scene, "-o", folder, *options], capture_output=True, text=True)
-    if done.returncode:
-        raise SystemExit(done.stdout + done.stderr)
-
-
 def slope(times, counts):
     """Of the line of least squares."""
     middle, mean = sum(times) / len(times), sum(counts) / len(counts)
@@ -109,56 +131,78 @@ def slope(times, counts):
     return sum((time - middle) * (count - mean) for time, count in zip(times, counts)) / along
 
 
-def rate(program, diameters, shape, seed, folder):
-    """Spheres per second through an orifice of so many diameters, and how many spheres there were."""
-    hole = diameters * DIAMETER / 2
-    # The polygon of a meshed wall is inside of the circle.
-    packed = SILO / 2 * (math.cos(math.pi / SIDES) if shape == "meshed" else 1.0)
+class Filled:
+    """A silo full of spheres at rest, of which orifices are opened."""
 
-    def surfaces(closed):
-        return meshed(hole, closed, folder) if shape == "meshed" else revolved(hole, closed)
+    def __init__(self, program, silo, shape, seed, folder):
+        self.program, self.silo, self.shape, self.folder = program, silo, shape, folder
+        # The polygon of a meshed wall is inside of the circle.
+        packed = silo.radius * (math.cos(math.pi / SIDES) if shape == "meshed" else 1.0)
+        self.head = HEAD.replace("SEED", str(seed)).replace("PACKED", repr(packed)).replace("HEIGHT", repr(silo.height))
+        self.spheres = SOLID_FRACTION * math.pi * packed**2 * silo.height / (math.pi / 6.0 * DIAMETER**3)
+        self.run("fill", self.head.replace("END", str(REST)) + self.surfaces(0.0))
 
-    text = HEAD.replace("SEED", str(seed)).replace("PACKED", repr(packed))
-    fill, flow = folder / "fill.toml", folder / "flow.toml"
-    fill.write_text(text.replace("END", str(REST)) + surfaces(True))
-    run(program, fill, folder / "fill")
-    expected = LIGGGHTS.get(diameters, 4.0 * (diameters - 1.4) ** 2.5 * 8.5)
-    flow.write_text(text.replace("END", str(REST + 0.7 * 5000.0 / expected)) + surfaces(False) + OUT)
-    run(program, flow, folder / "flow", "--from", folder / "fill" / "checkpoint.cograin")
-    rows = list(csv.DictReader((folder / "flow" / "history.csv").open()))
-    passed = [(float(row["time"]), float(row["orifice.count"])) for row in rows]
-    all_of_them = 0.55 * math.pi * packed**2 * HEIGHT / (math.pi / 6.0 * DIAMETER**3)
-    steady = [(time, count) for time, count in passed if 0.1 * all_of_them < count < 0.6 * all_of_them]
-    return slope(*zip(*steady)), all_of_them
+    def surfaces(self, hole):
+        """The boundaries of the scene."""
+        return meshed(self.silo, hole, self.folder) if self.shape == "meshed" else revolved(self.silo, hole)
+
+    def run(self, name, text, *options):
+        """Runs a scene; ends with what the program says if it refuses."""
+        scene = self.folder / f"{name}.toml"
+        scene.write_text(text)
+        command = [self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options]
+        done = subprocess.run(command, check=False, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(done.stdout + done.stderr)
+
+    def rate(self, diameters):
+        """Spheres per second through an orifice of so many diameters."""
+        silo = self.silo
+        expected = LIGGGHTS.get(diameters, 34.0 * (diameters - 1.4) ** 2.5)
+        lasts = min(silo.until, (silo.counted[1] + 0.1) * self.spheres / expected)
+        text = self.head.replace("END", str(REST + lasts)) + self.surfaces(diameters * DIAMETER / 2) + OUT
+        self.run("flow", text, "--from", self.folder / "fill" / "checkpoint.cograin")
+        rows = list(csv.DictReader((self.folder / "flow" / "history.csv").open()))
+        passed = [(float(row["time"]) - REST, float(row["orifice.count"])) for row in rows]
+        least, most = (part * self.spheres for part in silo.counted)
+        return slope(*zip(*((time, count) for time, count in passed if time > silo.after and least < count < most)))
 
 
 def beverloo(rates):
-    """C and k of the line W^(2/5) over D."""
+    """C and k of the line W^(2/5) over D, and how far the rate that is furthest from it is away, as a part of the line."""
     mass = DENSITY * math.pi / 6.0 * DIAMETER**3
-    bulk = 1450.0  # of the bed [kg/m3]
     places = [diameters * DIAMETER for diameters in rates]
     roots = [(found * mass) ** 0.4 for found in rates.values()]
     line = slope(places, roots)
     start = sum(roots) / len(roots) - line * sum(places) / len(places)
-    return line**2.5 / (bulk * math.sqrt(GRAVITY)), -start / line / DIAMETER
+    furthest = max(abs(root / (start + line * place) - 1.0) for place, root in zip(places, roots))
+    return line**2.5 / (BULK_DENSITY * math.sqrt(GRAVITY)), -start / line / DIAMETER, furthest
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("silo", choices=list(SILOS), nargs="?", default="narrow")
     parser.add_argument("--cograin", metavar="FILE", default=str(Path(__file__).resolve().parents[1] / "target/release/cograin"))
-    parser.add_argument("--orifices", metavar="D", type=float, nargs="+", default=list(LIGGGHTS))
-    parser.add_argument("--seed", metavar="N", type=int, default=0)
+    parser.add_argument("--orifices", metavar="D", type=float, nargs="+")
+    parser.add_argument("--seeds", metavar="N", type=int, nargs="+", default=[0])
     parser.add_argument("--shape", choices=["revolved", "meshed"], default="revolved")
     options = parser.parse_args()
-    rates = {}
-    for diameters in options.orifices:
+    silo = SILOS[options.silo]
+    rates = {diameters: [] for diameters in options.orifices or silo.orifices}
+    for seed in options.seeds:
         with tempfile.TemporaryDirectory() as folder:
-            found, count = rate(options.cograin, diameters, options.shape, options.seed, Path(folder))
-        rates[diameters] = found
-        peer = f", {found / LIGGGHTS[diameters] - 1.0:+.1%} of LIGGGHTS'" if diameters in LIGGGHTS else ""
-        print(f"{diameters} d, {count:.0f} spheres: {found:.0f} per second{peer}", flush=True)
-    if len(rates) > 2:
-        print("C = {:.3f}, k = {:.2f}".format(*beverloo(rates)))
+            filled = Filled(options.cograin, silo, options.shape, seed, Path(folder))
+            print(f"seed {seed}, {filled.spheres:.0f} spheres", flush=True)
+            for diameters, found in rates.items():
+                found.append(filled.rate(diameters))
+                print(f"  {diameters} d: {found[-1]:.0f} per second", flush=True)
+    means = {diameters: sum(found) / len(found) for diameters, found in rates.items()}
+    for diameters, mean in means.items():
+        spread = max(rates[diameters]) - min(rates[diameters])
+        peer = f", {mean / LIGGGHTS[diameters] - 1.0:+.1%} of LIGGGHTS'" if options.silo == "narrow" and diameters in LIGGGHTS else ""
+        print(f"{diameters} d: mean {mean:.0f} per second, spread {spread:.0f}{peer}")
+    if len(means) > 2:
+        print("C = {:.3f}, k = {:.2f}, furthest from the line {:.2%}".format(*beverloo(means)))
 
 
 if __name__ == "__main__":

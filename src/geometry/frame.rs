@@ -32,15 +32,32 @@ impl Frame {
     }
 
     /// A position in the axes of the body at time 0 \[m\].
+    #[inline(always)]
     pub(crate) fn inside(&self, position: Vector) -> Vector {
-        match self.turn {
+        match &self.turn {
             None => position - self.displacement,
-            Some(turn) => turn.conjugate().turn(position - self.pivot()) + self.reference,
+            Some(turn) => self.turned_inside(turn, position),
         }
     }
 
-    /// A direction of the body in global axes.
-    pub(crate) fn outside(&self, direction: Vector) -> Vector {
-        self.turn.map_or(direction, |turn| turn.turn(direction))
+    /// The same of a body that has turned. By itself: in line, its arithmetic would be done for bodies that have not turned.
+    #[inline(never)]
+    fn turned_inside(&self, turn: &Quaternion, position: Vector) -> Vector {
+        turn.conjugate().turn(position - self.pivot()) + self.reference
     }
+
+    /// A direction of the body in global axes.
+    #[inline(always)]
+    pub(crate) fn outside(&self, direction: Vector) -> Vector {
+        match &self.turn {
+            None => direction,
+            Some(turn) => turned(turn, direction),
+        }
+    }
+}
+
+/// A direction that has turned. By itself as [`Frame::turned_inside`].
+#[inline(never)]
+fn turned(turn: &Quaternion, direction: Vector) -> Vector {
+    turn.turn(direction)
 }

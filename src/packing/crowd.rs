@@ -62,12 +62,8 @@ impl<'a> Crowd<'a> {
         random: &mut ChaCha8Rng,
         tell: &'a mut dyn FnMut(usize, f64),
     ) -> Self {
-        let size = region.size();
-        let mut place = |radius: f64| {
-            let place = size.map(|length| radius + (length - 2.0 * radius) * uniform(random));
-            (region.nearest_inside(place, radius), radius)
-        };
-        let spheres = radii.iter().map(|radius| place(radius * (1.0 + MARGIN))).collect();
+        let wide: Vec<f64> = radii.iter().map(|radius| radius * (1.0 + MARGIN)).collect();
+        let spheres = region.scatter(&wide, random);
         let skin = 0.3 * radii.iter().copied().fold(f64::INFINITY, f64::min);
         Self { region, spheres, skin, pairs: Vec::new(), listed_at: Vec::new(), rounds: 0, tell }
     }

@@ -160,6 +160,16 @@ mod tests {
     }
 
     #[test]
+    fn a_wide_cylinder_is_filled_as_far_as_a_box() {
+        let (to, radius) = (Triple([0.0, 0.0, 0.8]), Positive::new(4.0).unwrap());
+        let cylinder = CylinderTable { from: Triple([0.0; 3]), to, radius };
+        let table = PackingTable { cylinder: Some(cylinder), radius: Radii([0.1, 0.1]), ..core(0.55) };
+        let spheres = packing(&table, 1, "a", &mut |_| {}).unwrap();
+        assert_eq!(spheres.len(), 5280);
+        assert!(gaps(&spheres).iter().all(|gap| *gap > 0.0));
+    }
+
+    #[test]
     fn most_spheres_of_a_dense_packing_touch_but_for_the_margin() {
         let spheres = packing(&core(0.57), 1, "a", &mut |_| {}).unwrap();
         let touching = gaps(&spheres).iter().filter(|gap| **gap < 1e-3 * 0.1).count();

@@ -1,7 +1,10 @@
 //! Where a packing goes: a box or a cylinder.
 
+use super::Sphere;
+use super::generator::uniform;
 use super::keys::{CylinderTable, PackingTable};
 use crate::document::Mistake;
+use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
 /// The shape of a region, in coordinates of its own that begin at the lower corner of the smallest box around it.
@@ -99,6 +102,35 @@ impl Region {
                 x * x + y * y <= free * free
             }
         }
+    }
+
+    /// A random place for a sphere that fits, coordinate by coordinate; in a cylinder it may lie in a corner of the box around
+    /// it.
+    fn anywhere(&self, sphere: f64, random: &mut ChaCha8Rng) -> [f64; 3] {
+        self.size().map(|length| sphere + (length - 2.0 * sphere) * uniform(random))
+    }
+
+    /// Random places for spheres of these radii \[m\], each of which fits.
+    ///
+    /// Those that fall into the corners of the box around a cylinder go to its rim, where pushes part them. If they would cover
+    /// the rim more than once, they are drawn again until they fall inside: from a rim that is so crowded they do not come
+    /// apart.
+    pub(super) fn scatter(&self, radii: &[f64], random: &mut ChaCha8Rng) -> Vec<Sphere> {
+        let crowded = match self.shape {
+            Shape::Box(_) => false,
+            Shape::Cylinder { radius, length } => {
+                let shadows: f64 = radii.iter().map(|radius| PI * radius * radius).sum();
+                (1.0 - PI / 4.0) * shadows > 2.0 * PI * radius * length
+            }
+        };
+        let mut place = |sphere: f64| {
+            let mut place = self.anywhere(sphere, random);
+            while crowded && !self.holds(place, sphere) {
+                place = self.anywhere(sphere, random);
+            }
+            (self.nearest_inside(place, sphere), sphere)
+        };
+        radii.iter().map(|radius| place(*radius)).collect()
     }
 
     /// The place nearest to this one where the whole sphere is inside; it must fit at all.

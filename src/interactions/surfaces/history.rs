@@ -22,22 +22,20 @@ impl<'a> Past<'a> {
     }
 
     /// The entry of a feature.
-    fn entry(&self, feature: u32) -> Option<usize> {
-        let found = self.list.feature[self.entries.clone()].binary_search(&feature);
-        found.ok().map(|place| self.entries.start + place)
+    #[inline]
+    pub(super) fn entry(&self, feature: u32) -> Option<usize> {
+        // A particle touches one or a few.
+        let found = self.list.feature[self.entries.clone()].iter().position(|&other| other == feature);
+        found.map(|place| self.entries.start + place)
     }
 
-    /// Whether an entry is that of this feature.
-    pub(super) fn is_of(&self, entry: usize, feature: u32) -> bool {
-        self.list.feature[entry] == feature
-    }
-
-    /// Whether the centre has come from one side of a face to the other.
-    pub(super) fn went_through(&self, foot: &Foot) -> bool {
-        self.entry(foot.feature).is_some_and(|entry| (self.list.flags[entry] & REVERSE != 0) != foot.behind)
+    /// Whether the centre was behind the face of an entry.
+    pub(super) fn was_behind(&self, entry: usize) -> bool {
+        self.list.flags[entry] & REVERSE != 0
     }
 
     /// A row of what the law remembers of an entry.
+    #[inline]
     pub(super) fn row(&self, entry: usize, row: usize) -> Row {
         self.list.history.get(row).map_or([0.0; 4], |rows| rows[entry])
     }
@@ -45,14 +43,27 @@ impl<'a> Past<'a> {
 
 /// The contact whose memory a contact has as the step begins: its own; or, where the foot came over a bend, the one which
 /// vanished there; or, where a bend brought it forth, that of the face across. A contact that begins has none.
-pub(super) fn source(foot: &Foot, feet: &Feet, past: &Past, features: &dyn Features, law: &Law) -> Option<usize> {
+#[inline]
+pub(super) fn source(
+    foot: &Foot,
+    own: Option<usize>,
+    feet: &Feet,
+    past: &Past,
+    features: &dyn Features,
+    law: &Law,
+) -> Option<usize> {
     if law.history().is_empty() && !law.holds_beyond_touch() {
         return None;
     }
-    let own = past.entry(foot.feature);
     if own.is_some() || foot.weight <= 0.0 {
         return own;
     }
+    inherited(foot, feet, past, features, law)
+}
+
+/// The contact from which one that is new takes its memory.
+#[inline(never)]
+fn inherited(foot: &Foot, feet: &Feet, past: &Past, features: &dyn Features, law: &Law) -> Option<usize> {
     let spring = |entry: usize| {
         law.spring().map_or(0.0, |place| {
             let spring = Vector::from(past.row(entry, place));
@@ -74,6 +85,7 @@ pub(super) fn source(foot: &Foot, feet: &Feet, past: &Past, features: &dyn Featu
 }
 
 /// A row that comes from another feature: vectors, which change sign with the order of the bodies, lie in the tangent plane.
+#[inline(never)]
 pub(super) fn taken(row: Row, kept: &HistoryRow, normal: Vector) -> Row {
     if kept.odd[..3] != [true; 3] {
         return row;

@@ -2,6 +2,9 @@
 
 use crate::number::Vector;
 
+/// What rounding may take from a distance, with room.
+const ROUNDING: f64 = 1.0 + 1e-9;
+
 /// A triangle. Heights and distances are taken from its first corner, so that a wall of triangles gives the bits of a plane.
 /// It fills two lines of the cache: what the search for feet waits for is memory.
 #[derive(Clone, Copy)]
@@ -15,6 +18,24 @@ pub(super) struct Face {
     outwards: [Vector; 3],
     /// How far the second edge is from the first corner \[m\]; the others go through it.
     second: f64,
+}
+
+/// The sine of the angle at an edge below which it is flat: vertices in single precision give 1e-7 and more.
+pub(super) const FLAT: f64 = 1e-6;
+
+/// Where the foot of a centre is nearer to a flat edge than this share of the radius, it may lie on both triangles or on none:
+/// some ten times what their angle makes of the distance of the centre.
+const BAND: f64 = 10.0 * FLAT;
+
+/// What a triangle has to do with a sphere near it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// The foot is on the triangle, and what its edges count cancels: they are flat or out of reach.
+    Over,
+    /// The triangle is out of reach, or the foot is on another one in the same plane.
+    Away,
+    /// An edge within reach is not flat, or the foot is on an edge.
+    AtBend,
 }
 
 /// How the foot of a centre in the plane of a triangle stands to it.
@@ -67,12 +88,36 @@ impl Face {
         self.beyond(centre).iter().all(|beyond| *beyond <= 0.0)
     }
 
+    /// How a centre stands to the triangle where edges within reach are flat, a bit for each edge in `flat`; `rest` as for
+    /// [`Face::stand`], `radius` that of the sphere \[m\].
+    #[inline(always)]
+    pub(super) fn place(&self, centre: Vector, rest: f64, radius: f64, flat: u8) -> Place {
+        let beyond = self.beyond(centre);
+        let [first, second, third] = beyond.map(|beyond| beyond * beyond.abs());
+        let (most, reach) = (first.max(second).max(third), rest * ROUNDING);
+        if most > reach {
+            return Place::Away;
+        }
+        if most < -reach {
+            return Place::Over;
+        }
+        let near = [first, second, third].map(|square| square >= -reach);
+        let near = u8::from(near[0]) | u8::from(near[1]) << 1 | u8::from(near[2]) << 2;
+        let [first, second, third] = beyond;
+        let (furthest, band) = (first.max(second).max(third), BAND * radius);
+        if near & !flat != 0 || furthest.abs() < band {
+            Place::AtBend
+        } else if furthest < 0.0 {
+            Place::Over
+        } else {
+            Place::Away
+        }
+    }
+
     /// How the foot of a centre stands to the triangle, where the square of a radius goes beyond that of the height by `rest`
     /// \[m²\].
     #[inline(always)]
     pub(super) fn stand(&self, centre: Vector, rest: f64) -> Stand {
-        /// What rounding may take from a distance, with room.
-        const ROUNDING: f64 = 1.0 + 1e-9;
         let beyond = self.beyond(centre);
         let edges = beyond.map(|beyond| beyond * beyond <= rest * ROUNDING);
         if (0..3).any(|edge| beyond[edge] > 0.0 && !edges[edge]) {

@@ -16,7 +16,7 @@ use crate::geometry::rotation;
 use crate::number::Vector;
 use crate::quantity::{MaterialIndex, Positive, Triple};
 use edge::{Edge, OnEdge};
-use face::{Face, Stand};
+use face::{Face, Place, Stand};
 pub use nodes::{Deforming, Grip};
 use serde::Deserialize;
 use topology::Topology;
@@ -42,6 +42,8 @@ struct Mesh {
     faces: Vec<Face>,
     /// The edges, likewise.
     edges: Vec<Edge>,
+    /// Which edges of each triangle are flat: there it meets one other triangle, in the same plane. A bit for each.
+    flat: Flat,
     /// The tree that finds near triangles.
     tree: Tree,
     /// Which side counts.
@@ -55,13 +57,14 @@ struct Mesh {
 impl Mesh {
     /// A surface.
     fn of(material: MaterialIndex, topology: Topology, sides: Option<u8>) -> Self {
-        let faces = topology.triangles.iter().map(|triangle| Face::of(topology.corners(triangle))).collect();
+        let faces: Vec<Face> = topology.triangles.iter().map(|triangle| Face::of(topology.corners(triangle))).collect();
         let [low, high] = topology::around(&topology.vertices);
         let closed = topology.is_closed();
         let front = sides.map_or(closed, |sides| sides == 1);
         Self {
             material,
             tree: topology.tree(),
+            flat: flat_edges(&topology, &faces),
             faces,
             edges: Edge::all(&topology).collect(),
             sides: if front { Sides::Front } else { Sides::Both },
@@ -124,6 +127,32 @@ impl Mesh {
     }
 }
 
+/// The flat edges of each triangle, a bit for each.
+#[derive(Clone)]
+struct Flat(Vec<u8>);
+
+/// Nothing but the name, as for [`Face`].
+impl std::fmt::Debug for Flat {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("Flat")
+    }
+}
+
+/// Which edges are flat.
+fn flat_edges(topology: &Topology, faces: &[Face]) -> Flat {
+    let is_flat = |edge: u32| match topology.at_edge[edge as usize][..] {
+        [one, other] => {
+            let [one, other] = [one, other].map(|triangle| faces[triangle as usize].normal);
+            one.dot(other) > 0.0 && one.cross(other).length() < face::FLAT
+        }
+        _ => false,
+    };
+    let bits = |[first, second, third]: [u32; 3]| {
+        u8::from(is_flat(first)) | u8::from(is_flat(second)) << 1 | u8::from(is_flat(third)) << 2
+    };
+    Flat(topology.edges_of.iter().map(|edges| bits(*edges)).collect())
+}
+
 /// A surface of the triangles in STL files; an error says what is wrong with them. `sides`: 1, where the normals point, or 2;
 /// if absent, 1 for a closed surface and 2 for any other.
 pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -> Result<Shape, String> {
@@ -138,10 +167,10 @@ pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -
 }
 
 /// Adds to the weight of a foot.
-fn count(feet: &mut Feet, foot: Foot) {
-    match feet.list.iter_mut().find(|other| other.feature == foot.feature) {
+fn count(list: &mut Vec<Foot>, foot: Foot) {
+    match list.iter_mut().find(|other| other.feature == foot.feature) {
         Some(other) => other.weight += foot.weight,
-        None => feet.list.push(foot),
+        None => list.push(foot),
     }
 }
 
@@ -162,13 +191,6 @@ impl Features for Mesh {
     }
 
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
-        let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
-            let normal = apart * (1.0 / distance);
-            Foot { feature, distance, normal, weight, behind: false }
-        };
-        let [mut touched, mut vertices] = std::mem::take(&mut feet.room);
-        touched.clear();
-        vertices.clear();
         for &triangle in parts {
             let face = &self.faces[triangle as usize];
             let height = face.height(centre);
@@ -176,44 +198,17 @@ impl Features for Mesh {
             if !counts || height.abs() > radius {
                 continue;
             }
-            let Stand::Near { over, edges } = face.stand(centre, radius * radius - height * height) else { continue };
-            let own_edges = self.topology.edges_of[triangle as usize];
-            if over {
-                let (behind, normal) = (height < 0.0, if height < 0.0 { -face.normal } else { face.normal });
-                let (feature, distance) = (self.face(triangle), height.abs());
-                count(feet, Foot { feature, distance, normal, weight: 1.0, behind });
-            } else {
-                let (edge, on) = self.nearest_edge(centre, own_edges);
-                if on.distance > radius {
-                    continue;
+            let rest = radius * radius - height * height;
+            match face.place(centre, rest, radius, self.flat.0[triangle as usize]) {
+                Place::Away => {}
+                Place::Over => feet.list.push(self.on_face(triangle, height)),
+                Place::AtBend => {
+                    feet.list.clear();
+                    return self.feet_at_bends(centre, radius, parts, feet);
                 }
-                count(feet, bend(self.feature_on(edge, &on), on.apart, on.distance, 1.0));
-            }
-            touched.extend(own_edges.into_iter().zip(edges).filter_map(|(edge, near)| near.then_some(edge)));
-        }
-        touched.sort_unstable();
-        touched.dedup();
-        for &edge in &touched {
-            let on = self.on_edge(centre, edge);
-            if on.distance <= radius {
-                let weight = 1.0 - self.at_edge(centre, edge) as f64;
-                count(feet, bend(self.feature_on(edge, &on), on.apart, on.distance, weight));
-                vertices.extend(self.edges[edge as usize].ends);
             }
         }
-        vertices.sort_unstable();
-        vertices.dedup();
-        for &vertex in &vertices {
-            let apart = centre - self.topology.vertices[vertex as usize];
-            let distance = apart.length();
-            if distance <= radius {
-                count(feet, bend(vertex, apart, distance, self.of_vertex(centre, vertex)));
-            }
-        }
-        feet.list.retain(|foot| foot.weight != 0.0);
-        feet.list.sort_unstable_by_key(|foot| foot.feature);
-        self.find_saddles(centre, feet);
-        feet.room = [touched, vertices];
+        // Feet inside of faces alone: in order already, and each counts once.
     }
 
     fn meet(&self, one: u32, other: u32) -> bool {
@@ -227,6 +222,68 @@ impl Features for Mesh {
 }
 
 impl Mesh {
+    /// The foot of a centre at this height over a triangle, inside of which it lies.
+    #[inline(always)]
+    fn on_face(&self, triangle: u32, height: f64) -> Foot {
+        let (normal, behind) = (self.faces[triangle as usize].normal, height < 0.0);
+        let normal = if behind { -normal } else { normal };
+        Foot { feature: self.face(triangle), distance: height.abs(), normal, weight: 1.0, behind }
+    }
+
+    /// The feet on these parts where some are on edges and vertices, or near them.
+    #[inline(never)]
+    fn feet_at_bends(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
+        let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
+            let normal = apart * (1.0 / distance);
+            Foot { feature, distance, normal, weight, behind: false }
+        };
+        let Feet { list, room: [touched, vertices], .. } = feet;
+        touched.clear();
+        for &triangle in parts {
+            let face = &self.faces[triangle as usize];
+            let height = face.height(centre);
+            let counts = self.sides == Sides::Both || height > 0.0;
+            if !counts || height.abs() > radius {
+                continue;
+            }
+            let Stand::Near { over, edges } = face.stand(centre, radius * radius - height * height) else { continue };
+            let own_edges = self.topology.edges_of[triangle as usize];
+            if over {
+                list.push(self.on_face(triangle, height));
+            } else {
+                let (edge, on) = self.nearest_edge(centre, own_edges);
+                if on.distance > radius {
+                    continue;
+                }
+                count(list, bend(self.feature_on(edge, &on), on.apart, on.distance, 1.0));
+            }
+            touched.extend(own_edges.into_iter().zip(edges).filter_map(|(edge, near)| near.then_some(edge)));
+        }
+        touched.sort_unstable();
+        touched.dedup();
+        vertices.clear();
+        for &edge in touched.iter() {
+            let on = self.on_edge(centre, edge);
+            if on.distance <= radius {
+                let weight = 1.0 - self.at_edge(centre, edge) as f64;
+                count(list, bend(self.feature_on(edge, &on), on.apart, on.distance, weight));
+                vertices.extend(self.edges[edge as usize].ends);
+            }
+        }
+        vertices.sort_unstable();
+        vertices.dedup();
+        for &vertex in vertices.iter() {
+            let apart = centre - self.topology.vertices[vertex as usize];
+            let distance = apart.length();
+            if distance <= radius {
+                count(list, bend(vertex, apart, distance, self.of_vertex(centre, vertex)));
+            }
+        }
+        list.retain(|foot| foot.weight != 0.0);
+        list.sort_unstable_by_key(|foot| foot.feature);
+        self.find_saddles(centre, feet);
+    }
+
     /// The vertices of a feature.
     fn vertices_of(&self, feature: u32) -> &[u32] {
         let (vertices, edges) = (self.topology.vertices.len() as u32, self.topology.edges.len() as u32);
@@ -397,5 +454,67 @@ impl ShapeKeys for Keys {
             return None;
         }
         Some(Shape::of(Mesh::of(material?, topology, self.sides)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A block of n × n × 1 squares of two triangles each, turned and rounded to single precision as an STL file would; or,
+    /// without `closed`, its lid alone, with a slot in it.
+    fn block(n: u32, closed: bool) -> Mesh {
+        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
+        let at = |corner: [f64; 3]| turn.turn(Vector::from(corner)).to_array().map(|part| f64::from(part as f32));
+        let mut triangles = Vec::new();
+        let mut square = |corners: [[f64; 3]; 4]| {
+            let [a, b, c, d] = corners.map(at);
+            triangles.extend([[a, b, c], [a, c, d]]);
+        };
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let [x, y] = [f64::from(i), f64::from(j)];
+            if closed {
+                square([[x, y, 0.0], [x, y + 1.0, 0.0], [x + 1.0, y + 1.0, 0.0], [x + 1.0, y, 0.0]]);
+            } else if (i, j) == (n / 2, n / 2) {
+                continue;
+            }
+            square([[x, y, 1.0], [x + 1.0, y, 1.0], [x + 1.0, y + 1.0, 1.0], [x, y + 1.0, 1.0]]);
+        }
+        for i in (0..n).filter(|_| closed) {
+            let (x, end) = (f64::from(i), f64::from(n));
+            square([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 0.0, 1.0], [x, 0.0, 1.0]]);
+            square([[x + 1.0, end, 0.0], [x, end, 0.0], [x, end, 1.0], [x + 1.0, end, 1.0]]);
+            square([[0.0, x + 1.0, 0.0], [0.0, x, 0.0], [0.0, x, 1.0], [0.0, x + 1.0, 1.0]]);
+            square([[end, x, 0.0], [end, x + 1.0, 0.0], [end, x + 1.0, 1.0], [end, x, 1.0]]);
+        }
+        let topology = Topology::of(&triangles).unwrap_or_else(|triangle| panic!("triangle {triangle}"));
+        Mesh::of(MaterialIndex(0), topology, None)
+    }
+
+    #[test]
+    fn feet_inside_of_flat_patches_are_those_of_the_whole_rule() {
+        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
+        for (closed, flat) in [(true, 3 * 2 * (3 * 3 * 2 + 4 * 3) - 2 * (12 + 12 + 4)), (false, 3 * 16 - 12 - 4)] {
+            let mesh = block(3, closed);
+            assert_eq!(mesh.flat.0.iter().map(|bits| bits.count_ones()).sum::<u32>(), flat);
+            let parts: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+            let (mut quick, mut whole, mut met, mut flat) = (Feet::default(), Feet::default(), 0, 0);
+            for number in 0..20_000_u32 {
+                // Places as even as those of a lattice, none of which is like another.
+                let part = |ratio: f64| (f64::from(number) * ratio).fract();
+                let place =
+                    [part(0.754_877_67) * 4.0 - 0.5, part(0.569_840_29) * 4.0 - 0.5, part(0.430_159_71) * 2.0 - 0.5];
+                let (centre, radius) = (turn.turn(Vector::from(place)), 0.1 + 0.7 * part(0.618_033_99));
+                quick.clear();
+                whole.clear();
+                mesh.feet(centre, radius, &parts, &mut quick);
+                mesh.feet_at_bends(centre, radius, &parts, &mut whole);
+                assert_eq!(quick.list, whole.list, "{place:?}, radius {radius}");
+                assert_eq!(quick.saddles, whole.saddles);
+                met += usize::from(!whole.list.is_empty());
+                flat += usize::from(whole.list.len() == 1);
+            }
+            assert!(met > 5000 && flat > 2000, "{met} {flat}");
+        }
     }
 }

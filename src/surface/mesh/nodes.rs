@@ -17,7 +17,7 @@
 
 use super::edge::Edge;
 use super::face::Face;
-use super::{Features, Mesh, Surface};
+use super::{Features, Flat, Mesh, Surface};
 use crate::number::{Row, Vector};
 
 /// What a node gives to the motion of the surface at a foot, and takes from the load there.
@@ -66,7 +66,9 @@ impl Deforming {
     /// A mesh as it is at time 0.
     pub(super) fn of(mesh: &Mesh) -> Self {
         let first = mesh.topology.vertices.clone();
-        Self { displacement: vec![[0.0; 4]; first.len()], first, mesh: mesh.clone(), collapsed: None }
+        // No edge stays flat.
+        let mesh = Mesh { flat: Flat(vec![0; mesh.faces.len()]), ..mesh.clone() };
+        Self { displacement: vec![[0.0; 4]; first.len()], first, mesh, collapsed: None }
     }
 
     /// Takes the shape that it has with these displacements \[m\]. An error is the number of a triangle that has no area then,
