@@ -165,6 +165,30 @@ impl Entries {
         Self { flags: Shared::new(flags), history: rows, kept, pair_constant: Shared::new(pair_constant) }
     }
 
+    /// Those from an entry on, with pair constants that are kept elsewhere.
+    pub(crate) fn from(&self, first: usize, pair_constant: &mut [f64]) -> Self {
+        let mut rows = self.history;
+        for rows in &mut rows[..self.kept] {
+            *rows = rows.from(first);
+        }
+        let (flags, pair_constant) = (self.flags.from(first), Shared::new(pair_constant));
+        Self { flags, history: rows, kept: self.kept, pair_constant }
+    }
+
+    /// How many rows are stored for each.
+    pub(crate) fn rows(&self) -> usize {
+        self.kept
+    }
+
+    /// What is stored of an entry in one of the lists; nothing where there is no such list.
+    ///
+    /// # Safety
+    /// There is such an entry, and it belongs to the piece that asks.
+    pub(crate) unsafe fn row(&self, list: usize, entry: usize) -> Row {
+        // SAFETY: the caller's promise.
+        self.history().get(list).map_or([0.0; 4], |rows| unsafe { *rows.at(entry) })
+    }
+
     /// What is stored: lists with a row for each entry.
     #[inline(always)]
     fn history(&self) -> &[Shared<Row>] {

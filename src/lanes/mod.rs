@@ -266,6 +266,12 @@ impl<T> Shared<T> {
         self.length
     }
 
+    /// The slice without its first elements, of which there are at least as many.
+    pub fn from(self, first: usize) -> Self {
+        assert!(first <= self.length, "{first} is above {}", self.length);
+        Self { start: self.start.wrapping_add(first), length: self.length - first }
+    }
+
     /// One element, to be changed.
     ///
     /// # Safety

@@ -1,85 +1,101 @@
 //! What a contact with a feature remembers, and how it goes from one feature to the next.
 
+use crate::batches::Entries;
 use crate::contact::{HistoryRow, Law};
 use crate::number::{Row, Vector};
-use crate::state::WallContacts;
-use crate::state::contacts::REVERSE;
-use crate::surface::{Features, Feet, Foot};
+use crate::surface::{Features, Saddle};
 use std::ops::Range;
 
-/// The contacts that a particle had with the features of a surface in the last evaluation.
+/// The contacts of a piece of the particles with the features of a surface, as they were in the last evaluation.
 pub(super) struct Past<'a> {
-    /// The list that they stand in.
-    list: &'a WallContacts,
-    /// Where.
-    entries: Range<usize>,
+    /// The particle of each (slot).
+    pub(super) particle: &'a [u32],
+    /// Its feature.
+    pub(super) feature: &'a [u32],
+    /// What is stored of it.
+    pub(super) entries: Entries,
 }
 
-impl<'a> Past<'a> {
-    /// These entries of a list.
-    pub(super) fn of(list: &'a WallContacts, entries: Range<usize>) -> Self {
-        Self { list, entries }
-    }
+/// What a particle touches now.
+#[derive(Clone, Copy)]
+pub(super) struct Present<'a> {
+    /// The features.
+    pub(super) features: &'a [u32],
+    /// The saddles among them, each with its particle.
+    pub(super) saddles: &'a [(u32, Saddle)],
+}
 
-    /// The entry of a feature.
+impl Past<'_> {
+    /// The entries of a particle (slot), and of none before `from`.
     #[inline]
-    pub(super) fn entry(&self, feature: u32) -> Option<usize> {
-        // A particle touches one or a few.
-        let found = self.list.feature[self.entries.clone()].iter().position(|&other| other == feature);
-        found.map(|place| self.entries.start + place)
+    pub(super) fn of(&self, slot: u32, from: usize) -> Range<usize> {
+        let first = from + self.particle[from..].iter().take_while(|&&other| other < slot).count();
+        first..first + self.particle[first..].iter().take_while(|&&other| other == slot).count()
     }
 
-    /// Whether the centre was behind the face of an entry.
-    pub(super) fn was_behind(&self, entry: usize) -> bool {
-        self.list.flags[entry] & REVERSE != 0
+    /// Which of some entries is that of a feature.
+    #[inline]
+    pub(super) fn entry(&self, entries: &Range<usize>, feature: u32) -> Option<usize> {
+        // A particle touches one or a few.
+        let found = self.feature[entries.clone()].iter().position(|&other| other == feature);
+        found.map(|place| entries.start + place)
     }
 
     /// A row of what the law remembers of an entry.
     #[inline]
     pub(super) fn row(&self, entry: usize, row: usize) -> Row {
-        self.list.history.get(row).map_or([0.0; 4], |rows| rows[entry])
+        assert!(entry < self.particle.len(), "entry {entry} of another piece");
+        // SAFETY: the entry is in the list, among those of this piece.
+        unsafe { self.entries.row(row, entry) }
     }
 }
 
-/// The contact whose memory a contact has as the step begins: its own; or, where the foot came over a bend, the one which
-/// vanished there; or, where a bend brought it forth, that of the face across. A contact that begins has none.
+/// The contact whose memory one with this feature and weight has as the step begins: its own; or, where the foot came over a
+/// bend, the one which vanished there; or, where a bend brought it forth, that of the face across. A contact that begins has
+/// none.
 #[inline]
 pub(super) fn source(
-    foot: &Foot,
-    own: Option<usize>,
-    feet: &Feet,
-    past: &Past,
+    (feature, weight): (u32, f64),
+    present: Present,
+    (past, entries): (&Past, &Range<usize>),
     features: &dyn Features,
     law: &Law,
 ) -> Option<usize> {
     if law.history().is_empty() && !law.holds_beyond_touch() {
         return None;
     }
-    if own.is_some() || foot.weight <= 0.0 {
+    let own = past.entry(entries, feature);
+    if own.is_some() || weight <= 0.0 {
         return own;
     }
-    inherited(foot, feet, past, features, law)
+    inherited(feature, present, (past, entries), features, law)
 }
 
 /// The contact from which one that is new takes its memory.
 #[inline(never)]
-fn inherited(foot: &Foot, feet: &Feet, past: &Past, features: &dyn Features, law: &Law) -> Option<usize> {
+fn inherited(
+    own: u32,
+    present: Present,
+    (past, entries): (&Past, &Range<usize>),
+    features: &dyn Features,
+    law: &Law,
+) -> Option<usize> {
     let spring = |entry: usize| {
         law.spring().map_or(0.0, |place| {
             let spring = Vector::from(past.row(entry, place));
             spring.dot(spring)
         })
     };
-    let vanished = past.entries.clone().filter(|&entry| {
-        let feature = past.list.feature[entry];
-        feet.on(feature).is_none() && features.meet(feature, foot.feature)
+    let vanished = entries.clone().filter(|&entry| {
+        let feature = past.feature[entry];
+        !present.features.contains(&feature) && features.meet(feature, own)
     });
     // Of two that vanish into one, the one that friction has loaded most.
     let longest = vanished.reduce(|one, other| if spring(other) > spring(one) { other } else { one });
     let across = || {
-        let saddle = feet.saddles.iter().find(|saddle| saddle.faces.contains(&foot.feature))?;
-        let other = saddle.faces.iter().find(|face| **face != foot.feature)?;
-        past.entry(*other)
+        let (_, saddle) = present.saddles.iter().find(|(_, saddle)| saddle.faces.contains(&own))?;
+        let other = saddle.faces.iter().find(|face| **face != own)?;
+        past.entry(entries, *other)
     };
     longest.or_else(across)
 }

@@ -28,7 +28,7 @@ use crate::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
 use crate::surface::{self, Deforming};
 use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
-use features::FeatureContacts;
+use features::{FeatureContacts, Spare};
 use plane::{AtPlane, Plane, PlaneList};
 use sphere::{Load, Loaded};
 use std::ops::Range;
@@ -86,6 +86,8 @@ struct Room {
     loads: Vec<Load>,
     /// Contacts with features, of each piece and each surface.
     contacts: Vec<FeatureContacts>,
+    /// Room for the contacts with features of each surface.
+    spare: Vec<Spare>,
 }
 
 /// What all pieces share.
@@ -234,6 +236,7 @@ impl Pass for SurfacePass {
         room.loads.clear();
         room.loads.resize(pieces * count, Load::default());
         room.contacts.resize_with(pieces * count, FeatureContacts::default);
+        room.spare.resize_with(count, Spare::default);
         let particles = state.particles.len();
         let work = Work {
             walls: &state.walls,
@@ -255,7 +258,8 @@ impl Pass for SurfacePass {
         for (place, surface) in self.surfaces.iter().enumerate() {
             if surface.has_features() {
                 let found = || room.contacts.iter().skip(place).step_by(count);
-                features::replace(&mut state.walls[surface.index], surface.kept_rows, found());
+                let (list, spare) = (&mut state.walls[surface.index], &mut room.spare[place]);
+                features::replace(list, surface.kept_rows, spare, found());
                 surface.load_nodes(state, found().map(FeatureContacts::held));
             }
             result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));

@@ -1,10 +1,12 @@
 //! The contacts with features that an evaluation finds, each a column.
 
+use super::super::history::{Past, Present};
 use super::super::nodes::Held;
 use crate::number::Vector;
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
 use crate::state::{Row, WallContacts};
-use crate::surface::{Feet, Foot};
+use crate::surface::{Feet, Foot, Saddle};
+use std::ops::Range;
 
 /// Contacts of a piece of the particles with the features of a surface, each a column; kept from one step to the next for its
 /// room.
@@ -13,7 +15,10 @@ pub(in super::super) struct FeatureContacts {
     /// The particle of each (slot).
     pub(super) particle: Vec<u32>,
     /// Its feature.
-    feature: Vec<u32>,
+    pub(super) feature: Vec<u32>,
+    /// Where these same contacts, particles and features, stand in the list already: then the list stores what the law
+    /// remembers of them, and otherwise the next two.
+    pub(super) kept: Option<Range<usize>>,
     /// Its bits.
     pub(super) flags: Vec<u8>,
     /// What the law remembers of it, row by row.
@@ -26,8 +31,10 @@ pub(in super::super) struct FeatureContacts {
     pub(super) foot: Vec<Row>,
     /// How often its normal force counts, and its share of friction; empty where each counts once.
     pub(super) weight: Vec<[f64; 2]>,
-    /// The contacts whose particles have their centres behind the face.
-    behind: Vec<u32>,
+    /// [`REVERSE`] where the centre is behind the face.
+    pub(super) side: Vec<u8>,
+    /// The saddles, each with its particle.
+    pub(super) saddles: Vec<(u32, Saddle)>,
     /// What it has beside where nodes move one by one.
     pub(super) held: Held,
     /// What the present particle touches.
@@ -35,7 +42,7 @@ pub(in super::super) struct FeatureContacts {
 }
 
 impl FeatureContacts {
-    /// Forgets all contacts, of which so many rows are kept.
+    /// Forgets all contacts, of which so many rows are stored.
     pub(super) fn clear(&mut self, rows: usize) {
         self.particle.clear();
         self.feature.clear();
@@ -45,7 +52,8 @@ impl FeatureContacts {
         self.pair_constant.clear();
         self.foot.clear();
         self.weight.clear();
-        self.behind.clear();
+        self.side.clear();
+        self.saddles.clear();
         self.held.clear();
     }
 
@@ -53,60 +61,111 @@ impl FeatureContacts {
     /// share of friction.
     #[inline]
     pub(super) fn push(&mut self, slot: u32, foot: &Foot, normal: Vector, share: f64) {
-        if foot.behind {
-            self.behind.push(self.particle.len() as u32);
-        }
         if foot.weight != 1.0 || share != 1.0 || !self.weight.is_empty() {
-            self.weight.resize(self.particle.len(), [1.0; 2]);
-            self.weight.push([foot.weight, share]);
+            self.weigh([foot.weight, share]);
         }
         self.particle.push(slot);
         self.feature.push(foot.feature);
         self.foot.push(normal.row_with(foot.distance));
+        self.side.push(if foot.behind { REVERSE } else { 0 });
     }
 
-    /// Ends the search: all contacts have their numbers, and no bits yet. Returns how many there are.
-    pub(super) fn complete(&mut self) -> usize {
+    /// Gives weights to the contact that is added next.
+    #[inline(never)]
+    fn weigh(&mut self, weights: [f64; 2]) {
+        self.weight.resize(self.particle.len(), [1.0; 2]);
+        self.weight.push(weights);
+    }
+
+    /// How often the normal force of a contact counts.
+    pub(super) fn weight(&self, contact: usize) -> f64 {
+        self.weight.get(contact).map_or(1.0, |[weight, _]| *weight)
+    }
+
+    /// Ends the search: all contacts have their numbers. Looks whether they are those of the last evaluation, which stood
+    /// there in the list.
+    pub(super) fn complete(&mut self, past: &Past, range: Range<usize>, rows: usize) {
         let count = self.particle.len();
-        self.flags.resize(count, 0);
         self.number.extend(self.number.len() as u32..count as u32);
-        count
+        let same = past.particle == self.particle && past.feature == self.feature && past.entries.rows() == rows;
+        self.kept = same.then_some(range);
+    }
+
+    /// What a particle touches whose contacts are these.
+    pub(super) fn present(&self, contacts: Range<usize>) -> Present<'_> {
+        let saddles = &self.saddles[..];
+        let [from, to] = match contacts.clone().next() {
+            Some(contact) if !saddles.is_empty() => {
+                let slot = self.particle[contact];
+                [
+                    saddles.partition_point(|(other, _)| *other < slot),
+                    saddles.partition_point(|(other, _)| *other <= slot),
+                ]
+            }
+            _ => [0; 2],
+        };
+        Present { features: &self.feature[contacts], saddles: &saddles[from..to] }
     }
 
     /// What the contacts have beside where nodes move one by one.
     pub(in super::super) fn held(&self) -> &Held {
         &self.held
     }
+}
 
-    /// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
-    pub(super) fn finish(&mut self) {
-        self.flags.iter_mut().for_each(|flags| *flags &= TOUCHING | SLIDING);
-        for (flags, _) in self.flags.iter_mut().zip(&self.weight).filter(|(_, [weight, _])| *weight <= 0.0) {
-            *flags = 0;
-        }
-        for &entry in &self.behind {
-            self.flags[entry as usize] |= REVERSE;
-        }
+/// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
+pub(super) fn finish(flags: &mut [u8], side: &[u8], weight: &[[f64; 2]]) {
+    for (flags, side) in flags.iter_mut().zip(side) {
+        *flags = *flags & (TOUCHING | SLIDING) | side;
+    }
+    for (flags, _) in flags.iter_mut().zip(weight).filter(|(_, [weight, _])| *weight <= 0.0) {
+        *flags &= REVERSE;
     }
 }
 
-/// Puts the contacts that the pieces found, of each of which so many rows are kept, in the place of a list's.
+/// The columns of a list of contacts with features.
+#[derive(Default)]
+pub(in super::super) struct Spare {
+    /// Particles.
+    particle: Vec<u32>,
+    /// Features.
+    feature: Vec<u32>,
+    /// Bits.
+    flags: Vec<u8>,
+    /// What is stored.
+    history: Vec<Vec<Row>>,
+}
+
+/// Puts the contacts that the pieces found, of each of which so many rows are stored, in the place of a list's, whose room is
+/// the spare one of the next time. Nothing changes where all are there already.
 pub(in super::super) fn replace<'a>(
     list: &mut WallContacts,
     rows: usize,
-    pieces: impl Iterator<Item = &'a FeatureContacts>,
+    spare: &mut Spare,
+    pieces: impl Iterator<Item = &'a FeatureContacts> + Clone,
 ) {
-    list.particle.clear();
-    list.feature.clear();
-    list.flags.clear();
-    list.history.resize(rows, Vec::new());
-    list.history.iter_mut().for_each(Vec::clear);
+    if pieces.clone().all(|piece| piece.kept.is_some()) {
+        return;
+    }
+    spare.particle.clear();
+    spare.feature.clear();
+    spare.flags.clear();
+    spare.history.resize(rows, Vec::new());
+    spare.history.iter_mut().for_each(Vec::clear);
     for piece in pieces {
-        list.particle.extend_from_slice(&piece.particle);
-        list.feature.extend_from_slice(&piece.feature);
-        list.flags.extend_from_slice(&piece.flags);
-        for (all, rows) in list.history.iter_mut().zip(&piece.history) {
-            all.extend_from_slice(rows);
+        spare.particle.extend_from_slice(&piece.particle);
+        spare.feature.extend_from_slice(&piece.feature);
+        let (flags, history, range) = match &piece.kept {
+            Some(range) => (&list.flags, &list.history, range.clone()),
+            None => (&piece.flags, &piece.history, 0..piece.flags.len()),
+        };
+        spare.flags.extend_from_slice(&flags[range.clone()]);
+        for (all, rows) in spare.history.iter_mut().zip(history) {
+            all.extend_from_slice(&rows[range.clone()]);
         }
     }
+    std::mem::swap(&mut list.particle, &mut spare.particle);
+    std::mem::swap(&mut list.feature, &mut spare.feature);
+    std::mem::swap(&mut list.flags, &mut spare.flags);
+    std::mem::swap(&mut list.history, &mut spare.history);
 }

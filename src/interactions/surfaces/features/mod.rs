@@ -10,16 +10,18 @@ mod columns;
 mod standing;
 mod told;
 
-use super::history::{Past, source, taken};
+use super::history::{Past, Present, source, taken};
 use super::nodes::Held;
 use super::sphere::{Load, Loaded};
 use super::{AtSurface, Range, Work};
 use crate::batches::Entries;
 use crate::number::Vector;
 use crate::state::WallContacts;
-use crate::surface::{Feet, Foot};
+use crate::state::contacts::REVERSE;
+use crate::surface::{Feet, Foot, Saddle};
 use at_feet::AtFeet;
-pub(super) use columns::{FeatureContacts, replace};
+use columns::finish;
+pub(super) use columns::{FeatureContacts, Spare, replace};
 use standing::{Stand, Standing};
 
 /// The parts that are near a listed particle.
@@ -45,32 +47,47 @@ impl AtSurface {
     /// The same where it stands.
     fn piece_at(&self, at: Standing, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let list = &work.walls[self.index];
+        let [from, to] =
+            [slots.start, slots.end].map(|end| list.particle.partition_point(|&slot| (slot as usize) < end));
+        let entries = work.entries[self.index].from(from, &mut []);
+        let past = Past { particle: &list.particle[from..to], feature: &list.feature[from..to], entries };
         contacts.clear(self.kept_rows);
-        let through = self.find(&at, list, &work.particles, slots, contacts);
-        let count = contacts.complete();
-        let FeatureContacts { particle, number, foot, weight, flags, history, pair_constant, held, .. } = contacts;
-        let (particles, held) = (work.particles, at.moving.map(|_| held.columns()));
+        self.find(&at, list, &work.particles, slots, &past, contacts);
+        contacts.complete(&past, from..to, self.kept_rows);
+        if contacts.kept.is_none() {
+            self.remember(&at, &past, contacts);
+        }
+        let behind = went_through(&past, contacts);
+        let FeatureContacts { particle, number, foot, weight, side, pair_constant, held, .. } = contacts;
+        let (count, particles) = (particle.len(), work.particles);
+        let entries = match contacts.kept {
+            Some(_) => entries.from(0, pair_constant),
+            None => Entries::of(&mut contacts.flags, &mut contacts.history, pair_constant),
+        };
+        // SAFETY: the entries are those of this piece.
+        unsafe { entries.flags.part(0, count) }.fill(0);
+        let held = at.moving.map(|_| held.columns());
         let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
-        let entries = Entries::of(flags, history, pair_constant);
         let load = self.run(&self.batches(bodies, entries, work.context), 0..count);
-        contacts.finish();
-        Load { behind: through, ..load }
+        // SAFETY: as above.
+        finish(unsafe { entries.flags.part(0, count) }, side, weight);
+        Load { behind, ..load }
     }
 
-    /// Finds the contacts of the particles in a range of slots. Returns a particle that went through the surface.
+    /// Finds the contacts of the particles in a range of slots.
     fn find(
         &self,
         at: &Standing,
         list: &WallContacts,
         particles: &Loaded,
         slots: Range<usize>,
+        past: &Past,
         contacts: &mut FeatureContacts,
-    ) -> Option<u32> {
+    ) {
         let sticks = self.law.law.holds_beyond_touch();
         let near = &list.near.particle;
         let [first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
-        let mut past = list.particle.partition_point(|&slot| (slot as usize) < slots.start);
-        let (mut through, mut feet) = (None, std::mem::take(&mut contacts.feet));
+        let mut feet = std::mem::take(&mut contacts.feet);
         for (place, &slot) in (first..last).zip(&near[first..last]) {
             let position = particles.position[slot as usize];
             let constant = constant(list, place);
@@ -78,54 +95,72 @@ impl AtSurface {
             feet.clear();
             let centre = at.frame.inside(Vector::from(position));
             at.features.feet(centre, position[3] + beyond, parts(list, place), &mut feet);
-            if feet.list.is_empty() {
-                continue;
+            if sticks {
+                self.keep_touched(at, (slot, position[3]), past, &mut feet);
             }
-            while list.particle.get(past).is_some_and(|&other| other < slot) {
-                past += 1;
-            }
-            let count = list.particle[past..].iter().take_while(|&&other| other == slot).count();
-            let past = Past::of(list, past..past + count);
             let here = Here { at, particles, slot, constant, feet: &feet };
-            let went = self.add_feet(&here, &past, contacts);
-            through = through.or(went.then_some(slot));
+            feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
+            contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
         }
         contacts.feet = feet;
-        through
     }
 
-    /// Adds the contacts of one particle. Returns whether it went through the surface.
+    /// Adds a contact.
     #[inline]
-    fn add_feet(&self, here: &Here, past: &Past, contacts: &mut FeatureContacts) -> bool {
-        let Here { at, particles, slot, constant, feet } = *here;
-        let (law, mut through) = (&self.law.law, false);
-        for foot in &feet.list {
-            let own = past.entry(foot.feature);
-            let known = source(foot, own, feet, past, at.features, law);
-            if foot.distance > particles.position[slot as usize][3] && known.is_none() {
-                continue;
-            }
-            let normal = at.frame.outside(foot.normal);
-            for (row, rows) in contacts.history.iter_mut().enumerate() {
-                let kept = known.map_or([0.0; 4], |entry| past.row(entry, row));
-                let moved = if known == own { None } else { law.history().get(row) };
-                rows.push(moved.map_or(kept, |memory| taken(kept, memory, normal)));
-            }
-            let share = match foot.weight > 0.0 {
-                true if feet.saddles.is_empty() => foot.weight,
-                true => self.friction(here, foot),
-                false => 0.0,
-            };
-            if law.has_pair_constant() {
-                contacts.pair_constant.push(constant);
-            }
-            if at.moving.is_some() {
-                here.hold(foot, normal, &mut contacts.held);
-            }
-            contacts.push(slot, foot, normal, share);
-            through |= own.is_some_and(|entry| past.was_behind(entry) != foot.behind);
+    fn add(&self, here: &Here, foot: &Foot, contacts: &mut FeatureContacts) {
+        let normal = here.at.frame.outside(foot.normal);
+        let share = match foot.weight > 0.0 {
+            true if here.feet.saddles.is_empty() => foot.weight,
+            true => self.friction(here, foot),
+            false => 0.0,
+        };
+        if self.law.law.has_pair_constant() {
+            contacts.pair_constant.push(here.constant);
         }
-        through
+        if here.at.moving.is_some() {
+            here.hold(foot, normal, &mut contacts.held);
+        }
+        contacts.push(here.slot, foot, normal, share);
+    }
+
+    /// Keeps those feet of a particle (slot, radius \[m\]) that are touched: beyond touch, where there was a contact before.
+    #[inline(never)]
+    fn keep_touched(&self, at: &Standing, (slot, radius): (u32, f64), past: &Past, feet: &mut Feet) {
+        let entries = past.of(slot, past.particle.partition_point(|&other| other < slot));
+        let features: Vec<u32> = feet.list.iter().map(|foot| foot.feature).collect();
+        let saddles: Vec<(u32, Saddle)> = feet.saddles.iter().map(|saddle| (slot, *saddle)).collect();
+        let present = Present { features: &features, saddles: &saddles };
+        feet.list.retain(|foot| {
+            let known = || source((foot.feature, foot.weight), present, (past, &entries), at.features, &self.law.law);
+            foot.distance <= radius || known().is_some()
+        });
+    }
+
+    /// Gives all contacts what is remembered of them.
+    #[inline(never)]
+    fn remember(&self, at: &Standing, past: &Past, contacts: &mut FeatureContacts) {
+        let (law, mut history) = (&self.law.law, std::mem::take(&mut contacts.history));
+        let (mut first, mut entries) = (0, 0..0);
+        while let Some(&slot) = contacts.particle.get(first) {
+            let end = first + contacts.particle[first..].iter().take_while(|&&other| other == slot).count();
+            entries = past.of(slot, entries.end);
+            let present = contacts.present(first..end);
+            for contact in first..end {
+                let feature = contacts.feature[contact];
+                let touched = (feature, contacts.weight(contact));
+                let known = source(touched, present, (past, &entries), at.features, law);
+                let moved = known != past.entry(&entries, feature);
+                let normal = Vector::from(contacts.foot[contact]);
+                for (row, rows) in history.iter_mut().enumerate() {
+                    let kept = known.map_or([0.0; 4], |entry| past.row(entry, row));
+                    let memory = law.history().get(row).filter(|_| moved);
+                    rows.push(memory.map_or(kept, |memory| taken(kept, memory, normal)));
+                }
+            }
+            first = end;
+        }
+        contacts.flags.resize(contacts.particle.len(), 0);
+        contacts.history = history;
     }
 
     /// The share of friction that a foot beside a saddle has.
@@ -136,6 +171,24 @@ impl AtSurface {
         let row = self.table.row(particles.material[slot], self.material);
         Stand { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
     }
+}
+
+/// A particle (slot) whose centre came from one side of a face to the other.
+fn went_through(past: &Past, contacts: &FeatureContacts) -> Option<u32> {
+    // SAFETY: the entries are those of this piece.
+    let before = unsafe { past.entries.flags.part(0, past.particle.len()) };
+    if contacts.kept.is_some() {
+        let mut both = before.iter().zip(&contacts.side);
+        return both.position(|(before, now)| (before ^ now) & REVERSE != 0).map(|contact| contacts.particle[contact]);
+    }
+    let (mut entries, mut last) = (0..0, None);
+    let through = |(&slot, (&feature, now)): (&u32, (&u32, &u8))| {
+        if last != Some(slot) {
+            (entries, last) = (past.of(slot, entries.end), Some(slot));
+        }
+        past.entry(&entries, feature).is_some_and(|entry| (before[entry] ^ now) & REVERSE != 0).then_some(slot)
+    };
+    contacts.particle.iter().zip(contacts.feature.iter().zip(&contacts.side)).find_map(through)
 }
 
 /// What a particle touches. What few contacts need is found from it, out of line.
