@@ -12,6 +12,7 @@ mod books;
 mod coefficients;
 mod derivatives;
 mod every_law;
+mod every_surface;
 mod exchange;
 mod foreseen_step;
 mod forged_states;

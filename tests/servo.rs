@@ -122,8 +122,8 @@ fn a_bonded_block_has_its_force_in_ten_wave_times_without_overshoot() {
     }
 }
 
-/// Columns of spheres of radius 5 mm between four walls, under a plate with this servo.
-fn bed(target: f64, speed: f64) -> String {
+/// Columns of spheres of radius 5 mm between four walls, under a plate at a height \[m\] with this servo.
+fn bed(law: &str, plate: &str) -> String {
     let sides = [("x_low", [0.0, 0.0], [1, 0]), ("x_high", [0.04, 0.0], [-1, 0])];
     let sides = sides.into_iter().chain([("y_low", [0.0, 0.0], [0, 1]), ("y_high", [0.0, 0.04], [0, -1])]);
     let walls: String = sides
@@ -145,15 +145,15 @@ density = 2500.0
 [pair.a.a]
 restitution = 0.5
 friction = 0.5
-[contact.touch.normal.hertz]
-[contact.touch.tangential.history]
+normal_stiffness = 1.0e5
+normal_damping = 0.0
+{law}
 [particles.bed]
 material = "a"
 lattice = {{ kind = "simple_cubic", origin = [0.005, 0.005, 0.005], counts = [4, 4, 6], spacing = 1.0e-2, radius = 5.0e-3 }}
 [boundary.a_plate]
 material = "a"
-plane = {{ point = [0.0, 0.0, 0.06], normal = [0.0, 0.0, -1.0] }}
-motion = {{ servo = {{ z = {{ target = {target:?}, speed = {speed:?} }} }} }}
+{plate}
 [boundary.floor]
 material = "a"
 plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
@@ -162,9 +162,12 @@ plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
     )
 }
 
+/// Hertz's law with friction.
+const HERTZ: &str = "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]\n";
+
 #[test]
 fn a_dense_bed_has_its_force_in_ten_wave_times_without_overshoot() {
-    let mut simulation = start(&bed(20.0, 0.05));
+    let mut simulation = start(&bed(HERTZ, &plate(0.06, 20.0, 0.05)));
     let (mut most, mut free, part) = (0.0_f64, None, 1e-4);
     // Contacts at the final force: 20 N on 16 columns.
     let modulus = 1.0e7 / (2.0 * (1.0 - 0.3 * 0.3));
@@ -202,6 +205,97 @@ fn an_impact_from_a_gap_gives_no_more_than_the_impedance_times_the_speed_limit()
     }
     assert!(most > target, "they met");
     assert!(most < 1.2 * impedance * speed, "{most} N, {} N by impedance and speed", impedance * speed);
+}
+
+#[test]
+fn an_impact_on_a_dense_bed_gives_no_more_than_the_impedance_times_the_speed_limit() {
+    // Linear springs: those of Hertz have no impedance until they are pressed.
+    let (stiffness, sphere, speed) = (1.0e5, 4.0 / 3.0 * PI * 5e-3_f64.powi(3) * 2500.0, 0.01);
+    let impedance = 16.0 * (stiffness * sphere).sqrt();
+    let time = 6.0 * (sphere / stiffness).sqrt();
+    let target = 0.01 * impedance * speed;
+    let plate = plate(0.06 + 1e-6, target, speed);
+    let mut simulation = start(&bed("[contact.touch.normal.hooke_stiffness]\n", &plate));
+    let mut most = 0.0_f64;
+    for _ in 0..1000 {
+        simulation.advance(0.02 * time).expect("it runs");
+        most = most.max(force(&simulation));
+    }
+    assert!(most > 10.0 * target, "they met: {most} N");
+    assert!(most < 1.2 * impedance * speed, "{most} N, {} N by impedance and speed", impedance * speed);
+}
+
+/// Pressure of the plates on loose spheres \[Pa\].
+const PRESSURE: f64 = 5.0e4;
+
+/// Spheres of many sizes at random in a cube of 12 mm between four plates with servos, a floor and a lid that is driven by its velocity.
+fn sand() -> String {
+    let servo = |axis: &str, side: &str, point: f64, normal: [f64; 3]| {
+        let target = if side == "low" { -1.0 } else { 1.0 } * PRESSURE * 0.012 * 0.012;
+        format!(
+            "[boundary.{axis}_{side}]\nmaterial = \"sand\"\nplane = {{ point = {:?}, normal = {normal:?} }}\n\
+             motion = {{ servo = {{ {axis} = {{ target = {target:?}, speed = 0.03 }} }} }}\n",
+            normal.map(|part| part.abs() * point)
+        )
+    };
+    let plates = [
+        servo("x", "low", 0.0, [1.0, 0.0, 0.0]),
+        servo("x", "high", 0.012, [-1.0, 0.0, 0.0]),
+        servo("y", "low", 0.0, [0.0, 1.0, 0.0]),
+        servo("y", "high", 0.012, [0.0, -1.0, 0.0]),
+    ];
+    format!(
+        r#"
+[run]
+step = 5e-6
+seed = 3
+threads = 1
+[material.sand]
+youngs_modulus = 2.0e7
+poissons_ratio = 0.2
+density = 2650.0
+[pair.sand.sand]
+restitution = 0.5
+friction = 0.5
+{HERTZ}
+[particles.sand]
+material = "sand"
+[particles.sand.packing]
+box = [[0.0, 0.0, 0.0], [0.012, 0.012, 0.012]]
+solid_fraction = 0.56
+radius = [0.8e-3, 1.2e-3]
+{}
+[boundary.z_low]
+material = "sand"
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+[boundary.z_high]
+material = "sand"
+plane = {{ point = [0.0, 0.0, 0.012], normal = [0.0, 0.0, -1.0] }}
+motion = {{ driven = ["z"], by = "velocity" }}
+"#,
+        plates.concat()
+    )
+}
+
+#[test]
+fn slow_shear_of_a_dense_bed_leaves_the_forces_within_half_a_percent() {
+    let mut simulation = start(&sand());
+    simulation.advance(0.04).expect("it runs");
+    // A strain rate of 0.2 per second, with which inertia is of no account: ε̇ d √(ρ/p) = 1e-4.
+    simulation.set_input(BoundaryIndex(5), 2, -0.2 * 0.012);
+    let target = PRESSURE * 0.012 * 0.012;
+    let (mut sums, count) = ([0.0; 4], 200);
+    for _ in 0..count {
+        simulation.advance(1e-3).expect("it runs");
+        for (sum, moved) in sums.iter_mut().zip(&simulation.state().boundaries) {
+            let [x, y, ..] = moved.force.map(f64::abs);
+            *sum += (x.max(y) / target - 1.0).powi(2);
+        }
+    }
+    let errors = sums.map(|sum| (sum / f64::from(count)).sqrt());
+    let axial = simulation.state().boundaries[5].force[2] / target;
+    assert!(axial > 1.3, "it is sheared: {axial}");
+    assert!(errors.iter().all(|error| *error < 5e-3), "{errors:?}");
 }
 
 #[test]
