@@ -1,0 +1,271 @@
+//! Where a sphere touches triangles: on faces, edges and vertices.
+
+use super::edge::OnEdge;
+use super::face::{Place, Stand};
+use super::{Mesh, Sides};
+use crate::number::Vector;
+use crate::surface::feet::{Features, Feet, Foot};
+
+impl Mesh {
+    /// The nearest point of an edge.
+    pub(super) fn on_edge(&self, centre: Vector, edge: u32) -> OnEdge {
+        self.edges[edge as usize].nearest(centre)
+    }
+
+    /// The feature on which the nearest point of an edge lies.
+    pub(super) fn feature_on(&self, edge: u32, on: &OnEdge) -> u32 {
+        on.vertex.unwrap_or(self.topology.vertices.len() as u32 + edge)
+    }
+
+    /// The nearest point of three edges, and the edge: of those that are equally near the first.
+    pub(super) fn nearest_edge(&self, centre: Vector, edges: [u32; 3]) -> (u32, OnEdge) {
+        let [first, second, third] = edges.map(|edge| (edge, self.on_edge(centre, edge)));
+        let nearer = if second.1.distance < first.1.distance { second } else { first };
+        if third.1.distance < nearer.1.distance { third } else { nearer }
+    }
+
+    /// The feature of a triangle.
+    pub(super) fn face(&self, triangle: u32) -> u32 {
+        (self.topology.vertices.len() + self.topology.edges.len()) as u32 + triangle
+    }
+
+    /// How many triangles at an edge count.
+    pub(super) fn at_edge(&self, centre: Vector, edge: u32) -> usize {
+        match self.sides {
+            Sides::Both => self.edges[edge as usize].triangles as usize,
+            Sides::Front => {
+                let at = &self.topology.at_edge[edge as usize];
+                at.iter().filter(|triangle| self.counts(centre, **triangle)).count()
+            }
+        }
+    }
+
+    /// The weight of a vertex: 1 − k_v + Σ (k_e − 1) over what counts.
+    fn of_vertex(&self, centre: Vector, vertex: u32) -> f64 {
+        let at = &self.topology.at_vertex[vertex as usize];
+        let triangles = at.iter().filter(|triangle| self.counts(centre, **triangle)).count();
+        let edges = self.topology.edges_at_vertex[vertex as usize].iter().map(|edge| self.at_edge(centre, *edge));
+        let edges: f64 = edges.filter(|count| *count > 0).map(|count| count as f64 - 1.0).sum();
+        1.0 - triangles as f64 + edges
+    }
+}
+
+/// Adds to the weight of a foot.
+fn count(list: &mut Vec<Foot>, foot: Foot) {
+    match list.iter_mut().find(|other| other.feature == foot.feature) {
+        Some(other) => other.weight += foot.weight,
+        None => list.push(foot),
+    }
+}
+
+impl Features for Mesh {
+    fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>) {
+        let before = parts.len();
+        self.tree.near(centre, reach, |triangle| {
+            if self.distance_from(centre, triangle) <= reach {
+                parts.push(triangle);
+            }
+        });
+        parts[before..].sort_unstable();
+    }
+
+    fn counts(&self) -> [usize; 2] {
+        let parts = self.topology.triangles.len();
+        [parts, self.topology.vertices.len() + self.topology.edges.len() + parts]
+    }
+
+    fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
+        for &triangle in parts {
+            let face = &self.faces[triangle as usize];
+            let height = face.height(centre);
+            let counts = self.sides == Sides::Both || height > 0.0;
+            if !counts || height.abs() > radius {
+                continue;
+            }
+            let rest = radius * radius - height * height;
+            match face.place(centre, rest, radius, self.flat.0[triangle as usize]) {
+                Place::Away => {}
+                Place::Over => feet.list.push(self.on_face(triangle, height)),
+                Place::AtBend => {
+                    feet.list.clear();
+                    return self.feet_at_bends(centre, radius, parts, feet);
+                }
+            }
+        }
+        // Feet inside of faces alone: in order already, and each counts once.
+    }
+
+    fn meet(&self, one: u32, other: u32) -> bool {
+        let ends = self.vertices_of(one);
+        self.vertices_of(other).iter().any(|vertex| ends.contains(vertex))
+    }
+
+    fn extent(&self, point: Vector) -> f64 {
+        self.topology.vertices.iter().map(|vertex| (*vertex - point).length()).fold(0.0, f64::max)
+    }
+}
+
+impl Mesh {
+    /// The foot of a centre at this height over a triangle, inside of which it lies.
+    #[inline(always)]
+    fn on_face(&self, triangle: u32, height: f64) -> Foot {
+        let (normal, behind) = (self.faces[triangle as usize].normal, height < 0.0);
+        let normal = if behind { -normal } else { normal };
+        Foot { feature: self.face(triangle), distance: height.abs(), normal, weight: 1.0, behind }
+    }
+
+    /// The feet on these parts where some are on edges and vertices, or near them.
+    #[inline(never)]
+    fn feet_at_bends(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
+        let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
+            let normal = apart * (1.0 / distance);
+            Foot { feature, distance, normal, weight, behind: false }
+        };
+        let Feet { list, room: [touched, vertices], .. } = feet;
+        touched.clear();
+        for &triangle in parts {
+            let face = &self.faces[triangle as usize];
+            let height = face.height(centre);
+            let counts = self.sides == Sides::Both || height > 0.0;
+            if !counts || height.abs() > radius {
+                continue;
+            }
+            let Stand::Near { over, edges } = face.stand(centre, radius * radius - height * height) else { continue };
+            let own_edges = self.topology.edges_of[triangle as usize];
+            if over {
+                list.push(self.on_face(triangle, height));
+            } else {
+                let (edge, on) = self.nearest_edge(centre, own_edges);
+                if on.distance > radius {
+                    continue;
+                }
+                count(list, bend(self.feature_on(edge, &on), on.apart, on.distance, 1.0));
+            }
+            touched.extend(own_edges.into_iter().zip(edges).filter_map(|(edge, near)| near.then_some(edge)));
+        }
+        touched.sort_unstable();
+        touched.dedup();
+        vertices.clear();
+        for &edge in touched.iter() {
+            let on = self.on_edge(centre, edge);
+            if on.distance <= radius {
+                let weight = 1.0 - self.at_edge(centre, edge) as f64;
+                count(list, bend(self.feature_on(edge, &on), on.apart, on.distance, weight));
+                vertices.extend(self.edges[edge as usize].ends);
+            }
+        }
+        vertices.sort_unstable();
+        vertices.dedup();
+        for &vertex in vertices.iter() {
+            let apart = centre - self.topology.vertices[vertex as usize];
+            let distance = apart.length();
+            if distance <= radius {
+                count(list, bend(vertex, apart, distance, self.of_vertex(centre, vertex)));
+            }
+        }
+        list.retain(|foot| foot.weight != 0.0);
+        list.sort_unstable_by_key(|foot| foot.feature);
+        self.find_saddles(centre, feet);
+    }
+
+    /// The vertices of a feature.
+    fn vertices_of(&self, feature: u32) -> &[u32] {
+        let (vertices, edges) = (self.topology.vertices.len() as u32, self.topology.edges.len() as u32);
+        match feature {
+            edge if (vertices..vertices + edges).contains(&edge) => &self.topology.edges[(edge - vertices) as usize],
+            face if face >= vertices + edges => &self.topology.triangles[(face - vertices - edges) as usize],
+            // An edge knows its vertices; a vertex is one of the ends of any edge there.
+            vertex => {
+                let edge = self.topology.edges[self.topology.edges_at_vertex[vertex as usize][0] as usize];
+                let place = usize::from(edge[1] == vertex);
+                &self.topology.edges[self.topology.edges_at_vertex[vertex as usize][0] as usize][place..=place]
+            }
+        }
+    }
+
+    /// Finds the edges of negative weight between two faces that both carry the sphere.
+    fn find_saddles(&self, centre: Vector, feet: &mut Feet) {
+        let vertices = self.topology.vertices.len() as u32;
+        let edges = vertices..vertices + self.topology.edges.len() as u32;
+        for place in 0..feet.list.len() {
+            let edge = feet.list[place];
+            if edge.weight >= 0.0 || !edges.contains(&edge.feature) {
+                continue;
+            }
+            let foot = centre - edge.normal * edge.distance;
+            let at = &self.topology.at_edge[(edge.feature - vertices) as usize];
+            let mut on_faces = at
+                .iter()
+                .filter_map(|triangle| feet.on(self.face(*triangle)))
+                .map(|face| (face.feature, (centre - face.normal * face.distance - foot).length()));
+            if let (Some((one, x)), Some((other, y)), None) = (on_faces.next(), on_faces.next(), on_faces.next()) {
+                feet.add_saddle(edge.feature, [one, other], [x, y]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::rotation;
+    use crate::quantity::MaterialIndex;
+    use crate::surface::mesh::topology::Topology;
+
+    /// A block of n × n × 1 squares of two triangles each, turned and rounded to single precision as an STL file would; or,
+    /// without `closed`, its lid alone, with a slot in it.
+    fn block(n: u32, closed: bool) -> Mesh {
+        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
+        let at = |corner: [f64; 3]| turn.turn(Vector::from(corner)).to_array().map(|part| f64::from(part as f32));
+        let mut triangles = Vec::new();
+        let mut square = |corners: [[f64; 3]; 4]| {
+            let [a, b, c, d] = corners.map(at);
+            triangles.extend([[a, b, c], [a, c, d]]);
+        };
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let [x, y] = [f64::from(i), f64::from(j)];
+            if closed {
+                square([[x, y, 0.0], [x, y + 1.0, 0.0], [x + 1.0, y + 1.0, 0.0], [x + 1.0, y, 0.0]]);
+            } else if (i, j) == (n / 2, n / 2) {
+                continue;
+            }
+            square([[x, y, 1.0], [x + 1.0, y, 1.0], [x + 1.0, y + 1.0, 1.0], [x, y + 1.0, 1.0]]);
+        }
+        for i in (0..n).filter(|_| closed) {
+            let (x, end) = (f64::from(i), f64::from(n));
+            square([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 0.0, 1.0], [x, 0.0, 1.0]]);
+            square([[x + 1.0, end, 0.0], [x, end, 0.0], [x, end, 1.0], [x + 1.0, end, 1.0]]);
+            square([[0.0, x + 1.0, 0.0], [0.0, x, 0.0], [0.0, x, 1.0], [0.0, x + 1.0, 1.0]]);
+            square([[end, x, 0.0], [end, x + 1.0, 0.0], [end, x + 1.0, 1.0], [end, x, 1.0]]);
+        }
+        let topology = Topology::of(&triangles).unwrap_or_else(|triangle| panic!("triangle {triangle}"));
+        Mesh::of(MaterialIndex(0), topology, None)
+    }
+
+    #[test]
+    fn feet_inside_of_flat_patches_are_those_of_the_whole_rule() {
+        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
+        for (closed, flat) in [(true, 3 * 2 * (3 * 3 * 2 + 4 * 3) - 2 * (12 + 12 + 4)), (false, 3 * 16 - 12 - 4)] {
+            let mesh = block(3, closed);
+            assert_eq!(mesh.flat.0.iter().map(|bits| bits.count_ones()).sum::<u32>(), flat);
+            let parts: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+            let (mut quick, mut whole, mut met, mut flat) = (Feet::default(), Feet::default(), 0, 0);
+            for number in 0..20_000_u32 {
+                // Places as even as those of a lattice, none of which is like another.
+                let part = |ratio: f64| (f64::from(number) * ratio).fract();
+                let place =
+                    [part(0.754_877_67) * 4.0 - 0.5, part(0.569_840_29) * 4.0 - 0.5, part(0.430_159_71) * 2.0 - 0.5];
+                let (centre, radius) = (turn.turn(Vector::from(place)), 0.1 + 0.7 * part(0.618_033_99));
+                quick.clear();
+                whole.clear();
+                mesh.feet(centre, radius, &parts, &mut quick);
+                mesh.feet_at_bends(centre, radius, &parts, &mut whole);
+                assert_eq!(quick.list, whole.list, "{place:?}, radius {radius}");
+                assert_eq!(quick.saddles, whole.saddles);
+                met += usize::from(!whole.list.is_empty());
+                flat += usize::from(whole.list.len() == 1);
+            }
+            assert!(met > 5000 && flat > 2000, "{met} {flat}");
+        }
+    }
+}
