@@ -9,27 +9,37 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 SIDE = 0.02  # of the cube [m]
-START, END = 0.04, 0.07  # when the plates along z begin to close, and the end [s]
+WAY = 0.16e-3  # of a plate until the sand bears the pressure, with a margin [m]
+STRAIN = 0.055  # along z at the end
 
 
-def inputs(path, pressure):
+def times(speed):
+    """When the plates along z begin to close, and the end [s], of plates of this speed [m/s]."""
+    start = WAY / speed
+    return start, start + STRAIN * SIDE / (2.0 * speed)
+
+
+def inputs(path, pressure, speed):
     """The course of the plates along z at a pressure [Pa]."""
     force = pressure * SIDE**2
-    rows = [(0.0, force), (START, force), (START + 1e-4, 1e6), (END, 1e6)]
+    start, end = times(speed)
+    rows = [(0.0, force), (start, force), (start + 1e-4, 1e6), (end, 1e6)]
     lines = [f"{time},{-force},{force}" for time, force in rows]
     path.write_text("\n".join(["time,z_low.target_force.z,z_high.target_force.z", *lines]) + "\n")
 
 
-def run(program, folder, seed, pressure):
+def run(options, folder, seed, pressure):
     """One test; gives the rows of its history by their names."""
     folder.mkdir(parents=True, exist_ok=True)
-    inputs(folder / "input.csv", pressure)
-    settings = [f"run.seed={seed}", f"run.end={END}", "output.history_interval=5e-4"]
+    inputs(folder / "input.csv", pressure, options.speed)
+    end = times(options.speed)[1]
+    settings = [f"run.seed={seed}", f"run.end={end!r}", f"output.history_interval={1e-6 / options.speed!r}"]
     for axis in "xyz":
         for side, sign in (("low", -1), ("high", 1)):
-            settings.append(f"boundary.{axis}_{side}.motion.servo.{axis}.target={sign * pressure * SIDE**2!r}")
+            servo = f"boundary.{axis}_{side}.motion.servo.{axis}"
+            settings += [f"{servo}.target={sign * pressure * SIDE**2!r}", f"{servo}.speed={options.speed!r}"]
     command = [
-        program,
+        options.program,
         "run",
         HERE / "scene.toml",
         "--overwrite",
@@ -58,16 +68,24 @@ def stresses(columns):
     return sides, [force * side / volume for force, side in zip(forces, sides, strict=True)]
 
 
-def curve(columns):
+def curve(columns, start):
     """Axial strain, stress ratio, volumetric strain and both stresses [Pa] from when the plates begin to close."""
     sides, (x, y, z) = stresses(columns)
-    begun = np.searchsorted(columns["time"], START)
+    begun = np.searchsorted(columns["time"], start)
     height, volume = sides[2][begun], np.prod([side[begun] for side in sides])
     strain = 1.0 - sides[2][begun:] / height
     lateral = 0.5 * (x + y)[begun:]
     axial = z[begun:]
     swelling = np.prod([side[begun:] for side in sides], axis=0) / volume - 1.0
     return strain, axial / lateral, swelling, axial, lateral
+
+
+def servo_errors(columns, start, rows, force):
+    """Largest r.m.s. and largest error of a lateral plate's force in this many rows from a time on, as shares of the target."""
+    begun = np.searchsorted(columns["time"], start) + 1
+    sides = [(f"{axis}_{side}.force.{axis}", sign) for axis in "xy" for side, sign in (("low", -1), ("high", 1))]
+    errors = [sign * columns[name][begun : begun + rows] / force - 1.0 for name, sign in sides]
+    return max(np.sqrt(np.mean(error**2)) for error in errors), max(np.abs(error).max() for error in errors)
 
 
 def envelope(peaks):
@@ -111,26 +129,31 @@ def main():
     parser.add_argument("--program", default="target/release/cograin")
     parser.add_argument("--output", type=Path, default=Path("out/triaxial"))
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--speed", type=float, default=2e-3, help="of the plates, at most [m/s]")
     parser.add_argument("--pressures", type=float, nargs="+", default=[25e3, 50e3, 100e3], help="[Pa]")
     options = parser.parse_args()
     curves, peaks = {}, []
-    print("pressure [kPa]  seed  peak ratio  peak angle [°]  strain there [%]  largest error of the lateral stress")
+    start = times(options.speed)[0]
+    print("pressure [kPa]  seed  peak ratio  peak angle [°]  strain there [%]  r.m.s. and largest error of the servos [%]")
     for pressure in options.pressures:
         for seed in range(1, options.seeds + 1):
             folder = options.output / f"{pressure / 1e3:.0f}_{seed}"
-            found = curve(run(options.program, folder, seed, pressure))
+            columns = run(options, folder, seed, pressure)
+            found = curve(columns, start)
             strain, ratio, _, axial, lateral = found
             # The mean of five rows: single impacts are no peak.
             smooth = np.convolve(ratio, np.ones(5) / 5.0, "valid")
             top = int(smooth.argmax())
             peaks.append((axial[top : top + 5].mean(), lateral[top : top + 5].mean()))
             angle = np.degrees(np.arcsin((smooth[top] - 1.0) / (smooth[top] + 1.0)))
-            wrong = np.abs(lateral[: top + 5] / lateral[0] - 1.0).max()
+            mean, most = servo_errors(columns, start, top + 2, pressure * SIDE**2)
             print(
                 f"{pressure / 1e3:14.0f}  {seed:4}  {smooth[top]:10.3f}  {angle:14.2f}  "
-                f"{100 * strain[top + 2]:16.2f}  {wrong:10.3f}"
+                f"{100 * strain[top + 2]:16.2f}  {100 * mean:10.2f}  {100 * most:10.2f}"
             )
             curves[pressure, seed] = found
+    if len(options.pressures) < 2:
+        return  # no line through the peaks of one pressure
     line = envelope(peaks)
     print(f"line through all peaks: cohesion {line[0]:.0f} Pa, angle {line[1]:.2f}°")
     options.output.mkdir(parents=True, exist_ok=True)
