@@ -566,18 +566,17 @@ fn change_of_work_is_mean_force_times_displacement_and_mean_moment_times_turn() 
     assert!(turnover > 1e-4, "the boundaries worked: {turnover:e} J");
 }
 
-#[test]
-fn what_the_particles_lose_the_surfaces_get() {
-    let mut simulation = Simulation::new(tumbling()).unwrap();
-    (1..100).for_each(|step| drive(&mut simulation, step));
+/// Force and moment on all particles and surfaces together, about the origin, but for gravity, and the forces on the particles added up as
+/// numbers \[N, N m, N\].
+fn unbalanced(simulation: &Simulation, gravity: [f64; 3]) -> ([f64; 3], [f64; 3], f64) {
     let state = simulation.state();
     let (mut force, mut moment, mut turnover) = ([0.0; 3], [0.0; 3], 0.0);
     let cross =
         |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     for slot in 0..state.particles.len() {
         let row = |row: [f64; 4]| [row[0], row[1], row[2]];
-        let mut load = row(state.particles.force[slot]);
-        load[2] += 9.81 * state.particles.velocity[slot][3];
+        let (load, mass) = (row(state.particles.force[slot]), state.particles.velocity[slot][3]);
+        let load = [0, 1, 2].map(|axis| load[axis] - mass * gravity[axis]);
         let about = cross(row(state.particles.position[slot]), load);
         for axis in 0..3 {
             force[axis] += load[axis];
@@ -592,9 +591,78 @@ fn what_the_particles_lose_the_surfaces_get() {
             moment[axis] += about[axis] + boundary.moment[axis];
         }
     }
+    (force, moment, turnover)
+}
+
+#[test]
+fn what_the_particles_lose_the_surfaces_get() {
+    let mut simulation = Simulation::new(tumbling()).unwrap();
+    (1..100).for_each(|step| drive(&mut simulation, step));
+    let (force, moment, turnover) = unbalanced(&simulation, [0.0, 0.0, -9.81]);
     assert!(turnover > 0.01, "{turnover} N");
     assert!(force.iter().all(|part| part.abs() < 1e-12 * turnover), "{force:?} N of {turnover} N");
     assert!(moment.iter().all(|part| part.abs() < 1e-12 * 0.05 * turnover), "{moment:?} N m");
+}
+
+/// A ball of 512 triangles about the origin with this radius \[m\], its corners counter-clockwise as seen from outside.
+fn ball(radius: f64) -> Vec<Triangle> {
+    let signs = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let eighth = |[x, y]: [f64; 2], z: f64| {
+        let corners = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
+        if x * y * z > 0.0 { corners } else { [corners[1], corners[0], corners[2]] }
+    };
+    let mut triangles: Vec<Triangle> =
+        signs.into_iter().flat_map(|sign| [eighth(sign, 1.0), eighth(sign, -1.0)]).collect();
+    let out = |point: [f64; 3]| {
+        let length = point.map(|part| part * part).iter().sum::<f64>().sqrt();
+        point.map(|part| part / length)
+    };
+    for _ in 0..3 {
+        let middle = |a: [f64; 3], b: [f64; 3]| out([0, 1, 2].map(|axis| a[axis] + b[axis]));
+        let four = |[a, b, c]: Triangle| {
+            let (d, e, f) = (middle(a, b), middle(b, c), middle(c, a));
+            [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+        };
+        triangles = triangles.into_iter().flat_map(four).collect();
+    }
+    triangles.into_iter().map(|corners| corners.map(|corner| corner.map(|part| radius * part))).collect()
+}
+
+#[test]
+fn a_closed_body_in_a_bed_gets_what_the_particles_lose() {
+    let full = FullBox::turned(2, |place| place);
+    let far = |place: &&[f64; 3]| place.map(|part| part * part).iter().sum::<f64>().sqrt() > 0.0165;
+    let places: Vec<[f64; 3]> = full.places.iter().filter(far).copied().collect();
+    let boundaries = format!("{}[boundary.body]\nmaterial = \"wall\"\nmesh = {{ file = \"ball.stl\" }}\n", full.planes);
+    let mut scene = Scene::clone(&scene(&places, ROUGH, &boundaries, &[("ball.stl", ball(0.011))]));
+    scene.gravity = [0.0, 0.0, -98.1];
+    scene.run.step = cograin::scene::Step::Given(2e-5);
+    let mut simulation = Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"));
+    simulation.advance(0.1).unwrap_or_else(|error| panic!("{error}"));
+    let (force, moment, turnover) = unbalanced(&simulation, [0.0, 0.0, -98.1]);
+    assert!(simulation.state().boundaries[6].force[2].abs() > 1e-3 * turnover, "the bed lies on the body");
+    assert!(force.iter().all(|part| part.abs() < 1e-12 * turnover), "{force:?} N of {turnover} N");
+    assert!(moment.iter().all(|part| part.abs() < 1e-12 * 0.05 * turnover), "{moment:?} N m");
+}
+
+#[test]
+fn a_drum_that_has_turned_pushes_as_one_that_stood_there_before() {
+    let (sine, cosine) = 3.5_f64.sin_cos();
+    let turned: Vec<Triangle> = drum(48, 0.02)
+        .iter()
+        .map(|corners| corners.map(|[x, y, z]| [cosine * x + sine * z, y, cosine * z - sine * x]))
+        .collect();
+    let turning = format!("{MESH}reference = [0.0, 0.0, 0.0]\nmotion = {{ driven = [\"rotation.y\"] }}\n");
+    for degrees in [0.0_f64, 3.0, 3.75, 50.0, 200.0] {
+        let (x, z) = degrees.to_radians().sin_cos();
+        let place = [x, 0.0, z].map(|part| (0.05 - RADIUS + 3e-5) * part);
+        let mut simulation =
+            Simulation::new(scene(&[place], SMOOTH, &turning, &[("wall.stl", drum(48, 0.02))])).unwrap();
+        simulation.set_input(BoundaryIndex(0), 4, 3.5);
+        simulation.place(None).unwrap();
+        let [x, y, z, _] = simulation.state().particles.force[0];
+        assert_same([x, y, z], force_at(place, MESH, &[("wall.stl", turned.clone())]), 1e-11);
+    }
 }
 
 #[test]
