@@ -7,7 +7,7 @@ use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// The scene of a text.
-fn scene(text: &str) -> Arc<Scene> {
+pub(crate) fn scene(text: &str) -> Arc<Scene> {
     let source = Source { name: "scene.toml".into(), text: text.into(), ..Source::default() };
     Arc::new(Scene::from_source(&source).map_err(|errors| errors.to_string()).unwrap())
 }
@@ -67,7 +67,7 @@ fn exchange(simulation: &Simulation) -> &cograin::state::Exchange {
 }
 
 /// A simulation of a scene with this lane width.
-fn begun(scene: &Arc<Scene>, width: Width) -> Simulation {
+pub(crate) fn begun(scene: &Arc<Scene>, width: Width) -> Simulation {
     let mut simulation = Simulation::new(Arc::clone(scene)).unwrap();
     simulation.set_width(width);
     simulation

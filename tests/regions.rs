@@ -23,23 +23,23 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// A vector.
-type Vector = [f64; 3];
+pub(crate) type Vector = [f64; 3];
 
 /// A scene at time 0, with these files.
-fn start_with(text: &str, files: BTreeMap<String, Vec<u8>>) -> Simulation {
+pub(crate) fn start_with(text: &str, files: BTreeMap<String, Vec<u8>>) -> Simulation {
     let source = Source { name: "scene.toml".into(), text: text.into(), files };
     let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
     Simulation::new(Arc::new(scene)).expect("the scene starts")
 }
 
 /// A scene at time 0.
-fn start(text: &str) -> Simulation {
+pub(crate) fn start(text: &str) -> Simulation {
     start_with(text, BTreeMap::new())
 }
 
 /// The present value of an output.
 #[track_caller]
-fn value(simulation: &Simulation, name: &str) -> f64 {
+pub(crate) fn value(simulation: &Simulation, name: &str) -> f64 {
     let interface = Interface::of(simulation.scene());
     let index = interface.find(name).unwrap_or_else(|| panic!("no output {name}"));
     interface.value(simulation, index).number()
@@ -116,13 +116,13 @@ fn walls_and_inertia(simulation: &Simulation, seen: impl Fn(Vector) -> Vector) -
 }
 
 /// Largest difference of two tensors, over a turnover.
-fn apart(a: &Tensor, b: &Tensor, turnover: f64) -> f64 {
+pub(crate) fn apart(a: &Tensor, b: &Tensor, turnover: f64) -> f64 {
     let differences = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, f64::max) / turnover
 }
 
 /// The walls of a box of 40 mm: planes, of which the lid comes down, or one mesh.
-const PLANES: &str = r#"
+pub(crate) const PLANES: &str = r#"
 [boundary]
 left = { plane = { point = [0.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }, material = "glass" }
 right = { plane = { point = [0.04, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }, material = "glass" }
@@ -141,7 +141,7 @@ motion = { prescribed = { x = { sine = { amplitude = 1.0e-4, frequency = 200.0 }
 "#;
 
 /// The box of the mesh.
-fn box_file() -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn box_file() -> BTreeMap<String, Vec<u8>> {
     let mut text = String::new();
     for corner in 0..8 {
         let at = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { "0" } else { "0.04" });
@@ -154,12 +154,12 @@ fn box_file() -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Grains of many sizes that fly about in a box, with friction, rolling resistance and dashpots; more tables.
-fn bed(walls: &str, more: &str) -> Simulation {
+pub(crate) fn bed(walls: &str, more: &str) -> Simulation {
     bed_with(1, "[0.0015, 0.0035]", walls, more)
 }
 
 /// The same with so many threads and these radii.
-fn bed_with(threads: usize, radii: &str, walls: &str, more: &str) -> Simulation {
+pub(crate) fn bed_with(threads: usize, radii: &str, walls: &str, more: &str) -> Simulation {
     start_with(&bed_text(threads, radii, walls, more), box_file())
 }
 
@@ -277,12 +277,18 @@ fn imbalance(walls: &str, changes: &[[&str; 2]]) -> f64 {
 fn every_kind_of_law_balances() {
     let sticky = "friction = 0.4\ncohesion_energy_density = 2.0e4";
     let sjkr = "[contact.grains.rolling.cdt]\n[contact.grains.cohesion.sjkr]";
-    let laws: [&[[&str; 2]]; 5] = [
+    let adhesive = "friction = 0.4\nsurface_energy = 0.05\ndamping_coefficient = 2.0e4\ntangential_damping_ratio = 0.5";
+    let plastic = "friction = 0.4\nsurface_energy = 0.5\nunloading_stiffness_ratio = 3.0\npull_off_force = 1.0e-3";
+    let eepa = "normal.eepa]\noverlap_exponent = 1.5\nadhesion_exponent = 2";
+    let laws: [&[[&str; 2]]; 8] = [
         &[["tangential.history", "tangential.rescaled"]],
         &[["tangential.history", "tangential.turned_history"]],
         &[["tangential.history", "tangential.no_history"]],
         &[["rolling.cdt", "rolling.epsd2"]],
         &[["friction = 0.4", sticky], ["[contact.grains.rolling.cdt]", sjkr]],
+        &[["friction = 0.4", adhesive], ["normal.hertz", "normal.dmt"]],
+        &[["friction = 0.4", adhesive], ["normal.hertz", "normal.jkr"], ["rolling.cdt", "rolling.epsd2"]],
+        &[["friction = 0.4", plastic], ["normal.hertz]", eepa]],
     ];
     for law in laws {
         for walls in [PLANES, MESH] {
@@ -345,7 +351,13 @@ box = [[0.017, 0.006, 0.005], [0.03, 0.035, 0.033]]
 #[test]
 fn a_bonded_block_that_tumbles_and_breaks_carries_its_inertia() {
     let damped = |model: &str| format!("[bond.glue.damping.{model}]\nnormal_force = 0.2\ntangential_force = 0.1\n");
-    for damping in [String::new(), damped("opposing"), damped("viscous")] {
+    for (formulation, damping) in [
+        ("incremental", String::new()),
+        ("incremental", damped("opposing")),
+        ("incremental", damped("viscous")),
+        ("finite_rotation", String::new()),
+        ("finite_rotation", damped("viscous")),
+    ] {
         let text = format!(
             r#"
 [run]
@@ -357,7 +369,7 @@ density = 2500.0
 material = "rock"
 lattice = {{ kind = "face_centred_cubic", radius = 0.005, box = [[0.0, 0.0, 0.0], [0.05, 0.04, 0.04]] }}
 [bond.glue]
-formulation = "incremental"
+formulation = {formulation:?}
 between = ["block", "block"]
 create_distance = 0.0101
 radius_multiplier = 0.8
@@ -382,7 +394,61 @@ force = [-2.0, 3.0, 1.0]
                 expected.add([x, y, z], force.force);
             }
             let error = apart(&found, &expected.tensor, expected.turnover);
-            assert!(error < 1e-12, "{damping}{error:e}: {found:?}, {:?} expected", expected.tensor);
+            assert!(error < 1e-12, "{formulation} {damping}{error:e}: {found:?}, {:?} expected", expected.tensor);
+        }
+    }
+}
+
+#[test]
+fn a_bonded_block_that_hits_a_floor_carries_what_the_floor_says_whatever_its_bonds_do_to_contacts() {
+    for formulation in ["incremental", "finite_rotation"] {
+        for contact in ["parallel", "without_normal", "none"] {
+            let text = format!(
+                r#"
+[run]
+step = 1.0e-6
+threads = 1
+[material.rock]
+density = 2500.0
+youngs_modulus = 1.0e7
+poissons_ratio = 0.25
+[pair.rock.rock]
+restitution = 0.6
+friction = 0.4
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+[particles.block]
+material = "rock"
+lattice = {{ kind = "face_centred_cubic", radius = 0.005, spacing = 0.00995, box = [[0.0, 0.0, 0.0], [0.04, 0.04, 0.03]] }}
+velocity = [0.3, 0.1, -1.0]
+[bond.glue]
+formulation = {formulation:?}
+contact = {contact:?}
+between = ["block", "block"]
+create_distance = 0.0101
+radius_multiplier = 0.8
+normal_stiffness = 1.0e10
+tangential_stiffness = 4.0e9
+[bond.glue.breakage]
+max_normal_stress = 1.0e4
+max_shear_stress = 1.0e4
+[boundary.floor]
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+material = "rock"
+{ALL}
+"#
+            );
+            let mut simulation = start(&text);
+            let made: u64 = simulation.state().bonds.iter().map(|list| list.made).sum();
+            for _ in 0..5 {
+                simulation.advance(1e-4).expect("it runs");
+                let found = averages::carried(&simulation)[0];
+                let expected = walls_and_inertia(&simulation, |place| place);
+                let error = apart(&found, &expected.tensor, expected.turnover);
+                assert!(error < 1e-12, "{formulation}, {contact}: {error:e}: {found:?}, {:?}", expected.tensor);
+            }
+            let broken: u64 = simulation.state().bonds.iter().map(|list| list.broken).sum();
+            assert!(0 < broken && broken < made, "{formulation}, {contact}: {broken} of {made} bonds broke");
         }
     }
 }
@@ -505,7 +571,7 @@ fn an_empty_region_has_no_stress_and_no_motion() {
 }
 
 /// A sphere between a floor and a lid that presses it, both 0.01 mm deep.
-const PRESSED: &str = r#"
+pub(crate) const PRESSED: &str = r#"
 [run]
 step = 1.0e-6
 threads = 1

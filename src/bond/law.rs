@@ -63,6 +63,9 @@ pub struct Carried {
     pub arm: [f64; 3],
     /// Area of the cross-section \[m²\].
     pub area: f64,
+    /// Force on i without damping: the gradient of the stored energy, which differs from normal and shear force in the second order of
+    /// the strains where a formulation says so \[N\].
+    pub force: [f64; 3],
     /// Normal force, above 0 when it pushes \[N\].
     pub normal: f64,
     /// Shear force on i \[N\].
@@ -250,6 +253,7 @@ impl Law {
             axis: motion.axis.to_array(),
             arm: (pair.connection * -pair.share_i).to_array(),
             area: motion.section.area,
+            force: elastic.force.to_array(),
             normal: elastic.normal,
             shear: elastic.shear.to_array(),
             torsion: elastic.torsion,

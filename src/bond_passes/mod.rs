@@ -254,6 +254,18 @@ impl Pass for BondPass {
         (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
     }
 
+    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
+        let list = &state.bonds[self.index];
+        let any = |bond: &usize| goes[list.first[*bond] as usize] || goes[list.second[*bond] as usize];
+        let gone = (0..list.first.len()).filter(any).map(|bond| {
+            let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
+            powers(list, bond, &pair_of(&state.particles, i, j), &self.carried(state, bond))
+        });
+        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
+        state.bonds[self.index].damped += damped;
+        given
+    }
+
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
@@ -275,9 +287,22 @@ pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; 3] {
 
 /// Force on body i of a bond that carries this, with that of damping in the last evaluation \[N\].
 pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &Carried) -> [f64; 3] {
-    let elastic = Vector::from(carried.axis) * carried.normal + carried.shear.into();
+    let elastic = Vector::from(carried.force);
     let damping = list.damping.first().map_or([0.0; 4], |rows| rows[bond]);
     (elastic + damping.into()).to_array()
+}
+
+/// Rates at which a bond gives elastic energy to its bodies, and at which its damping takes energy from them, by its loads in the last
+/// evaluation \[W\].
+pub(crate) fn powers(list: &BondList, bond: usize, pair: &Pair, carried: &Carried) -> [f64; 2] {
+    let moving = [pair.velocity, pair.spin_i, pair.spin_j];
+    let taken = list.damping.iter().zip(moving).map(|(rows, moving)| -Vector::from(rows[bond]).dot(moving));
+    [carried.power, taken.sum()]
+}
+
+/// The sum of pairs of numbers.
+pub(crate) fn sum(pairs: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    pairs.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d])
 }
 
 /// Adds to a list what is kept of a new bond where its law loses energy.

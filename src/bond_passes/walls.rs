@@ -3,7 +3,7 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::{Done, begin_losses, body_of, book, link_of, shared_damping, stretched, whole_force};
+use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, stretched, sum, whole_force};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
@@ -325,6 +325,16 @@ impl Pass for WallBondPass {
             let pair = Pair::at_wall(&body_of(&state.particles, slot as usize), &self.foot(foot, plane));
             tell(link_of(&self.law, &pair, (slot, None, Some(self.boundary.0)), Kind::ComingBond));
         }
+    }
+
+    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
+        let list = &state.bonds[self.index];
+        let any = |bond: &usize| goes[list.first[*bond] as usize];
+        let gone = (0..list.first.len()).filter(any);
+        let gone = gone.map(|bond| powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
+        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
+        state.bonds[self.index].damped += damped;
+        given
     }
 
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {

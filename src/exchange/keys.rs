@@ -5,7 +5,10 @@ use super::{Polygon, Sizes};
 use crate::document::Mistake;
 use crate::quantity::{NonNegative, Positive, Triple};
 use crate::surface::direction;
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
 
 /// The key that is wrong, and why.
 type Wrong = (&'static str, Mistake);
@@ -90,17 +93,46 @@ pub(crate) struct OutletKeys {
     pub(crate) beyond: Option<BeyondKeys>,
 }
 
+/// `beyond = "<boundary>"`, or a plane.
+#[derive(Clone, Debug)]
+pub(crate) enum BeyondKeys {
+    /// The far side of the boundary of this name.
+    Boundary(String),
+    /// That of a plane.
+    Plane(PlaneKeys),
+}
+
+impl<'de> Deserialize<'de> for BeyondKeys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a name or a table.
+        struct NameOrTable;
+        impl<'de> Visitor<'de> for NameOrTable {
+            type Value = BeyondKeys;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("the name of a boundary, or { point, normal }")
+            }
+            fn visit_str<E: Error>(self, name: &str) -> Result<BeyondKeys, E> {
+                Ok(BeyondKeys::Boundary(name.to_owned()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BeyondKeys, A::Error> {
+                PlaneKeys::deserialize(MapAccessDeserializer::new(map)).map(BeyondKeys::Plane)
+            }
+        }
+        deserializer.deserialize_any(NameOrTable)
+    }
+}
+
 /// `beyond = { point, normal }`
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct BeyondKeys {
+pub(crate) struct PlaneKeys {
     /// A point on the plane \[m\].
     point: Triple,
     /// Towards what stays, of any length but 0.
     normal: Triple,
 }
 
-impl BeyondKeys {
+impl PlaneKeys {
     /// Point \[m\] and unit normal; otherwise the key that is wrong.
     pub(crate) fn plane(&self) -> Result<[[f64; 3]; 2], Wrong> {
         let normal = direction(self.normal.0).ok_or_else(|| {

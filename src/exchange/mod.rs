@@ -8,6 +8,6 @@ mod size_keys;
 mod sizes;
 
 pub use keys::{Amount, Outside};
-pub(crate) use keys::{InsertionKeys, MeterKeys, OutletKeys};
+pub(crate) use keys::{BeyondKeys, InsertionKeys, MeterKeys, OutletKeys};
 pub use polygon::Polygon;
 pub use sizes::Sizes;

@@ -15,7 +15,7 @@ use crate::exchange::{Amount, Outside};
 use crate::integration::Fields;
 use crate::number::Vector;
 use crate::run_error::RunError;
-use crate::scene::Scene;
+use crate::scene::{Scene, Way};
 use crate::state::State;
 use crate::state::exchange::{Exchange, Feed, Net};
 pub(crate) use check::{check, is_made};
@@ -38,6 +38,8 @@ pub(crate) struct Flow {
     turning: bool,
     /// Whether particles go.
     removes: bool,
+    /// Whether every time step looks for them: behind a boundary they would otherwise be lost.
+    looks_always: bool,
 }
 
 impl Flow {
@@ -45,7 +47,8 @@ impl Flow {
     pub(crate) fn of(scene: &Scene, turning: bool) -> Option<Self> {
         let smallest = scene.radii().fold(f64::INFINITY, f64::min);
         let any = scene.changes_number() || !scene.meters.is_empty();
-        any.then(|| Self { smallest, turning, removes: scene.removes() })
+        let looks_always = scene.outlets.iter().any(|outlet| matches!(outlet.place, Way::Behind(_)));
+        any.then(|| Self { smallest, turning, removes: scene.removes(), looks_always })
     }
 
     /// Begins a communication step of this length \[s\].
@@ -81,7 +84,7 @@ impl Flow {
     /// The particles that go now, if it is time to look and there are any.
     pub(crate) fn leaving(&self, scene: &Scene, state: &mut State) -> Result<Option<Leaving>, RunError> {
         let Some(exchange) = state.exchange.as_mut().filter(|_| self.removes) else { return Ok(None) };
-        if exchange.travel <= LOOK * self.smallest {
+        if exchange.travel <= LOOK * self.smallest && !self.looks_always {
             return Ok(None);
         }
         exchange.travel = 0.0;

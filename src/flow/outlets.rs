@@ -54,11 +54,12 @@ pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<Leaving>, RunE
     Ok(any.then_some(Leaving { goes, tallies }))
 }
 
-/// How far an outlet has moved with the boundary that its region follows \[m\].
+/// How far an outlet has moved with its boundary, or with the one that its region follows \[m\].
 fn shift(scene: &Scene, state: &State, place: Way) -> Vector {
     let follows = match place {
         Way::Region(region) => scene.regions[region].follows,
         Way::Beyond(_) => None,
+        Way::Behind(boundary) => Some(boundary),
     };
     follows.map_or(Vector::zero(), |boundary| state.boundaries[boundary.index()].displacement.into())
 }
@@ -67,8 +68,16 @@ fn shift(scene: &Scene, state: &State, place: Way) -> Vector {
 fn takes(scene: &Scene, place: Way, centre: Vector) -> bool {
     match place {
         Way::Region(region) => scene.regions[region].shape.holds(centre),
-        Way::Beyond([point, normal]) => (centre - point.into()).dot(normal.into()) < 0.0,
+        Way::Beyond([point, normal]) => is_behind(centre, point, normal),
+        Way::Behind(boundary) => scene.boundaries[boundary.index()]
+            .shifting_plane()
+            .is_some_and(|plane| is_behind(centre, plane.point, plane.normal)),
     }
+}
+
+/// Whether a centre is behind a plane.
+fn is_behind(centre: Vector, point: [f64; 3], normal: [f64; 3]) -> bool {
+    (centre - point.into()).dot(normal.into()) < 0.0
 }
 
 /// Whether a centre is outside of a box.

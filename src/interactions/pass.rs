@@ -71,6 +71,12 @@ pub(crate) trait Pass: Send + Sync {
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;
 
+    /// Books what bonds of particles (slots) that go did in the first half of the present time step \[s\]. Returns the elastic energy
+    /// that they gave in it: their force acted as long \[J\].
+    fn let_go(&self, _state: &mut State, _goes: &[bool], _step: f64) -> f64 {
+        0.0
+    }
+
     /// Energy at the present time of rolling springs, of sticky and of plastic normal forces \[J\]: for a book of losses.
     fn held_energy(&self, _state: &State) -> [f64; 3] {
         [0.0; 3]

@@ -3,24 +3,30 @@
 //! A region has no body. It is looked at where it stands at time 0; whoever asks about one that moved hands in positions
 //! less its displacement.
 
+mod crossing;
 mod cuboid;
+mod cut;
 mod cylinder;
 mod keys;
 mod quadrature;
+mod solid;
 mod sphere;
 
 use crate::number::Vector;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub(crate) use keys::Keys;
+pub use solid::Solid;
 
 /// What a region looks like.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Region {
     /// A box along the axes of the scene.
     Box(Cuboid),
     /// A cylinder between two points.
     Cylinder(Cylinder),
+    /// The inside of a closed mesh.
+    Solid(Solid),
 }
 
 impl Region {
@@ -29,6 +35,7 @@ impl Region {
         match self {
             Self::Box(cuboid) => cuboid.volume(),
             Self::Cylinder(cylinder) => cylinder.volume(),
+            Self::Solid(solid) => solid.volume(),
         }
     }
 
@@ -37,6 +44,7 @@ impl Region {
         match self {
             Self::Box(cuboid) => cuboid.holds(point),
             Self::Cylinder(cylinder) => cylinder.holds(point),
+            Self::Solid(solid) => solid.holds(point),
         }
     }
 
@@ -45,6 +53,7 @@ impl Region {
         match self {
             Self::Box(cuboid) => cuboid.corners,
             Self::Cylinder(cylinder) => cylinder.bounds(),
+            Self::Solid(solid) => solid.bounds(),
         }
     }
 
@@ -54,15 +63,17 @@ impl Region {
         match self {
             Self::Box(cuboid) => cuboid.place(radius, uniform),
             Self::Cylinder(cylinder) => cylinder.place_of(radius, uniform),
+            Self::Solid(solid) => solid.place(radius, uniform),
         }
     }
 
-    /// Volume of the part of a sphere that is inside, from its centre \[m\] and radius \[m\] \[m³\]: for a box in closed form,
-    /// to rounding of the sphere's volume; for a cylinder to 1e-12 of it.
+    /// Volume of the part of a sphere that is inside, from its centre \[m\] and radius \[m\] \[m³\]: for a box and for a mesh
+    /// in closed form, to rounding of the sphere's volume; for a cylinder to 1e-12 of it.
     pub fn volume_of_sphere(&self, centre: Vector, radius: f64) -> f64 {
         match self {
             Self::Box(cuboid) => cuboid.volume_of_sphere(centre, radius),
             Self::Cylinder(cylinder) => cylinder.volume_of_sphere(centre, radius),
+            Self::Solid(solid) => solid.volume_of_sphere(centre, radius),
         }
     }
 
@@ -71,6 +82,7 @@ impl Region {
         let [enters, leaves] = match self {
             Self::Box(cuboid) => cuboid.passage(from, to - from),
             Self::Cylinder(cylinder) => cylinder.passage(from, to - from),
+            Self::Solid(solid) => return solid.share_of_line(from, to),
         };
         (leaves.min(1.0) - enters.max(0.0)).max(0.0)
     }
@@ -99,3 +111,6 @@ fn in_both(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod solid_tests;

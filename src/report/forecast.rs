@@ -1,5 +1,6 @@
 //! What a run will write and how long it will take, before it runs.
 
+use super::passing::{Files, Passing};
 use super::trial::Trial;
 use crate::results::schedule::{Counted, Schedule};
 use crate::scene::{Scene, Step};
@@ -46,11 +47,19 @@ pub(crate) fn of(
     let steps = steps(scene, present, (schedule, begins));
     let mut outputs = vec![format!("{rows} rows of history.csv, about {}", size(rows as f64 * trial.row.bytes))];
     if frames > 0 {
-        let each = trial.frame.bytes;
-        outputs.push(format!("{frames} frames of about {}, {} in all", size(each), size(frames as f64 * each)));
+        let each = trial.sizes(Files::Frame, trial.frame.bytes);
+        let all = each.map(|each| frames as f64 * each);
+        let of = if trial.passing.is_some() { "of" } else { "of about" };
+        outputs.push(format!("{frames} frames {of} {}, {} in all", range(each), range(all)));
     }
     let often = checkpoints.map_or("every 30 s of wall time".to_owned(), |count| format!("{count} times"));
-    outputs.push(format!("a checkpoint of {}, written {often}", size(trial.checkpoint.bytes)));
+    let checkpoint = trial.sizes(Files::Checkpoint, trial.checkpoint.bytes);
+    outputs.push(format!("a checkpoint of {}, written {often}", range(checkpoint)));
+    if let Some(Passing { counts: [least, most], .. }) = trial.passing {
+        outputs.push(format!(
+            "sizes without contacts to come, for {least:.0} to {most:.0} particles: all that come, none that go"
+        ));
+    }
     let writing = rows as f64 * trial.row.time
         + frames as f64 * trial.frame.time
         + checkpoints.unwrap_or(2) as f64 * trial.checkpoint.time;
@@ -109,6 +118,11 @@ fn fall(scene: &Scene, present: &Simulation) -> f64 {
     let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let gained = if high > low { 2.0 * (high - low) } else { 0.0 };
     (fastest * fastest + gained).sqrt()
+}
+
+/// Two sizes in words, or one where they are the same.
+fn range([least, most]: [f64; 2]) -> String {
+    if least == most { size(least) } else { format!("{} to {}", size(least), size(most)) }
 }
 
 /// A size in words.

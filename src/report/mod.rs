@@ -1,6 +1,7 @@
 //! The report of `cograin check`: what a user should know of a scene before it runs.
 
 mod forecast;
+mod passing;
 mod rules;
 mod savings;
 mod stiffness;

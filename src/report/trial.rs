@@ -1,5 +1,6 @@
 //! A short trial of a run: what a step, a row, a frame and a checkpoint cost on this machine.
 
+use super::passing::{Files, Passing};
 use crate::interface::Interface;
 use crate::results::frames;
 use crate::results::schedule::Schedule;
@@ -38,8 +39,17 @@ pub(crate) struct Trial {
     pub frame: Price,
     /// A checkpoint.
     pub checkpoint: Price,
+    /// Particles that come and go.
+    pub passing: Option<Passing>,
     /// Why it ended early.
     pub failed: Option<RunError>,
+}
+
+impl Trial {
+    /// Least and largest size that files may come to have which have this size now \[bytes\].
+    pub(crate) fn sizes(&self, files: Files, now: f64) -> [f64; 2] {
+        self.passing.map_or([now; 2], |passing| passing.sizes(files, now))
+    }
 }
 
 /// Makes real steps from where the simulation stands, divided as the schedule says from this time on \[s\], and one output of each kind.
@@ -55,6 +65,9 @@ pub(crate) fn of(
         trial.frame = price(|| bytes_of_frame(simulation))?;
     }
     trial.checkpoint = price(|| Ok(simulation.state().to_bytes(0).len() as f64))?;
+    if let Some((schedule, begins)) = schedule {
+        trial.passing = Passing::of(simulation, schedule.end() - begins)?;
+    }
     trial.cost = begun.elapsed().as_secs_f64();
     Ok(trial)
 }

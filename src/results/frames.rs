@@ -38,13 +38,15 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
         ("mass", Values::Scalars(fourth(&particles.velocity))),
         ("group", Values::Integers(slots().map(|slot| i64::from(particles.owner[slot]) - 1).collect())),
     ];
+    let of_set = |slot: usize| scene.particles.get(particles.id[slot] as usize).map_or(-1, |own| i64::from(own.set.0));
+    let sets = (scene.sets.len() > 1).then(|| ("set", Values::Integers(slots().map(of_set).collect())));
     let orientation = (!particles.orientation.is_empty()).then(|| {
         let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
         ("orientation", Values::Quaternions(rows))
     });
     Cloud {
         points: three(&particles.position),
-        fields: fields.into_iter().chain(orientation).chain(damage).collect(),
+        fields: fields.into_iter().chain(sets).chain(orientation).chain(damage).collect(),
         ..Cloud::default()
     }
 }

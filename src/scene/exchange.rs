@@ -1,9 +1,9 @@
 //! How the number of particles changes, as parts of a scene.
 
-use super::Scene;
+use super::{Boundary, Scene};
 use crate::document::Mistake;
-use crate::exchange::{Amount, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
-use crate::quantity::MaterialIndex;
+use crate::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
+use crate::quantity::{BoundaryIndex, MaterialIndex};
 use std::f64::consts::PI;
 
 /// `[insertion.<name>]`: particles that come.
@@ -70,6 +70,8 @@ pub enum Way {
     Region(usize),
     /// Those behind a plane: a point of it \[m\] and its unit normal, which points to what stays.
     Beyond([[f64; 3]; 2]),
+    /// Those behind a boundary that is a plane which does not turn, wherever it is.
+    Behind(BoundaryIndex),
 }
 
 /// `[flow_meter.<name>]`: what passes through a polygon.
@@ -85,6 +87,8 @@ pub struct FlowMeter {
 pub(crate) struct Known<'a> {
     /// Names of the regions.
     pub(crate) regions: Vec<&'a str>,
+    /// The boundaries.
+    pub(crate) boundaries: &'a [Boundary],
     /// Names of the materials, each with its density \[kg/m³\].
     pub(crate) materials: Vec<(&'a str, f64)>,
 }
@@ -98,6 +102,26 @@ impl Known<'_> {
             refuse("region", Mistake::UnknownName { found: found.to_owned(), kind: "region", known });
         }
         place
+    }
+
+    /// The boundary of this name that is a plane which does not turn; refuses any other.
+    fn plane(&self, found: &str, refuse: &mut dyn FnMut(&str, Mistake)) -> Option<BoundaryIndex> {
+        let Some(place) = self.boundaries.iter().position(|boundary| boundary.name == found) else {
+            let known = self.boundaries.iter().map(|boundary| boundary.name.clone()).collect();
+            refuse("beyond", Mistake::UnknownName { found: found.to_owned(), kind: "boundary", known });
+            return None;
+        };
+        let boundary = &self.boundaries[place];
+        if boundary.shifting_plane().is_none() {
+            let turns = if boundary.shape.plane().is_some() { " that turns" } else { "" };
+            let found = format!("[boundary.{found}], a {}{turns},", boundary.shape.words());
+            refuse(
+                "beyond",
+                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side,".to_owned() },
+            );
+            return None;
+        }
+        Some(BoundaryIndex(place as u32))
     }
 }
 
@@ -131,11 +155,15 @@ impl Outlet {
         known: &Known,
         refuse: &mut dyn FnMut(&str, Mistake),
     ) -> Option<Self> {
-        let place = match (&keys.region, keys.beyond) {
+        let place = match (&keys.region, &keys.beyond) {
             (Some(region), None) => Way::Region(known.region(region, refuse)?),
-            (None, Some(beyond)) => Way::Beyond(beyond.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?),
+            (None, Some(BeyondKeys::Boundary(name))) => Way::Behind(known.plane(name, refuse)?),
+            (None, Some(BeyondKeys::Plane(plane))) => {
+                Way::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
+            }
             (None, None) => {
-                let right = "region = \"..\" or beyond = { point, normal } says where".to_owned();
+                let right =
+                    "region = \"..\", beyond = { point, normal } or beyond = \"<boundary>\" says where".to_owned();
                 refuse("", Mistake::Missing { right });
                 return None;
             }

@@ -3,6 +3,7 @@
 use crate::document::Mistake;
 use crate::quantity::BoundaryIndex;
 use crate::region::{self, Keys};
+use crate::surface::Files;
 
 /// `[region.<name>]`: a part of space that is looked at.
 #[derive(Clone, Debug)]
@@ -17,30 +18,19 @@ pub struct Region {
 
 impl Region {
     /// The region that a scene with these boundaries writes so; refuses what is wrong, with its key.
-    pub(crate) fn of(
-        name: &str,
-        keys: &Keys,
-        boundaries: &[&str],
-        refuse: &mut dyn FnMut(&str, Mistake),
-    ) -> Option<Self> {
+    pub(crate) fn of(name: &str, keys: &Keys, boundaries: &[&str], around: &mut dyn Files) -> Option<Self> {
         if boundaries.contains(&name) {
             let (what, right) = (format!("[boundary.{name}] has this name"), "a name of its own is right".to_owned());
-            refuse("", Mistake::Senseless { what, right });
+            around.report("", Mistake::Senseless { what, right });
         }
         let follows = keys.follows.as_ref().map(|followed| {
             let place = boundaries.iter().position(|boundary| boundary == followed);
             BoundaryIndex(place.unwrap_or_else(|| {
                 let (found, known) = (followed.clone(), boundaries.iter().map(|&name| name.to_owned()).collect());
-                refuse("follows", Mistake::UnknownName { found, kind: "boundary", known });
+                around.report("follows", Mistake::UnknownName { found, kind: "boundary", known });
                 0
             }) as u32)
         });
-        match keys.shape() {
-            Ok(shape) => Some(Self { name: name.to_owned(), shape, follows }),
-            Err((key, mistake)) => {
-                refuse(key, mistake);
-                None
-            }
-        }
+        keys.shape(around).map(|shape| Self { name: name.to_owned(), shape, follows })
     }
 }

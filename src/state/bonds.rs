@@ -32,6 +32,8 @@ pub struct BondList {
     pub made: u64,
     /// Bonds broken so far.
     pub broken: u64,
+    /// Bonds taken away with a particle so far.
+    pub removed: u64,
     /// Elastic energy that relaxation took so far \[J\].
     pub relaxed: f64,
     /// Energy that damping took so far \[J\].
@@ -40,12 +42,26 @@ pub struct BondList {
     pub released: f64,
 }
 
-clone_in_place!(BondList { slabs, first, second, foot, rows, damping, lost, made, broken, relaxed, damped, released });
+clone_in_place!(BondList {
+    slabs,
+    first,
+    second,
+    foot,
+    rows,
+    damping,
+    lost,
+    made,
+    broken,
+    removed,
+    relaxed,
+    damped,
+    released
+});
 
 impl BondList {
     /// Counts the living bonds as made, and what left them from here.
     pub(super) fn begin_counting(&mut self) {
-        (self.made, self.broken) = (self.first.len() as u64, 0);
+        (self.made, self.broken, self.removed) = (self.first.len() as u64, 0, 0);
         (self.relaxed, self.damped, self.released) = (0.0, 0.0, 0.0);
         self.lost.fill(0.0);
     }

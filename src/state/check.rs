@@ -424,7 +424,12 @@ impl BondList {
         let numbers = [self.relaxed, self.damped, self.released];
         all_finite(&numbers, "bonds")?;
         all_finite(&self.lost, "lost")?;
-        demand(self.made < MOST && self.broken < MOST, "bonds", 0, "a count that can be reached")?;
+        demand(
+            [self.made, self.broken, self.removed].iter().all(|count| *count < MOST),
+            "bonds",
+            0,
+            "a count that can be reached",
+        )?;
         for column in self.rows.iter().chain(&self.damping).chain([&self.foot]) {
             finite(column, "bonds")?;
         }

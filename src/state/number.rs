@@ -214,11 +214,12 @@ impl NearParts {
 }
 
 impl BondList {
-    /// Takes out the bonds of particles that go. They did not break: they are not counted as broken.
+    /// Takes out the bonds of particles that go. They did not break, and are counted by themselves.
     fn remove(&mut self, moved: &Moved) {
         let second = |bond: usize| self.second.get(bond).is_none_or(|&slot| moved.stays(slot));
         let stays: Vec<bool> =
             self.first.iter().enumerate().map(|(bond, &slot)| moved.stays(slot) && second(bond)).collect();
+        self.removed += stays.iter().filter(|stays| !**stays).count() as u64;
         for slots in [&mut self.first, &mut self.second] {
             keep(slots, |bond| stays[bond]);
             moved.renumber(slots);

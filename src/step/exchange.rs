@@ -37,10 +37,16 @@ impl Simulation {
         let booked = self.state.ledger.is_some() || self.state.losses.is_some();
         let held = |simulation: &Self| (simulation.elastic_energy(), simulation.held());
         let before = booked.then(|| held(self));
+        let (passes, state) = (&self.passes, &mut self.state);
+        let given: f64 = passes.iter().map(|pass| pass.let_go(state, &leaving.goes, step)).sum();
         flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
         if let Some((elastic, Held(before))) = before {
             let (left, Held(after)) = held(self);
-            flow.book_contacts(&mut self.state, elastic - left, [0, 1, 2].map(|cause| before[cause] - after[cause]));
+            flow.book_contacts(
+                &mut self.state,
+                elastic + given - left,
+                [0, 1, 2].map(|cause| before[cause] - after[cause]),
+            );
         }
     }
 

@@ -24,6 +24,7 @@ pub(crate) use group::Selection;
 pub use mesh::{Deforming, Grip};
 pub use plane::Plane;
 
+use crate::document::Mistake;
 use crate::number::Vector;
 use crate::quantity::MaterialIndex;
 use std::fmt::Debug;
@@ -150,8 +151,22 @@ pub(crate) trait ShapeKeys {
     fn shape(&self, around: &mut dyn Around) -> Option<Shape>;
 }
 
+/// Files that a table of a scene names, and where its mistakes go.
+pub(crate) trait Files {
+    /// The content of a file that the table names; nothing if it could not be read, which has been reported.
+    fn file(&self, name: &str) -> Option<&[u8]>;
+
+    /// Reports a mistake at a key below the table.
+    fn report(&mut self, key: &str, mistake: Mistake);
+
+    /// Reports a value: what was found at a key below the table and what would be right.
+    fn refuse(&mut self, key: &str, found: String, right: &str) {
+        self.report(key, Mistake::Wrong { found, right: right.to_owned() });
+    }
+}
+
 /// What stands around the key of a shape in a scene.
-pub(crate) trait Around {
+pub(crate) trait Around: Files {
     /// The material that the boundary names. Reports an unknown or missing one: `who` needs one.
     fn material(&mut self, who: &str) -> Option<MaterialIndex>;
 
@@ -160,12 +175,6 @@ pub(crate) trait Around {
 
     /// The particles that a selection chooses; reports a selection of none.
     fn select(&mut self, selection: &Selection) -> Vec<u32>;
-
-    /// The content of a file that the boundary names; nothing if it could not be read, which has been reported.
-    fn file(&self, name: &str) -> Option<&[u8]>;
-
-    /// Reports a value: what was found at a key below the boundary and what would be right.
-    fn refuse(&mut self, key: &str, found: String, right: &str);
 }
 
 /// A direction as a unit vector, from one of any length except 0: scaled first, so that neither very long nor very short

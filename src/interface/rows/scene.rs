@@ -52,7 +52,7 @@ pub(super) static OF_LOSSES: [Row; Loss::COUNT + 1] = [
 ];
 
 /// Variables of the scene as a whole.
-pub(super) static OF_SCENE: [Row; 13] = [
+pub(super) static OF_SCENE: [Row; 14] = [
     Row {
         name: "energy.kinetic",
         description: "kinetic energy of the particles and groups that move freely",
@@ -129,6 +129,13 @@ pub(super) static OF_SCENE: [Row; 13] = [
         description: "number of bonds that broke since the start",
         exists: |scene, _| !scene.bonds.is_empty(),
         read: |now, _| count(now.bonds().iter().map(|list| list.broken).sum()),
+        ..COUNT
+    },
+    Row {
+        name: "bonds.removed",
+        description: "number of bonds that were taken away with a particle since the start; they are not among the broken ones",
+        exists: |scene, _| !scene.bonds.is_empty() && scene.removes(),
+        read: |now, _| count(now.bonds().iter().map(|list| list.removed).sum()),
         ..COUNT
     },
     Row {

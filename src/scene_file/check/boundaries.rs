@@ -13,7 +13,7 @@ use crate::quantity::MaterialIndex;
 use crate::scene::Source;
 use crate::scene::{AxisMotion, Boundary, NodeMotion};
 use crate::scene_file::tables::BoundaryTable;
-use crate::surface::{Around, Selection, Shape, Surface};
+use crate::surface::{Around, Files, Selection, Shape, Surface};
 
 /// All boundaries.
 pub(super) fn boundaries(
@@ -130,13 +130,15 @@ impl Around for Written<'_, '_, '_> {
     fn select(&mut self, selection: &Selection) -> Vec<u32> {
         members(selection, self.born, self.table, self.faults)
     }
+}
 
+impl Files for Written<'_, '_, '_> {
     fn file(&self, name: &str) -> Option<&[u8]> {
         self.source.files.get(name).map(Vec::as_slice)
     }
 
-    fn refuse(&mut self, key: &str, found: String, right: &str) {
-        self.faults.add(self.table, key, Mistake::Wrong { found, right: right.to_owned() });
+    fn report(&mut self, key: &str, mistake: Mistake) {
+        self.faults.add(self.table, key, mistake);
     }
 }
 

@@ -5,7 +5,8 @@ use super::raw_tables::RawTables;
 use crate::contact::Material;
 use crate::document::{Faults, Mistake};
 use crate::exchange::Amount;
-use crate::scene::{FlowMeter, Insertion, Known, Outlet, Outside, Region, Scene};
+use crate::packing::generator::{generator_after, uniform};
+use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, Scene};
 
 /// What a scene has of particles that come and go.
 pub(super) struct Parts {
@@ -18,11 +19,16 @@ pub(super) struct Parts {
 }
 
 /// Reads all of it.
-pub(super) fn parts(written: &RawTables, regions: &[Region], materials: &[Material], faults: &mut Faults) -> Parts {
+pub(super) fn parts(
+    written: &RawTables,
+    (regions, boundaries): (&[Region], &[Boundary]),
+    materials: &[Material],
+    faults: &mut Faults,
+) -> Parts {
     names(written, faults);
     let regions = regions.iter().map(|region| region.name.as_str()).collect();
     let materials = materials.iter().map(|material| (material.name.as_str(), material.density)).collect();
-    let known = Known { regions, materials };
+    let known = Known { regions, boundaries, materials };
     let (mut insertions, mut outlets, mut meters) = (Vec::new(), Vec::new(), Vec::new());
     for (name, keys) in &written.insertions {
         let table = format!("insertion.{name}");
@@ -58,26 +64,15 @@ fn names(written: &RawTables, faults: &mut Faults) {
 
 /// What speaks against particles that come and go in this scene.
 pub(super) fn objections(scene: &Scene) -> Vec<Finding> {
-    let mut findings: Vec<Finding> =
-        scene.insertions.iter().flat_map(|insertion| of_insertion(scene, insertion)).collect();
-    let by = match (scene.outlets.first(), scene.removes()) {
-        (Some(outlet), _) => Some((format!("outlet.{}", outlet.name), "")),
-        (None, true) => Some(("domain".to_owned(), "outside")),
-        (None, false) => None,
-    };
-    if let (Some((table, key)), Some(bond)) = (by, scene.bonds.first()) {
-        let what = format!("particles go, and [bond.{}] may hold them", bond.name);
-        let right = "particles that go only where nothing is bonded are right".to_owned();
-        findings.push(Finding::at(table, key, Mistake::Senseless { what, right }));
-    }
-    findings
+    scene.insertions.iter().flat_map(|insertion| of_insertion(scene, insertion)).collect()
 }
 
 /// What speaks against an insertion.
 fn of_insertion(scene: &Scene, insertion: &Insertion) -> Vec<Finding> {
     let (mut findings, table) = (Vec::new(), format!("insertion.{}", insertion.name));
     let ([least, most], region) = (insertion.sizes.bounds(), &scene.regions[insertion.region]);
-    if region.shape.place(most, &mut || 0.5).is_none() {
+    let mut random = generator_after(scene.run.seed, &table, 0);
+    if region.shape.place(most, &mut || uniform(&mut random)).is_none() {
         let found = format!("[region.{}], which is too narrow for a sphere of radius {most:?} m,", region.name);
         let right = "a region that holds the largest sphere whole".to_owned();
         findings.push(Finding::at(table.clone(), "region", Mistake::Wrong { found, right }));

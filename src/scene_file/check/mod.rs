@@ -24,6 +24,7 @@ use crate::packing::PackingProgress;
 use crate::parameters;
 use crate::region;
 use crate::scene::{Output, Region, Run, Scene, Source, Step};
+use crate::surface::Files;
 use finding::Finding;
 use raw_tables::RawTables;
 
@@ -49,8 +50,9 @@ pub(super) fn scene(
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
-    let regions = regions(&written, &mut faults);
-    let exchange::Parts { insertions, outlets, meters } = exchange::parts(&written, &regions, &materials, &mut faults);
+    let regions = regions(&written, source, &mut faults);
+    let exchange::Parts { insertions, outlets, meters } =
+        exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
     let mut scene = Scene {
         bonds,
         run,
@@ -144,10 +146,30 @@ fn output(table: &Output, faults: &mut Faults) -> Output {
 }
 
 /// All regions.
-fn regions(written: &RawTables, faults: &mut Faults) -> Vec<Region> {
+fn regions(written: &RawTables, source: &Source, faults: &mut Faults) -> Vec<Region> {
     let boundaries: Vec<&str> = written.boundaries.iter().map(|(name, _)| name.as_str()).collect();
-    let region = |(name, keys): &(String, region::Keys)| {
-        Region::of(name, keys, &boundaries, &mut |key, mistake| faults.add(&format!("region.{name}"), key, mistake))
+    let mut region = |(name, keys): &(String, region::Keys)| {
+        Region::of(name, keys, &boundaries, &mut WrittenRegion { table: format!("region.{name}"), source, faults })
     };
-    written.regions.iter().filter_map(region).collect()
+    written.regions.iter().filter_map(&mut region).collect()
+}
+
+/// A region as it is written, with what it refers to.
+struct WrittenRegion<'a, 'b, 'c> {
+    /// Its name, as `region.core`.
+    table: String,
+    /// The files of the scene.
+    source: &'a Source,
+    /// Where mistakes go.
+    faults: &'a mut Faults<'b, 'c>,
+}
+
+impl Files for WrittenRegion<'_, '_, '_> {
+    fn file(&self, name: &str) -> Option<&[u8]> {
+        self.source.files.get(name).map(Vec::as_slice)
+    }
+
+    fn report(&mut self, key: &str, mistake: Mistake) {
+        self.faults.add(&self.table, key, mistake);
+    }
 }

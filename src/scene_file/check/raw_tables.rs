@@ -79,7 +79,9 @@ pub(in crate::scene_file) type FileName = (String, &'static str, String);
 /// The files that a scene names.
 pub(in crate::scene_file) fn files(document: &Document) -> Vec<FileName> {
     let mut files = Vec::new();
-    for (kind, key) in [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file")] {
+    for (kind, key) in
+        [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file"), ("region", "mesh.file")]
+    {
         for name in document.names(kind) {
             let table = format!("{kind}.{name}");
             if let Some(file) = document.text(&format!("{table}.{key}")) {
@@ -87,11 +89,16 @@ pub(in crate::scene_file) fn files(document: &Document) -> Vec<FileName> {
             }
         }
     }
+    for kind in ["boundary", "region"] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            for file in document.texts(&format!("{table}.mesh.joined")) {
+                files.push((table.clone(), "mesh.joined", file.to_owned()));
+            }
+        }
+    }
     for name in document.names("boundary") {
         let table = format!("boundary.{name}");
-        for file in document.texts(&format!("{table}.mesh.joined")) {
-            files.push((table.clone(), "mesh.joined", file.to_owned()));
-        }
         for axis in AxisMotion::WORDS {
             // A rotation is a quoted key.
             let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };

@@ -1,10 +1,10 @@
-//! How a scene writes a mesh.
+//! `mesh` as a scene writes it, for a boundary and for a region.
 
 use super::topology::Topology;
 use super::{Mesh, faults, files};
 use crate::geometry::rotation;
-use crate::quantity::{Positive, Triple};
-use crate::surface::{Around, Shape, ShapeKeys};
+use crate::quantity::{MaterialIndex, Positive, Triple};
+use crate::surface::{Around, Files, Shape, ShapeKeys};
 use serde::Deserialize;
 
 /// `mesh = { file }`
@@ -28,7 +28,7 @@ pub(crate) struct Keys {
 
 impl Keys {
     /// The triangles of a file, where the scene wants them; what is wrong is reported.
-    fn triangles(&self, key: &str, file: &str, around: &mut dyn Around) -> Option<Vec<[[f64; 3]; 3]>> {
+    fn triangles(&self, key: &str, file: &str, around: &mut dyn Files) -> Option<Vec<[[f64; 3]; 3]>> {
         let mut triangles = match files::read(file, around.file(file)?) {
             Ok(triangles) if !triangles.is_empty() => triangles,
             Ok(_) => {
@@ -55,17 +55,9 @@ impl Keys {
         }
         Some(triangles)
     }
-}
-
-impl ShapeKeys for Keys {
-    const HINT: &'static str = "mesh = { file }";
-
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
-        let material = around.material("a mesh");
-        if let Some(sides) = self.sides.filter(|sides| ![1, 2].contains(sides)) {
-            around.refuse("mesh.sides", sides.to_string(), "1 or 2");
-            return None;
-        }
+    /// The triangles of all files, as one surface whose triangles look to the same side where they can; what is wrong is
+    /// reported. `front`: whether one side counts.
+    fn topology(&self, front: bool, around: &mut dyn Files) -> Option<Topology> {
         let mut triangles = self.triangles("mesh.file", &self.file, around)?;
         for file in &self.joined {
             triangles.extend(self.triangles("mesh.joined", file, around)?);
@@ -79,14 +71,49 @@ impl ShapeKeys for Keys {
                 return None;
             }
         };
-        if let (Err(triangle), Some(1)) = (topology.turn_alike(), self.sides) {
-            refuse(format!("a surface that has one side only, seen at triangle {triangle},"), "sides = 2");
+        if let (Err(triangle), true) = (topology.turn_alike(), front) {
+            let right = if self.sides.is_some() { "sides = 2" } else { "a surface with an inside" };
+            refuse(format!("a surface that has one side only, seen at triangle {triangle},"), right);
             return None;
         }
         if let Some(found) = faults::found(&topology) {
             refuse(found, "a surface that is there once everywhere");
             return None;
         }
+        Some(topology)
+    }
+
+    /// The closed surface around a part of space; what is wrong is reported.
+    pub(crate) fn closed(&self, around: &mut dyn Files) -> Option<Shape> {
+        if let Some(sides) = self.sides {
+            around.refuse("mesh.sides", sides.to_string(), "a region without sides, which is the inside,");
+            return None;
+        }
+        let topology = self.topology(true, around)?;
+        if let Some(edge) = (0..topology.edges.len()).find(|edge| topology.at_edge[*edge].len() != 2) {
+            let [a, b] = topology.edges[edge].map(|vertex| topology.vertices[vertex as usize].to_array());
+            let (count, triangle) =
+                (topology.at_edge[edge].len(), topology.numbers[topology.at_edge[edge][0] as usize]);
+            let triangles = if count == 1 { "one triangle".to_owned() } else { format!("{count} triangles") };
+            let found =
+                format!("{}: {triangles} at the edge of triangle {triangle} from {a:?} m to {b:?} m", self.file);
+            around.refuse("mesh.file", found, "a closed surface, two triangles at every edge,");
+            return None;
+        }
+        Some(Shape::of(Mesh::of(MaterialIndex(0), topology, Some(1))))
+    }
+}
+
+impl ShapeKeys for Keys {
+    const HINT: &'static str = "mesh = { file }";
+
+    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+        let material = around.material("a mesh");
+        if let Some(sides) = self.sides.filter(|sides| ![1, 2].contains(sides)) {
+            around.refuse("mesh.sides", sides.to_string(), "1 or 2");
+            return None;
+        }
+        let topology = self.topology(self.sides == Some(1), around)?;
         Some(Shape::of(Mesh::of(material?, topology, self.sides)))
     }
 }
