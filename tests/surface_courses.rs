@@ -292,15 +292,15 @@ fn turned(v: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| v[axis] * cosine + cross[axis] * sine + n[axis] * along)
 }
 
-/// Places and velocities of rough spheres that fall on bumps and touch each other, after 3 ms.
-fn tossed(mesh: &[Triangle], turn: fn([f64; 3]) -> [f64; 3]) -> Vec<[[f64; 3]; 2]> {
+/// Places and velocities of spheres that fall on bumps and touch each other, after 3 ms.
+fn tossed(law: Law, mesh: &[Triangle], turn: fn([f64; 3]) -> [f64; 3]) -> Vec<[[f64; 3]; 2]> {
     let sphere = |number: u32| {
         let [i, j] = [number % 4, number / 4].map(f64::from);
         [turn([0.0102 * i - 0.0151, 0.0103 * j - 0.0153, RADIUS + 2e-4]), turn([0.3, 0.1, -0.2])]
     };
     let spheres: Vec<_> = (0..16).map(sphere).collect();
     let mesh: Vec<Triangle> = mesh.iter().map(|corners| corners.map(turn)).collect();
-    let mut simulation = start(&spheres, ROUGH, turn([0.0, 0.0, -G]), 1e-5, MESH, &mesh);
+    let mut simulation = start(&spheres, law, turn([0.0, 0.0, -G]), 1e-5, MESH, &mesh);
     simulation.advance(3e-3).unwrap_or_else(|error| panic!("{error}"));
     let state = simulation.state();
     assert!(state.boundaries[0].force[2].abs() > 0.0, "they touch the bumps");
@@ -323,22 +323,34 @@ fn assert_same(found: &[[[f64; 3]; 2]], expected: &[[[f64; 3]; 2]], share: f64) 
 #[test]
 fn order_and_orientation_of_the_triangles_do_not_matter() {
     let mesh = bumps(2e-4);
-    let expected = tossed(&mesh, |v| v);
+    let expected = tossed(ROUGH, &mesh, |v| v);
     let mixed = mesh.iter().rev().zip(0..).map(|([a, b, c], k)| match k % 3 {
         0 => [*a, *b, *c],
         1 => [*b, *c, *a],
         _ => [*c, *a, *b],
     });
-    assert_same(&tossed(&mixed.collect::<Vec<_>>(), |v| v), &expected, 1e-11);
+    assert_same(&tossed(ROUGH, &mixed.collect::<Vec<_>>(), |v| v), &expected, 1e-11);
     let over: Vec<Triangle> = mesh.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-    assert_same(&tossed(&over, |v| v), &expected, 1e-11);
+    assert_same(&tossed(ROUGH, &over, |v| v), &expected, 1e-11);
+}
+
+#[test]
+fn four_triangles_in_place_of_each_change_no_course_without_friction() {
+    let middle = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]));
+    let four = |[a, b, c]: &Triangle| {
+        let (d, e, f) = (middle(*a, *b), middle(*b, *c), middle(*c, *a));
+        [[*a, d, f], [d, *b, e], [f, e, *c], [d, e, f]]
+    };
+    let mesh = bumps(2e-4);
+    let finer: Vec<Triangle> = mesh.iter().flat_map(four).collect();
+    assert_same(&tossed(SMOOTH, &finer, |v| v), &tossed(SMOOTH, &mesh, |v| v), 1e-10);
 }
 
 #[test]
 fn a_scene_that_is_turned_as_a_whole_goes_on_turned() {
     let mesh = bumps(2e-4);
-    let expected: Vec<_> = tossed(&mesh, |v| v).into_iter().map(|both| both.map(turned)).collect();
-    assert_same(&tossed(&mesh, turned), &expected, 1e-10);
+    let expected: Vec<_> = tossed(ROUGH, &mesh, |v| v).into_iter().map(|both| both.map(turned)).collect();
+    assert_same(&tossed(ROUGH, &mesh, turned), &expected, 1e-10);
 }
 
 #[test]
