@@ -83,7 +83,7 @@ impl Features for Mesh {
                 continue;
             }
             let rest = radius * radius - height * height;
-            match face.place(centre, rest, radius, self.flat.0[triangle as usize]) {
+            match face.place(centre, rest, radius, self.flat.edges[triangle as usize]) {
                 Place::Away => {}
                 Place::Over => feet.list.push(self.on_face(triangle, height)),
                 Place::AtBend => {
@@ -183,23 +183,38 @@ impl Mesh {
         }
     }
 
-    /// Finds the edges of negative weight between two faces that both carry the sphere.
+    /// The foot on a triangle, or on another one of its patch.
+    fn on_patch<'a>(&self, feet: &'a Feet, triangle: u32) -> Option<&'a Foot> {
+        let (faces, patch) = (self.face(0), |triangle: u32| self.flat.patch[triangle as usize]);
+        let is_there = |foot: &&Foot| foot.feature >= faces && patch(foot.feature - faces) == patch(triangle);
+        feet.list.iter().find(is_there)
+    }
+
+    /// Finds the bends of negative weight between two faces that both carry the sphere: an edge, or a vertex between two edges
+    /// of one bend.
     fn find_saddles(&self, centre: Vector, feet: &mut Feet) {
-        let vertices = self.topology.vertices.len() as u32;
-        let edges = vertices..vertices + self.topology.edges.len() as u32;
+        let vertices = self.topology.vertices.len();
         for place in 0..feet.list.len() {
-            let edge = feet.list[place];
-            if edge.weight >= 0.0 || !edges.contains(&edge.feature) {
+            let (bend, feature) = (feet.list[place], feet.list[place].feature as usize);
+            if bend.weight >= 0.0 || bend.feature >= self.face(0) {
                 continue;
             }
-            let foot = centre - edge.normal * edge.distance;
-            let at = &self.topology.at_edge[(edge.feature - vertices) as usize];
-            let mut on_faces = at
-                .iter()
-                .filter_map(|triangle| feet.on(self.face(*triangle)))
-                .map(|face| (face.feature, (centre - face.normal * face.distance - foot).length()));
-            if let (Some((one, x)), Some((other, y)), None) = (on_faces.next(), on_faces.next(), on_faces.next()) {
-                feet.add_saddle(edge.feature, [one, other], [x, y]);
+            let foot = centre - bend.normal * bend.distance;
+            let at = match feature.checked_sub(vertices) {
+                Some(edge) => &self.topology.at_edge[edge],
+                None => &self.topology.at_vertex[feature],
+            };
+            let (mut faces, mut count) = ([(0, 0.0); 2], 0);
+            for face in at.iter().filter_map(|triangle| self.on_patch(feet, *triangle)) {
+                if faces[..count.min(2)].iter().all(|(known, _)| *known != face.feature) {
+                    if let Some(one) = faces.get_mut(count) {
+                        *one = (face.feature, (centre - face.normal * face.distance - foot).length());
+                    }
+                    count += 1;
+                }
+            }
+            if let ([(one, x), (other, y)], 2) = (faces, count) {
+                feet.add_saddle(bend.feature, [one, other], [x, y]);
             }
         }
     }
@@ -247,7 +262,7 @@ mod tests {
         let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
         for (closed, flat) in [(true, 3 * 2 * (3 * 3 * 2 + 4 * 3) - 2 * (12 + 12 + 4)), (false, 3 * 16 - 12 - 4)] {
             let mesh = block(3, closed);
-            assert_eq!(mesh.flat.0.iter().map(|bits| bits.count_ones()).sum::<u32>(), flat);
+            assert_eq!(mesh.flat.edges.iter().map(|bits| bits.count_ones()).sum::<u32>(), flat);
             let parts: Vec<u32> = (0..mesh.faces.len() as u32).collect();
             let (mut quick, mut whole, mut met, mut flat) = (Feet::default(), Feet::default(), 0, 0);
             for number in 0..20_000_u32 {

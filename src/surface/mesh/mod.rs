@@ -43,7 +43,7 @@ struct Mesh {
     faces: Vec<Face>,
     /// The edges, likewise.
     edges: Vec<Edge>,
-    /// Which edges of each triangle are flat: there it meets one other triangle, in the same plane. A bit for each.
+    /// Where triangles lie in one plane.
     flat: Flat,
     /// The tree that finds near triangles.
     tree: Tree,
@@ -65,7 +65,7 @@ impl Mesh {
         Self {
             material,
             tree: topology.tree(),
-            flat: flat_edges(&topology, &faces),
+            flat: Flat::of(&topology, &faces),
             faces,
             edges: Edge::all(&topology).collect(),
             sides: if front { Sides::Front } else { Sides::Both },
@@ -86,9 +86,14 @@ impl Mesh {
     }
 }
 
-/// The flat edges of each triangle, a bit for each.
+/// Where triangles lie in one plane.
 #[derive(Clone)]
-struct Flat(Vec<u8>);
+struct Flat {
+    /// The flat edges of each triangle, a bit for each.
+    edges: Vec<u8>,
+    /// The patch of each: its first triangle. Triangles that meet in flat edges are of one patch.
+    patch: Vec<u32>,
+}
 
 /// Nothing but the name, as for [`Face`].
 impl std::fmt::Debug for Flat {
@@ -97,19 +102,44 @@ impl std::fmt::Debug for Flat {
     }
 }
 
-/// Which edges are flat.
-fn flat_edges(topology: &Topology, faces: &[Face]) -> Flat {
-    let is_flat = |edge: u32| match topology.at_edge[edge as usize][..] {
-        [one, other] => {
-            let [one, other] = [one, other].map(|triangle| faces[triangle as usize].normal);
-            one.dot(other) > 0.0 && one.cross(other).length() < face::FLAT
+impl Flat {
+    /// What is flat of a surface.
+    fn of(topology: &Topology, faces: &[Face]) -> Self {
+        let mut flat = Self::nowhere(faces.len());
+        for (edge, at) in (0..).zip(&topology.at_edge) {
+            let [one, other] = at[..] else { continue };
+            let [n, m] = [one, other].map(|triangle| faces[triangle as usize].normal);
+            if n.dot(m) > 0.0 && n.cross(m).length() < face::FLAT {
+                for triangle in [one, other] {
+                    let edges = topology.edges_of[triangle as usize];
+                    let place = edges.iter().position(|other| *other == edge).unwrap_or(0);
+                    flat.edges[triangle as usize] |= 1 << place;
+                }
+                let [one, other] = [one, other].map(|triangle| flat.first(triangle));
+                flat.patch[one.max(other) as usize] = one.min(other);
+            }
         }
-        _ => false,
-    };
-    let bits = |[first, second, third]: [u32; 3]| {
-        u8::from(is_flat(first)) | u8::from(is_flat(second)) << 1 | u8::from(is_flat(third)) << 2
-    };
-    Flat(topology.edges_of.iter().map(|edges| bits(*edges)).collect())
+        for triangle in 0..faces.len() as u32 {
+            flat.patch[triangle as usize] = flat.first(triangle);
+        }
+        flat
+    }
+
+    /// So many triangles, each a patch of its own.
+    fn nowhere(triangles: usize) -> Self {
+        Self { edges: vec![0; triangles], patch: (0..triangles as u32).collect() }
+    }
+
+    /// The first triangle of a patch.
+    fn first(&mut self, mut triangle: u32) -> u32 {
+        while self.patch[triangle as usize] != triangle {
+            // Half of the way is left the next time.
+            let next = self.patch[triangle as usize];
+            self.patch[triangle as usize] = self.patch[next as usize];
+            triangle = next;
+        }
+        triangle
+    }
 }
 
 /// A surface of the triangles in STL files; an error says what is wrong with them. `sides`: 1, where the normals point, or 2;

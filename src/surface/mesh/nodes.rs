@@ -67,7 +67,7 @@ impl Deforming {
     pub(super) fn of(mesh: &Mesh) -> Self {
         let first = mesh.topology.vertices.clone();
         // No edge stays flat.
-        let mesh = Mesh { flat: Flat(vec![0; mesh.faces.len()]), ..mesh.clone() };
+        let mesh = Mesh { flat: Flat::nowhere(mesh.faces.len()), ..mesh.clone() };
         Self { displacement: vec![[0.0; 4]; first.len()], first, mesh, collapsed: None }
     }
 
