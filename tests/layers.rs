@@ -136,7 +136,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("threads", 5),
     ("neighbours", 14),
     ("integration", 6),
-    ("batches", 63),
+    ("batches", 64),
     ("interactions", 16),
     ("bond_passes", 28),
     ("stability", 2),

@@ -78,7 +78,7 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
 }
 
 /// Rotations for a test.
-const TURNS: [[f64; 3]; 4] = [[0.0; 3], [0.3, -0.7, 1.1], [1.5, 0.2, -0.4], [0.0, 0.0, 0.785_398_163_397_448_3]];
+const TURNS: [[f64; 3]; 4] = [[0.0; 3], [0.3, -0.7, 1.1], [1.5, 0.2, -0.4], [0.0, 0.0, std::f64::consts::FRAC_PI_4]];
 
 /// Compares a box with the same as a mesh for a sphere.
 #[track_caller]
@@ -100,7 +100,7 @@ fn a_mesh_of_a_box_cuts_spheres_as_the_box_does() {
     let mut worst: f64 = 0.0;
     for by in TURNS {
         for (squares, pattern) in [(1, 0), (1, 1), (3, 2), (7, 3)] {
-            let flip = |number: usize| pattern == 1 || pattern > 1 && number * 7 % pattern == 0;
+            let flip = |number: usize| pattern == 1 || pattern > 1 && (number * 7).is_multiple_of(pattern);
             let solid = solid(&turned(&boxed(corners, squares, flip), by));
             assert!((solid.volume() - 1.2 * 1.1 * 1.4).abs() < 1e-13);
             for _ in 0..300 {

@@ -1,11 +1,11 @@
 //! Particles at their feet on a surface, as batches see them.
 
-use super::super::nodes::HeldColumns;
-use super::super::sphere::{Load, Loaded, SphereAt, along};
 use super::standing::Standing;
 use crate::batches::coefficients::CoefficientTable;
 use crate::batches::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::contact::Needs;
+use crate::interactions::surfaces::nodes::HeldColumns;
+use crate::interactions::surfaces::sphere::{Load, Loaded, SphereAt, along};
 use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::state::Row;

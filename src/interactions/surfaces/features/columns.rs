@@ -1,7 +1,7 @@
 //! The contacts with features that an evaluation finds, each a column.
 
-use super::super::history::{Past, Present};
-use super::super::nodes::Held;
+use crate::interactions::surfaces::history::{Past, Present};
+use crate::interactions::surfaces::nodes::Held;
 use crate::number::Vector;
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
 use crate::state::{Row, WallContacts};
@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Contacts of a piece of the particles with the features of a surface, each a column; kept from one step to the next for its
 /// room.
 #[derive(Default)]
-pub(in super::super) struct FeatureContacts {
+pub(in crate::interactions::surfaces) struct FeatureContacts {
     /// The particle of each (slot).
     pub(super) particle: Vec<u32>,
     /// Its feature.
@@ -108,7 +108,7 @@ impl FeatureContacts {
     }
 
     /// What the contacts have beside where nodes move one by one.
-    pub(in super::super) fn held(&self) -> &Held {
+    pub(in crate::interactions::surfaces) fn held(&self) -> &Held {
         &self.held
     }
 }
@@ -125,7 +125,7 @@ pub(super) fn finish(flags: &mut [u8], side: &[u8], weight: &[[f64; 2]]) {
 
 /// The columns of a list of contacts with features.
 #[derive(Default)]
-pub(in super::super) struct Spare {
+pub(in crate::interactions::surfaces) struct Spare {
     /// Particles.
     particle: Vec<u32>,
     /// Features.
@@ -138,7 +138,7 @@ pub(in super::super) struct Spare {
 
 /// Puts the contacts that the pieces found, of each of which so many rows are stored, in the place of a list's, whose room is
 /// the spare one of the next time. Nothing changes where all are there already.
-pub(in super::super) fn replace<'a>(
+pub(in crate::interactions::surfaces) fn replace<'a>(
     list: &mut WallContacts,
     rows: usize,
     spare: &mut Spare,

@@ -1,11 +1,11 @@
 //! A surface of features where it stands, and a particle that touches it there.
 
-use super::super::nodes::Moving;
-use super::super::sphere::{SphereAt, along, lanes};
-use super::super::{AtSurface, Touched};
 use crate::batches::ContactGeometry;
 use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::geometry::Frame;
+use crate::interactions::surfaces::nodes::Moving;
+use crate::interactions::surfaces::sphere::{SphereAt, along, lanes};
+use crate::interactions::surfaces::{AtSurface, Touched};
 use crate::lanes::{Lane, vector};
 use crate::number::Vector;
 use crate::state::{BoundaryState, Nodes, Row};

@@ -1,12 +1,12 @@
 //! What the contacts with features are, for those who ask: stiffness, records, energies.
 
-use super::super::AtSurface;
 use super::standing::{Stand, Standing};
 use super::{constant, parts};
 use crate::batches::ContactGeometry;
 use crate::contact::{MOST_HISTORY, Reaction};
 use crate::interactions::ahead::{Ahead, Link};
 use crate::interactions::records::{self, ContactRecord, Motion};
+use crate::interactions::surfaces::AtSurface;
 use crate::number::Vector;
 use crate::state::{Row, State};
 use crate::surface::{Feet, Foot};
@@ -58,7 +58,12 @@ impl AtSurface {
     }
 
     /// Tells the stiffness of the contacts with features.
-    pub(in super::super) fn stiffness_at_features(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+    pub(in crate::interactions::surfaces) fn stiffness_at_features(
+        &self,
+        state: &State,
+        ahead: &Ahead,
+        tell: &mut dyn FnMut(Link),
+    ) {
         let (list, law) = (self.list(state), &self.law.law);
         let bent = state.nodes_of(list.boundary as usize).map_or(0.0, |nodes| nodes.fastest);
         let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length() + bent;
@@ -74,7 +79,12 @@ impl AtSurface {
     }
 
     /// Tells the contacts with features as they were in the last evaluation, after a time step of this length \[s\].
-    pub(in super::super) fn records_at_features(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+    pub(in crate::interactions::surfaces) fn records_at_features(
+        &self,
+        state: &State,
+        step: f64,
+        tell: &mut dyn FnMut(ContactRecord),
+    ) {
         let (list, law, particles) = (self.list(state), &self.law.law, &state.particles);
         self.each(state, Motion::shown(law, step), |entry, foot, share, geometry| {
             let (slot, contact) = (list.particle[entry], &geometry.contact);
@@ -89,7 +99,7 @@ impl AtSurface {
     }
 
     /// Elastic energy of the contacts with features \[J\].
-    pub(in super::super) fn energy_at_features(&self, state: &State) -> f64 {
+    pub(in crate::interactions::surfaces) fn energy_at_features(&self, state: &State) -> f64 {
         let (list, law, mut sum) = (self.list(state), &self.law.law, 0.0);
         self.each(state, Motion::Present, |entry, foot, share, ContactGeometry { contact, .. }| {
             let row = self.row(state, list.particle[entry]);
@@ -101,7 +111,7 @@ impl AtSurface {
     }
 
     /// Energy at features of rolling springs, of sticky and of plastic normal forces \[J\].
-    pub(in super::super) fn held_at_features(&self, state: &State) -> [f64; 3] {
+    pub(in crate::interactions::surfaces) fn held_at_features(&self, state: &State) -> [f64; 3] {
         let (list, law, mut held) = (self.list(state), &self.law.law, [0.0; 3]);
         if !law.has_rolling() && law.takes_offset() {
             return held;
@@ -118,7 +128,7 @@ impl AtSurface {
     }
 
     /// Largest overlap with a feature over the radius of the particle.
-    pub(in super::super) fn largest_overlap(&self, state: &State) -> f64 {
+    pub(in crate::interactions::surfaces) fn largest_overlap(&self, state: &State) -> f64 {
         let mut largest = 0.0_f64;
         self.each(state, Motion::Present, |_, foot, _, ContactGeometry { contact, .. }| {
             if foot.weight > 0.0 {
