@@ -137,7 +137,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("neighbours", 14),
     ("integration", 6),
     ("batches", 64),
-    ("interactions", 16),
+    ("interactions", 20),
     ("bond_passes", 28),
     ("stability", 2),
     ("fmu", 37),
