@@ -55,6 +55,7 @@ impl Keys {
         }
         Some(triangles)
     }
+
     /// The triangles of all files, as one surface whose triangles look to the same side where they can; what is wrong is
     /// reported. `front`: whether one side counts.
     fn topology(&self, front: bool, around: &mut dyn Files) -> Option<Topology> {

@@ -126,14 +126,20 @@ impl AtSurface {
     /// Keeps those feet of a particle (slot, radius \[m\]) that are touched: beyond touch, where there was a contact before.
     #[inline(never)]
     fn keep_touched(&self, at: &Standing, (slot, radius): (u32, f64), past: &Past, feet: &mut Feet) {
+        if feet.list.iter().all(|foot| foot.distance <= radius) {
+            return;
+        }
         let entries = past.of(slot, past.particle.partition_point(|&other| other < slot));
-        let features: Vec<u32> = feet.list.iter().map(|foot| foot.feature).collect();
+        let mut features = std::mem::take(&mut feet.room[0]);
+        features.clear();
+        features.extend(feet.list.iter().map(|foot| foot.feature));
         let saddles: Vec<(u32, Saddle)> = feet.saddles.iter().map(|saddle| (slot, *saddle)).collect();
         let present = Present { features: &features, saddles: &saddles };
         feet.list.retain(|foot| {
             let known = || source((foot.feature, foot.weight), present, (past, &entries), at.features, &self.law.law);
             foot.distance <= radius || known().is_some()
         });
+        feet.room[0] = features;
     }
 
     /// Gives all contacts what is remembered of them.
