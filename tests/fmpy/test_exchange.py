@@ -50,11 +50,14 @@ velocity = [0.5, 0.0, -1.0]
 scatter = 0.2
 [outlet.end]
 region = "bin"
+[flow_meter.gate]
+polygon = [[0.05, -1.0, -1.0], [0.05, 1.0, -1.0], [0.05, 1.0, 1.0], [0.05, -1.0, 1.0]] # its front is towards x
 [output]
 energy = true
 losses = true
+history_interval = 0.02
 frame_interval = 0.02
-checkpoint_interval = 0.05
+checkpoint_interval = 0.1
 """
 UNITS = {"kB": 1e3, "MB": 1e6, "GB": 1e9}
 
@@ -89,6 +92,45 @@ def test_what_comes_and_goes_closes_mass_momentum_and_energy(chute):
     mass = own + float(last["feed.mass"]) - float(last["end.mass"])
     assert there["mass"].sum() == pytest.approx(mass, rel=1e-12)
     assert len(there["id"]) == 3 + int(last["feed.count"]) - int(last["end.count"])
+
+
+def test_a_flow_meter_tells_what_is_behind_it_or_gone(chute):
+    folder, _, _ = chute
+    rows = list(csv.DictReader((folder / "history.csv").open()))
+    mass = np.array([float(row["gate.mass"]) for row in rows])
+    flow = np.array([float(row["gate.mass_flow"]) for row in rows])
+    assert flow[0] == 0.0 and np.abs(flow[1:] * 0.02 - np.diff(mass)).max() < 1e-12 * mass[-1]
+    for number, row in enumerate(rows):
+        frame = meshio.read(folder / f"particles_{number:06}.vtu")
+        behind = frame.points[:, 0] >= 0.05
+        assert int(row["gate.count"]) == int(row["end.count"]) + behind.sum()
+        went = float(row["end.mass"]) + frame.point_data["mass"][behind].sum()
+        assert mass[number] == pytest.approx(went, rel=1e-12, abs=1e-18)
+    assert int(rows[-1]["gate.count"]) > 100
+
+
+def test_what_is_inserted_has_the_velocity_the_scatter_and_the_seed_that_are_asked_for(cograin, tmp_path):
+    """Without forces the velocities stay as they were given."""
+
+    def inserted(seed, name):
+        scene, out = tmp_path / f"{name}.toml", tmp_path / name
+        kept = [part for part in re.split(r"(?m)^(?=\[)", SCENE) if re.match(r"\[(material|region|insertion|output)", part)]
+        run = f"[run]\nend = 0.5\nstep = 1e-4\nseed = {seed}\n"
+        scene.write_text(run + "".join(kept).replace("frame_interval = 0.02", "frame_interval = 0.5"))
+        cograin("run", scene, "-o", out)
+        frame = meshio.read(max(out.glob("particles_*.vtu")))
+        return frame.point_data["velocity"], frame.point_data["radius"], frame.points
+
+    velocity, radius, points = inserted(1, "one")
+    assert len(radius) > 900
+    off = velocity - [0.5, 0.0, -1.0]
+    assert np.abs(off).max() <= 0.2
+    # Even chances: mean 0 and mean square 0.2²/3, to four deviations of so many samples.
+    assert np.abs(off.mean(axis=0)).max() < 4.0 * 0.2 / np.sqrt(3.0 * len(off))
+    assert np.abs((off**2).mean(axis=0) / (0.2**2 / 3.0) - 1.0).max() < 4.0 * np.sqrt(0.8 / len(off))
+    assert radius.min() >= 0.001 and radius.max() <= 0.0015
+    assert all(np.array_equal(one, other) for one, other in zip((velocity, radius, points), inserted(1, "again"), strict=True))
+    assert not np.array_equal(velocity[:100], inserted(2, "other")[0][:100])
 
 
 def test_a_run_that_is_interrupted_and_resumed_leaves_the_same_files(request, cograin, chute, tmp_path):
