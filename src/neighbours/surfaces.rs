@@ -37,10 +37,12 @@ pub(crate) fn replace(
                 continue;
             }
             let (row, before) = (particles.position[slot], found.parts.len());
-            near.features.near(near.frame.inside(Vector::from(row)), row[3] + near.skin, &mut found.parts);
+            let (centre, reach) = (near.frame.inside(Vector::from(row)), row[3] + near.skin);
+            near.features.near(centre, reach, &mut found.parts);
             if found.parts.len() > before {
                 found.particle.push(slot as u32);
                 found.starts.push(before as u32);
+                found.plane.push(u8::from(near.features.is_plane(centre, reach, &found.parts[before..])));
             }
         }
         found
@@ -51,6 +53,7 @@ pub(crate) fn replace(
         list.near.particle.extend(piece.particle);
         list.near.starts.extend(piece.starts.into_iter().map(|start| first + start));
         list.near.parts.extend(piece.parts);
+        list.near.plane.extend(piece.plane);
     }
     list.near.starts.push(list.near.parts.len() as u32);
     renumber(list, order);

@@ -159,8 +159,11 @@ pub struct NearParts {
     /// The parts.
     #[serde(with = "plain")]
     pub parts: Vec<u32>,
+    /// Whether those of each lie in one plane that goes on as far as it may come until the lists are made again: 1, or 0.
+    #[serde(with = "plain")]
+    pub plane: Vec<u8>,
 }
 
 clone_in_place!(WallContacts { boundary, law, particle, flags, history, pair_constant, feature, near });
 
-clone_in_place!(NearParts { particle, starts, parts });
+clone_in_place!(NearParts { particle, starts, parts, plane });

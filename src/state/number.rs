@@ -209,6 +209,7 @@ impl NearParts {
         starts.push(parts.len() as u32);
         (self.starts, self.parts) = (starts, parts);
         keep(&mut self.particle, |entry| stays[entry]);
+        keep(&mut self.plane, |entry| stays[entry]);
         moved.renumber(&mut self.particle);
     }
 }

@@ -85,6 +85,24 @@ pub trait Features: Debug + Send + Sync {
     /// Finds the feet on these parts that are nearer to a centre than `radius` \[m\].
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet);
 
+    /// Whether these parts, all that are within reach of a centre \[m\], lie in one plane that goes on to the end of this reach.
+    fn is_plane(&self, _centre: Vector, _reach: f64, _parts: &[u32]) -> bool {
+        false
+    }
+
+    /// Finds what [`Features::feet`] finds on parts of one plane, by a look at one of them: the one of the feature that was touched
+    /// last, if any. Returns whether that was enough.
+    fn feet_on_plane(
+        &self,
+        _centre: Vector,
+        _radius: f64,
+        _parts: &[u32],
+        _last: Option<u32>,
+        _feet: &mut Feet,
+    ) -> bool {
+        false
+    }
+
     /// Whether the history of a contact passes from one feature to another.
     fn meet(&self, one: u32, other: u32) -> bool;
 

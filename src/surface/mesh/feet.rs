@@ -1,7 +1,7 @@
 //! Where a sphere touches triangles: on faces, edges and vertices.
 
 use super::edge::OnEdge;
-use super::face::{Place, Stand};
+use super::face::{FLAT, Place, Stand};
 use super::{Mesh, Sides};
 use crate::number::Vector;
 use crate::surface::feet::{Features, Feet, Foot};
@@ -93,6 +93,43 @@ impl Features for Mesh {
             }
         }
         // Feet inside of faces alone: in order already, and each counts once.
+    }
+
+    fn is_plane(&self, centre: Vector, reach: f64, parts: &[u32]) -> bool {
+        let Some(&first) = parts.first() else { return false };
+        let (normal, height) = (self.faces[first as usize].normal, self.height(centre, first as usize));
+        parts.iter().map(|&part| part as usize).all(|part| {
+            let bends = self.topology.edges_of[part]
+                .iter()
+                .enumerate()
+                .filter(|(place, _)| self.flat.edges[part] >> place & 1 == 0);
+            self.flat.patch[part] == self.flat.patch[first as usize]
+                && self.faces[part].normal.cross(normal).length() < 4.0 * FLAT
+                && (self.height(centre, part) - height).abs() < FLAT * reach
+                && bends.into_iter().all(|(_, edge)| self.on_edge(centre, *edge).distance > reach)
+        })
+    }
+
+    #[inline]
+    fn feet_on_plane(&self, centre: Vector, radius: f64, parts: &[u32], last: Option<u32>, feet: &mut Feet) -> bool {
+        let last = last.and_then(|feature| feature.checked_sub(self.face(0)));
+        let Some(triangle) = last.or(parts.first().copied()) else { return false };
+        let face = &self.faces[triangle as usize];
+        let height = face.height(centre);
+        // Other triangles of the plane may be nearer by what their angles make.
+        if height.abs() > radius * (1.0 + 1e-3) {
+            return true;
+        }
+        let counts = self.sides == Sides::Both || height > 0.0;
+        if !counts || height.abs() > radius {
+            return false;
+        }
+        let is_over = face.place(centre, radius * radius - height * height, radius, self.flat.edges[triangle as usize])
+            == Place::Over;
+        if is_over {
+            feet.list.push(self.on_face(triangle, height));
+        }
+        is_over
     }
 
     fn meet(&self, one: u32, other: u32) -> bool {
@@ -281,6 +318,41 @@ mod tests {
                 flat += usize::from(whole.list.len() == 1);
             }
             assert!(met > 5000 && flat > 2000, "{met} {flat}");
+        }
+    }
+
+    #[test]
+    fn one_triangle_of_a_plane_tells_what_all_of_them_do() {
+        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
+        for closed in [true, false] {
+            let mesh = block(7, closed);
+            let [mut planes, mut told, mut touched] = [0; 3];
+            let (mut quick, mut whole, mut parts) = (Feet::default(), Feet::default(), Vec::new());
+            for number in 0..20_000_u32 {
+                let part = |ratio: f64| (f64::from(number) * ratio).fract();
+                let place = [part(0.754_877_67) * 7.0, part(0.569_840_29) * 7.0, 0.5 + part(0.430_159_71)];
+                let (centre, radius, skin) = (turn.turn(Vector::from(place)), 0.2 + 0.4 * part(0.618_033_99), 0.1);
+                parts.clear();
+                mesh.near(centre, radius + skin, &mut parts);
+                if parts.is_empty() || !mesh.is_plane(centre, radius + skin, &parts) {
+                    continue;
+                }
+                planes += 1;
+                // Wherever it goes until parts are looked for again, and whichever of them it has touched before.
+                let way = [0.33, 0.21, 0.47].map(|ratio| (part(ratio) - 0.5) * skin);
+                let (centre, last) = (centre + turn.turn(Vector::from(way)), parts[number as usize % parts.len()]);
+                quick.clear();
+                whole.clear();
+                if mesh.feet_on_plane(centre, radius, &parts, Some(mesh.face(last)), &mut quick) {
+                    told += 1;
+                    mesh.feet_at_bends(centre, radius, &parts, &mut whole);
+                    assert_eq!(quick.list, whole.list, "{place:?}, radius {radius}");
+                    touched += quick.list.len();
+                } else {
+                    assert!(quick.list.is_empty());
+                }
+            }
+            assert!(planes > 5000 && told > 2000 && touched > 1000, "{planes} {told} {touched}");
         }
     }
 }

@@ -87,14 +87,21 @@ impl AtSurface {
         let sticks = self.law.law.holds_beyond_touch();
         let near = &list.near.particle;
         let [first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
-        let mut feet = std::mem::take(&mut contacts.feet);
+        let (mut feet, mut entry) = (std::mem::take(&mut contacts.feet), 0);
         for (place, &slot) in (first..last).zip(&near[first..last]) {
             let position = particles.position[slot as usize];
             let constant = constant(list, place);
             let beyond = if sticks { constant } else { 0.0 };
             feet.clear();
             let centre = at.frame.inside(Vector::from(position));
-            at.features.feet(centre, position[3] + beyond, parts(list, place), &mut feet);
+            let (radius, parts) = (position[3] + beyond, parts(list, place));
+            let in_plane = list.near.plane[place] != 0 && {
+                let last = past.last(slot, &mut entry);
+                at.features.feet_on_plane(centre, radius, parts, last, &mut feet)
+            };
+            if !in_plane {
+                at.features.feet(centre, radius, parts, &mut feet);
+            }
             if sticks {
                 self.keep_touched(at, (slot, position[3]), past, &mut feet);
             }
