@@ -1,4 +1,4 @@
-//! How much memory there is, and where large arrays begin in it.
+//! How much memory there is, where large arrays begin in it, and what of it will be needed soon.
 //!
 //! An allocator gives large arrays whole pages, so all of them begin at the same place of a page. A loop that goes
 //! through several of them side by side then reads from places that differ from those it has just written to in the
@@ -122,6 +122,16 @@ pub(crate) const SPHERE: u64 = 600;
 pub(crate) fn lacking(needed: u64) -> Option<String> {
     let free = available().filter(|free| needed > *free)?;
     Some(format!("what fits into the {:.2} GB of memory that are free", free as f64 / 1e9))
+}
+
+/// Tells the processor, if it can be told, that an address will be needed soon.
+#[inline(always)]
+pub fn prefetch<T>(_place: *const T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a prefetch of any place does no harm.
+    unsafe {
+        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(_place.cast());
+    }
 }
 
 #[cfg(test)]

@@ -108,6 +108,11 @@ fn over(station: usize) -> Vec<String> {
 
 /// The scene with this many threads.
 fn scene(threads: usize) -> Arc<Scene> {
+    scene_of(threads, |motion| motion)
+}
+
+/// The scene with this many threads, in which the motions of the stations became others.
+fn scene_of(threads: usize, other: impl Fn(&'static str) -> &'static str) -> Arc<Scene> {
     let mut boundaries = String::new();
     let mut spheres = Vec::new();
     let mut group = Vec::new();
@@ -116,7 +121,7 @@ fn scene(threads: usize) -> Arc<Scene> {
         let shape = shape.replace("X - 0.03", &format!("{:?}", middle - 0.03));
         let shape = shape.replace("X + 0.0175", &format!("{:?}", middle + 0.0175)).replace('X', &format!("{middle:?}"));
         let material = if shape.starts_with("particles") { "" } else { "material = \"stone\"\n" };
-        boundaries += &format!("[boundary.s{station:02}]\n{material}{shape}\n{motion}\n");
+        boundaries += &format!("[boundary.s{station:02}]\n{material}{shape}\n{}\n", other(motion));
         spheres.extend(over(station));
         if !material.is_empty() {
             continue;
@@ -230,4 +235,35 @@ fn any_number_of_threads_any_width_and_a_saved_state_give_the_same_bits() {
     let mut again = Simulation::resume(scene(3), state).unwrap_or_else(|fault| panic!("{fault}"));
     run(&mut again, 6..12);
     assert!(again.state().to_bytes(0) == expected, "gone on from bytes");
+}
+
+#[test]
+fn work_on_every_shape_is_mean_force_times_displacement_and_mean_moment_times_turn() {
+    let driven = "motion = { driven = [\"x\", \"y\", \"z\", \"rotation.y\"] }";
+    let nodes = |motion: &str| motion.starts_with("nodes");
+    let mut simulation = Simulation::new(scene_of(1, |motion| if nodes(motion) { "" } else { driven }))
+        .unwrap_or_else(|error| panic!("{error}"));
+    let mut turnover = [0.0_f64; STATIONS.len()];
+    for number in 0..20_u32 {
+        let before = simulation.state().boundaries.clone();
+        for station in (0..STATIONS.len()).filter(|station| !nodes(STATIONS[*station].1)) {
+            let swing = f64::from((number + station as u32) % 4) - 1.5;
+            for (axis, share) in [(0, 5e-5), (1, 3e-5), (2, 1e-4), (4, 2e-3)] {
+                simulation.set_input(BoundaryIndex(station as u32), axis, share * swing);
+            }
+        }
+        simulation.advance(30.0 * STEP).unwrap_or_else(|error| panic!("{error}"));
+        for (station, (before, after)) in before.iter().zip(&simulation.state().boundaries).enumerate() {
+            let product = |axis: usize| {
+                after.mean_force[axis] * (after.displacement[axis] - before.displacement[axis])
+                    + after.mean_moment[axis] * (after.rotation[axis] - before.rotation[axis])
+            };
+            let (found, expected) = (after.work - before.work, -(0..3).map(product).sum::<f64>());
+            turnover[station] += found.abs();
+            let most = 1e-12 * turnover[station].max(1e-6);
+            assert!((found - expected).abs() <= most, "station {station}: {found:e} J, not {expected:e} J");
+        }
+    }
+    let worked = (0..STATIONS.len()).filter(|station| turnover[*station] > 1e-6).count();
+    assert_eq!(worked, STATIONS.len() - 1, "{turnover:?} J");
 }

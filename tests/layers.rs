@@ -131,8 +131,8 @@ struct Rule {
 /// Rooms with unsafe blocks, and how many each may have. `docs/architecture.md` says what they are for; a block more is
 /// to be argued for there.
 const UNSAFE: [(&str, usize); 10] = [
-    ("lanes", 82),
-    ("memory", 8),
+    ("lanes", 81),
+    ("memory", 9),
     ("threads", 5),
     ("neighbours", 14),
     ("integration", 6),
@@ -164,10 +164,10 @@ const LANES: Rule = Rule {
 
 /// Intrinsics.
 const INTRINSICS: Rule = Rule {
-    kept: &["src/lanes", "fmu/src/floating_point.rs"],
+    kept: &["src/lanes", "src/memory.rs", "fmu/src/floating_point.rs"],
     searched: &["src", "fmu/src"],
     words: &["std::arch", "core::arch", "std::simd", "is_x86_feature_detected", "target_feature", "_mm"],
-    why: "intrinsics stand with the lanes, and where the unit leaves the floating-point environment of its host",
+    why: "intrinsics stand with the lanes, where memory is asked for early, and where the unit leaves the floating-point environment of its host",
 };
 
 /// Functions that are not exactly rounded, and the fused operation.

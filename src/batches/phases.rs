@@ -4,7 +4,8 @@ use super::buffer::{BATCH, Buffer};
 use super::parting::Parting;
 use super::{Batches, Bodies, Chosen, Entries};
 use crate::contact::Needs;
-use crate::lanes::{Kernel, Lane, prefetch};
+use crate::lanes::{Kernel, Lane};
+use crate::memory::prefetch;
 use crate::state::contacts::{LASTING, RELEASED, SLIDING, TOUCHING};
 
 /// Phase 1: fills the batch with touching entries and ends the contacts that came apart. BEYOND: for laws that hold

@@ -21,7 +21,8 @@ use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
     Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
 };
-use crate::lanes::{self, Kernel, Lane, Shared, Width, prefetch, vector};
+use crate::lanes::{self, Kernel, Lane, Shared, Width, vector};
+use crate::memory::prefetch;
 use crate::state::Row;
 use std::marker::PhantomData;
 

@@ -11,7 +11,8 @@ use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, 
 use crate::batches::{CoefficientTable, Partners, SpherePair};
 use crate::contact::{Contact, Law, Needs, Response};
 use crate::dual::Dual;
-use crate::lanes::{self, Lane, Shared};
+use crate::lanes::{Lane, Shared};
+use crate::memory::prefetch;
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
@@ -263,15 +264,14 @@ impl Bodies for Pairs<'_> {
     }
 
     fn prefetch(&self, slots: Range<usize>, needs: Needs) {
-        let (force, torque) = (self.force.pointer(), self.torque.pointer());
         // A line of the cache holds two rows.
         for slot in slots.step_by(2) {
-            lanes::prefetch(self.position.as_ptr().wrapping_add(slot));
-            lanes::prefetch(self.velocity.as_ptr().wrapping_add(slot));
-            lanes::prefetch(force.wrapping_add(slot));
+            prefetch(self.position.as_ptr().wrapping_add(slot));
+            prefetch(self.velocity.as_ptr().wrapping_add(slot));
+            prefetch(self.force.pointer().wrapping_add(slot));
             if needs.torque {
-                lanes::prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
-                lanes::prefetch(torque.wrapping_add(slot));
+                prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+                prefetch(self.torque.pointer().wrapping_add(slot));
             }
         }
     }

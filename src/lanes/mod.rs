@@ -122,16 +122,6 @@ pub fn columns<N: Number>(vector: Vector<N>) -> [N; 4] {
     [vector.x, vector.y, vector.z, N::zero()]
 }
 
-/// Tells the processor, if it can be told, that an address will be needed soon.
-#[inline(always)]
-pub fn prefetch<T>(_place: *const T) {
-    #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch of any place does no harm.
-    unsafe {
-        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(_place.cast());
-    }
-}
-
 /// Which of eight numbers are equal to another, a bit for each, the first one lowest.
 #[inline(always)]
 pub fn equal(numbers: &[u32; 8], wanted: u32) -> u32 {

@@ -103,6 +103,9 @@ pub trait Features: Debug + Send + Sync {
         false
     }
 
+    /// Asks the memory for what a look at these features needs, so that it is there soon.
+    fn prefetch(&self, _features: &[u32]) {}
+
     /// Whether the history of a contact passes from one feature to another.
     fn meet(&self, one: u32, other: u32) -> bool;
 

@@ -1,5 +1,6 @@
 //! A triangle as the search for feet wants it: all numbers side by side.
 
+use crate::memory::prefetch;
 use crate::number::Vector;
 
 /// What rounding may take from a distance, with room.
@@ -67,6 +68,12 @@ impl Face {
         let normal = unit((b - a).cross(c - a));
         let outwards = [b - a, c - b, a - c].map(|way| unit(way.cross(normal)));
         Self { corner: a, normal, outwards, second: outwards[1].dot(b - a) }
+    }
+
+    /// Asks the memory for both of its lines.
+    pub(super) fn prefetch(&self) {
+        prefetch(&raw const *self);
+        prefetch(&raw const self.second);
     }
 
     /// Height of a centre over the plane of the triangle \[m\].

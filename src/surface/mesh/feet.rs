@@ -132,6 +132,11 @@ impl Features for Mesh {
         is_over
     }
 
+    fn prefetch(&self, features: &[u32]) {
+        let faces = features.iter().filter_map(|feature| self.faces.get(feature.checked_sub(self.face(0))? as usize));
+        faces.for_each(|face| face.prefetch());
+    }
+
     fn meet(&self, one: u32, other: u32) -> bool {
         let ends = self.vertices_of(one);
         self.vertices_of(other).iter().any(|vertex| ends.contains(vertex))
@@ -153,7 +158,7 @@ impl Mesh {
 
     /// The feet on these parts where some are on edges and vertices, or near them.
     #[inline(never)]
-    fn feet_at_bends(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
+    pub(super) fn feet_at_bends(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
         let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
             let normal = apart * (1.0 / distance);
             Foot { feature, distance, normal, weight, behind: false }
@@ -253,106 +258,6 @@ impl Mesh {
             if let ([(one, x), (other, y)], 2) = (faces, count) {
                 feet.add_saddle(bend.feature, [one, other], [x, y]);
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::rotation;
-    use crate::quantity::MaterialIndex;
-    use crate::surface::mesh::topology::Topology;
-
-    /// A block of n × n × 1 squares of two triangles each, turned and rounded to single precision as an STL file would; or,
-    /// without `closed`, its lid alone, with a slot in it.
-    fn block(n: u32, closed: bool) -> Mesh {
-        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
-        let at = |corner: [f64; 3]| turn.turn(Vector::from(corner)).to_array().map(|part| f64::from(part as f32));
-        let mut triangles = Vec::new();
-        let mut square = |corners: [[f64; 3]; 4]| {
-            let [a, b, c, d] = corners.map(at);
-            triangles.extend([[a, b, c], [a, c, d]]);
-        };
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let [x, y] = [f64::from(i), f64::from(j)];
-            if closed {
-                square([[x, y, 0.0], [x, y + 1.0, 0.0], [x + 1.0, y + 1.0, 0.0], [x + 1.0, y, 0.0]]);
-            } else if (i, j) == (n / 2, n / 2) {
-                continue;
-            }
-            square([[x, y, 1.0], [x + 1.0, y, 1.0], [x + 1.0, y + 1.0, 1.0], [x, y + 1.0, 1.0]]);
-        }
-        for i in (0..n).filter(|_| closed) {
-            let (x, end) = (f64::from(i), f64::from(n));
-            square([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 0.0, 1.0], [x, 0.0, 1.0]]);
-            square([[x + 1.0, end, 0.0], [x, end, 0.0], [x, end, 1.0], [x + 1.0, end, 1.0]]);
-            square([[0.0, x + 1.0, 0.0], [0.0, x, 0.0], [0.0, x, 1.0], [0.0, x + 1.0, 1.0]]);
-            square([[end, x, 0.0], [end, x + 1.0, 0.0], [end, x + 1.0, 1.0], [end, x, 1.0]]);
-        }
-        let topology = Topology::of(&triangles).unwrap_or_else(|triangle| panic!("triangle {triangle}"));
-        Mesh::of(MaterialIndex(0), topology, None)
-    }
-
-    #[test]
-    fn feet_inside_of_flat_patches_are_those_of_the_whole_rule() {
-        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
-        for (closed, flat) in [(true, 3 * 2 * (3 * 3 * 2 + 4 * 3) - 2 * (12 + 12 + 4)), (false, 3 * 16 - 12 - 4)] {
-            let mesh = block(3, closed);
-            assert_eq!(mesh.flat.edges.iter().map(|bits| bits.count_ones()).sum::<u32>(), flat);
-            let parts: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-            let (mut quick, mut whole, mut met, mut flat) = (Feet::default(), Feet::default(), 0, 0);
-            for number in 0..20_000_u32 {
-                // Places as even as those of a lattice, none of which is like another.
-                let part = |ratio: f64| (f64::from(number) * ratio).fract();
-                let place =
-                    [part(0.754_877_67) * 4.0 - 0.5, part(0.569_840_29) * 4.0 - 0.5, part(0.430_159_71) * 2.0 - 0.5];
-                let (centre, radius) = (turn.turn(Vector::from(place)), 0.1 + 0.7 * part(0.618_033_99));
-                quick.clear();
-                whole.clear();
-                mesh.feet(centre, radius, &parts, &mut quick);
-                mesh.feet_at_bends(centre, radius, &parts, &mut whole);
-                assert_eq!(quick.list, whole.list, "{place:?}, radius {radius}");
-                assert_eq!(quick.saddles, whole.saddles);
-                met += usize::from(!whole.list.is_empty());
-                flat += usize::from(whole.list.len() == 1);
-            }
-            assert!(met > 5000 && flat > 2000, "{met} {flat}");
-        }
-    }
-
-    #[test]
-    fn one_triangle_of_a_plane_tells_what_all_of_them_do() {
-        let turn = rotation::orientation(Vector::new(0.3, -0.5, 0.2));
-        for closed in [true, false] {
-            let mesh = block(7, closed);
-            let [mut planes, mut told, mut touched] = [0; 3];
-            let (mut quick, mut whole, mut parts) = (Feet::default(), Feet::default(), Vec::new());
-            for number in 0..20_000_u32 {
-                let part = |ratio: f64| (f64::from(number) * ratio).fract();
-                let place = [part(0.754_877_67) * 7.0, part(0.569_840_29) * 7.0, 0.5 + part(0.430_159_71)];
-                let (centre, radius, skin) = (turn.turn(Vector::from(place)), 0.2 + 0.4 * part(0.618_033_99), 0.1);
-                parts.clear();
-                mesh.near(centre, radius + skin, &mut parts);
-                if parts.is_empty() || !mesh.is_plane(centre, radius + skin, &parts) {
-                    continue;
-                }
-                planes += 1;
-                // Wherever it goes until parts are looked for again, and whichever of them it has touched before.
-                let way = [0.33, 0.21, 0.47].map(|ratio| (part(ratio) - 0.5) * skin);
-                let (centre, last) = (centre + turn.turn(Vector::from(way)), parts[number as usize % parts.len()]);
-                quick.clear();
-                whole.clear();
-                if mesh.feet_on_plane(centre, radius, &parts, Some(mesh.face(last)), &mut quick) {
-                    told += 1;
-                    mesh.feet_at_bends(centre, radius, &parts, &mut whole);
-                    assert_eq!(quick.list, whole.list, "{place:?}, radius {radius}");
-                    touched += quick.list.len();
-                } else {
-                    assert!(quick.list.is_empty());
-                }
-            }
-            assert!(planes > 5000 && told > 2000 && touched > 1000, "{planes} {told} {touched}");
         }
     }
 }

@@ -4,6 +4,8 @@ mod edge;
 mod face;
 mod faults;
 mod feet;
+#[cfg(test)]
+mod feet_tests;
 mod files;
 mod keys;
 mod nodes;

@@ -51,6 +51,8 @@ impl AtSurface {
             [slots.start, slots.end].map(|end| list.particle.partition_point(|&slot| (slot as usize) < end));
         let entries = work.entries[self.index].from(from, &mut []);
         let past = Past { particle: &list.particle[from..to], feature: &list.feature[from..to], entries };
+        // Triangles lie all over the memory; those that were touched are most of what is looked at first.
+        at.features.prefetch(past.feature);
         contacts.clear(self.kept_rows);
         self.find(&at, list, &work.particles, slots, &past, contacts);
         contacts.complete(&past, from..to, self.kept_rows);
