@@ -4,6 +4,7 @@ use cograin::contact::cohesion::CohesionChoice;
 use cograin::contact::normal::NormalChoice;
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
+use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::state::BoundaryState;
@@ -428,5 +429,8 @@ fn contacts_that_are_about_to_touch_or_to_slide_are_near_a_switch() {
         simulation.advance(1.0e-5).unwrap();
         simulation.advance(1.0e-5).unwrap();
         assert_eq!(simulation.contacts_near_switch(), expected, "overlap {overlap}, way {way}");
+        let interface = Interface::of(simulation.scene());
+        let output = interface.find("contacts.near_switch").expect("the scene asks for it");
+        assert_eq!(interface.value(&simulation, output), Value::Integer(i32::try_from(expected).unwrap()));
     }
 }

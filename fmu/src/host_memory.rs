@@ -80,6 +80,11 @@ impl<T: Copy> Items<T> {
         Ok(Self { start, length })
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.length
+    }
+
     /// The items.
     pub(crate) fn iter(self) -> impl Iterator<Item = T> {
         // SAFETY: inside what may be read.

@@ -349,28 +349,30 @@ impl Instance {
 
     /// Values of variables of one type.
     pub(crate) fn values(&mut self, references: Items<Reference>, kind: &'static str) -> Result<&[Value], Refusal> {
-        for reference in references.iter() {
-            self.variable(reference, kind)?;
+        if !self.course.placed {
+            for reference in references.iter() {
+                self.variable(reference, kind)?;
+            }
+            self.place()?;
         }
-        self.place()?;
+        let whole = ["Real", "Integer"].iter().position(|&known| known == kind).map(|place| place == 1);
         let mut values = std::mem::take(&mut self.values);
         values.clear();
+        values.reserve(references.len());
         for reference in references.iter() {
-            values.push(self.value(reference, kind)?);
+            let index = reference as usize;
+            if whole.is_none() || self.unit.interface.is_whole(index) != whole {
+                self.variable(reference, kind)?;
+            }
+            let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
+            if !value.number().is_finite() {
+                let name = self.unit.interface.variables()[index].name.clone();
+                return Err(Refusal::NoNumber { reference, name, value: value.number() });
+            }
+            values.push(value);
         }
         self.values = values;
         Ok(&self.values)
-    }
-
-    /// Value of one variable, if it is a number.
-    fn value(&self, reference: Reference, kind: &'static str) -> Result<Value, Refusal> {
-        let (index, variable) = self.variable(reference, kind)?;
-        let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
-        if value.number().is_finite() {
-            Ok(value)
-        } else {
-            Err(Refusal::NoNumber { reference, name: variable.name.clone(), value: value.number() })
-        }
     }
 
     /// `fmi2SetReal` and `fmi2SetInteger`: all or nothing.
@@ -423,7 +425,7 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetRealInputDerivatives`: all or nothing.
+    /// `fmi2SetRealInputDerivatives`, of order 1, or 2 where the motion is quadratic: all or nothing.
     pub(crate) fn set_rates(
         &mut self,
         references: Items<Reference>,
@@ -432,13 +434,23 @@ impl Instance {
     ) -> Result<(), Refusal> {
         for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
-            if order != 1 {
-                return Err(Refusal::Order { order, reference, name: variable.name.clone() });
+            match order {
+                1 => self.unit.interface.check_rate(index, rate)?,
+                2 => drop(self.unit.interface.check_acceleration(&self.unit.scene, index, rate)?),
+                _ => {
+                    let right = "order 1, or order 2 of quadratic motion,";
+                    return Err(Refusal::Order { order, right, reference, name: variable.name.clone() });
+                }
             }
-            self.unit.interface.check_rate(index, rate)?;
         }
-        for (reference, rate) in references.iter().zip(rates.iter()) {
-            self.unit.interface.set_rate(&mut self.simulation, reference as usize, rate)?;
+        for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
+            let (interface, index) = (&self.unit.interface, reference as usize);
+            if order == 1 {
+                interface.set_rate(&mut self.simulation, index, rate)?;
+            } else {
+                let (boundary, axis) = interface.check_acceleration(&self.unit.scene, index, rate)?;
+                self.simulation.set_input_acceleration(boundary, axis, rate);
+            }
         }
         Ok(())
     }
@@ -476,7 +488,7 @@ impl Instance {
         for (reference, order) in references.iter().zip(orders.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
             if order != 1 {
-                return Err(Refusal::Order { order, reference, name: variable.name.clone() });
+                return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
             }
             rates.push(self.unit.interface.rate(&mut self.simulation, &mut self.derivatives, index)?);
         }
@@ -547,16 +559,16 @@ impl Instance {
     pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
         let Kept { saved, .. } = self.kept.get(&address).ok_or(Refusal::Handle)?;
         let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(saved)?) };
-        let simulation = other.as_ref().map_or(&self.simulation, |begun| &begun.simulation);
-        simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
         let course = saved.course;
+        // Kept states are those of this instance, or were checked as they came in; a simulation made anew has not seen them yet.
         if let Some(begun) = other {
+            begun.simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
             self.given.clone_from(&begun.given);
             self.take(begun);
         }
         self.given.clone_from(&self.made_with);
         self.changed();
-        self.simulation.restore(&self.kept[&address].saved.state).map_err(|fault| BlobError::State(fault.into()))?;
+        self.simulation.return_to(&self.kept[&address].saved.state);
         self.course = course;
         Ok(())
     }

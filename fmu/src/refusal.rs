@@ -59,10 +59,12 @@ pub(crate) enum Refusal {
         value: f64,
     },
     /// A derivative of an order that is not taken.
-    #[error("order {order} for {reference} ({name}); order 1 is right")]
+    #[error("order {order} for {reference} ({name}); {right} is right")]
     Order {
         /// The order.
         order: i32,
+        /// What would be right.
+        right: &'static str,
         /// The variable's value reference.
         reference: u32,
         /// Its name.

@@ -160,7 +160,7 @@ pub unsafe extern "C" fn fmi2SetString(
     unsafe { refuse_to_set(component, &calls::SET_STRING, "String", (references, count, values)) }
 }
 
-/// `fmi2SetRealInputDerivatives`: order 1.
+/// `fmi2SetRealInputDerivatives`: order 1, and 2 of quadratic motion.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     component: Component,

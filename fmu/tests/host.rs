@@ -205,7 +205,12 @@ impl<'a> Host<'a> {
 
     /// Sets the rate of an input.
     pub(super) fn set_rate(&self, name: &str, rate: f64) -> Status {
-        let (reference, order) = (self.unit.reference(name), 1);
+        self.set_derivative(name, 1, rate)
+    }
+
+    /// Sets a derivative of an input.
+    pub(super) fn set_derivative(&self, name: &str, order: i32, rate: f64) -> Status {
+        let reference = self.unit.reference(name);
         // SAFETY: one reference, order and rate.
         unsafe {
             fmi2SetRealInputDerivatives(self.component, &raw const reference, 1, &raw const order, &raw const rate)

@@ -1,9 +1,10 @@
 //! Wrong values are refused by name, nothing changes, and the instance goes on.
 
-use super::host::{Host, Unpacked};
+use super::host::{Host, Unpacked, source};
 use crate::types::Status;
 use crate::values::*;
 use crate::*;
+use cograin::scene::Source;
 
 #[test]
 fn a_value_that_is_no_number_is_refused_by_name() {
@@ -76,16 +77,27 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
 }
 
 #[test]
-fn only_first_derivatives_are_taken() {
+fn second_derivatives_are_those_of_quadratic_motion() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
-    let (reference, order, rate) = (unit.reference("floor.displacement.z"), 2, 0.1);
-    // SAFETY: one reference, order and rate.
-    let status = unsafe {
-        fmi2SetRealInputDerivatives(host.component, &raw const reference, 1, &raw const order, &raw const rate)
-    };
-    host.refused(status, &["order 2", "floor.displacement.z", "order 1 is right"]);
+    host.refused(host.set_derivative("floor.displacement.z", 2, 0.1), &["order 2", "floor.displacement.z", "order 1"]);
     host.refused(host.set_rate("floor.force.z", 0.1), &["only inputs and parameters may be set"]);
+
+    let text = source().text.replace("[boundary.floor]\n", "[boundary.floor]\ninput = \"quadratic\"\n");
+    let unit = Unpacked::of(&Source { text, ..source() }, "bent");
+    let host = Host::started(&unit);
+    let (length, acceleration) = (1.0e-3, 8.0);
+    host.refused(
+        host.set_derivative("floor.displacement.z", 3, 0.1),
+        &["order 3", "order 1, or order 2 of quadratic motion, is right"],
+    );
+    host.refused(host.set_derivative("grip.displacement.z", 2, 0.1), &["order 2", "quadratic"]);
+    host.refused(host.set_derivative("floor.displacement.z", 2, f64::NAN), &["floor.displacement.z", "NaN"]);
+    assert_eq!(host.set("floor.displacement.z", 1.0e-5), Status::Ok);
+    assert_eq!(host.set_derivative("floor.displacement.z", 2, acceleration), Status::Ok);
+    assert_eq!(host.step(0.0, length), Status::Ok);
+    assert_eq!(host.get("floor.displacement.z"), 1.0e-5 + (0.5 * acceleration * length) * length);
+    assert!(host.get("floor.force_slope.z") < 0.0, "the floor pushes ever more");
 }
 
 #[test]

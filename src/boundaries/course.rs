@@ -28,17 +28,20 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
                 moved.start[axis] = moved.target[axis];
             }
             moved.end[axis] = end_of(boundary, moved, axis, interval);
-            moved.target[axis] += moved.target_rate[axis] * interval;
+            moved.target[axis] += change(moved, axis, interval);
         }
         if boundary.axes[3..].iter().filter(|motion| motion.takes_velocity()).count() > 1 {
             let there = rotation::orientation(turn.into()) * Quaternion::from(moved.orientation);
             moved.end[3..].copy_from_slice(&rotation::vector_near(there, moved.rotation.into()).to_array());
         }
+        // Others than those of quadratic motion are given none.
+        moved.acceleration = std::mem::take(&mut moved.target_acceleration);
         moved.target_rate = [0.0; 6];
         moved.start_orientation = moved.orientation;
         moved.turn = turn;
         moved.fastest = fastest(boundary, moved, interval);
         moved.impulse = [0.0; 3];
+        moved.first_moment = [0.0; 3];
         moved.angular_impulse = [0.0; 3];
     }
     Ok(())
@@ -48,8 +51,14 @@ pub(crate) fn begin(scene: &Scene, state: &mut State, interval: f64) -> Result<(
 fn end_of(boundary: &Boundary, moved: &BoundaryState, axis: usize, interval: f64) -> f64 {
     match boundary.axes[axis].takes_velocity() {
         true => moved.start[axis] + mean_velocity(moved, axis, interval) * interval,
-        false => moved.target[axis] + moved.target_rate[axis] * interval,
+        false => moved.target[axis] + change(moved, axis, interval),
     }
+}
+
+/// How far an input goes on in a communication step of `interval` \[s\] by the derivatives that were given, in its unit.
+fn change(moved: &BoundaryState, axis: usize, interval: f64) -> f64 {
+    let bend = moved.target_acceleration.get(axis).map_or(0.0, |acceleration| 0.5 * acceleration * interval);
+    (moved.target_rate[axis] + bend) * interval
 }
 
 /// The mean of a velocity that is given, over a communication step of `interval` \[s\] \[m/s, rad/s\].
@@ -118,6 +127,7 @@ pub(crate) fn end(state: &mut State, elapsed: f64) {
     }
     for boundary in &mut state.boundaries {
         boundary.mean_force = boundary.impulse.map(|impulse| impulse / elapsed);
+        boundary.force_slope = boundary.first_moment.map(|moment| 12.0 * moment / (elapsed * elapsed * elapsed));
         boundary.mean_moment = boundary.angular_impulse.map(|impulse| impulse / elapsed);
     }
 }
@@ -192,7 +202,8 @@ pub(crate) fn advance(
                 continue;
             }
             let (start, target, course) = (moved.start[axis], moved.end[axis], boundary.input);
-            let whole = motion::Way { start, target, before: before[axis], course };
+            let acceleration = moved.acceleration[axis];
+            let whole = motion::Way { start, target, before: before[axis], course, acceleration };
             if let Some([displacement, velocity]) = boundary.axes[axis].lead(&whole, &progress) {
                 (moved.displacement[axis], moved.velocity[axis]) = (displacement, velocity);
             }
@@ -281,7 +292,7 @@ fn drive_turn(moved: &mut BoundaryState, course: InputCourse, progress: Progress
     let turned = whole * (share - before);
     moved.angular_velocity = match course {
         InputCourse::Ramp => whole * (1.0 / progress.length),
-        InputCourse::Smooth => turned * (1.0 / progress.step),
+        InputCourse::Smooth | InputCourse::Quadratic => turned * (1.0 / progress.step),
         InputCourse::Hold => Vector::zero(),
     }
     .to_array();

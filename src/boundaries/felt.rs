@@ -1,6 +1,7 @@
 //! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
 
 use super::course::Way;
+use crate::motion::{InputCourse, Progress};
 use crate::number::Vector;
 use crate::scene::Scene;
 use crate::state::{BoundaryState, State};
@@ -47,7 +48,8 @@ pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
 
 /// Books impulse and work of a time step: the kicks of both its halves, times the way. Free axes do no work, and what
 /// crosses them stays inside.
-pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Way], step: f64) {
+pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Way], progress: &Progress) {
+    let step = progress.step;
     let moves = before.iter().zip(ways).zip(&scene.boundaries);
     for (moved, ((felt, way), boundary)) in state.boundaries.iter_mut().zip(moves) {
         let Felt { force, moment, conveying_power } = felt;
@@ -55,6 +57,9 @@ pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Wa
         for axis in 0..3 {
             let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
             moved.impulse[axis] += impulse;
+            if boundary.input == InputCourse::Quadratic {
+                moved.first_moment[axis] += impulse * progress.from_the_middle();
+            }
             if !boundary.axes[axis].is_free() {
                 moved.total_impulse[axis] += impulse;
             }

@@ -63,7 +63,7 @@ fn lead(nodes: &mut Nodes, before: &[Row], course: InputCourse, progress: &Progr
             place[axis] = if progress.is_last() { end[axis] } else { start[axis] + way * share };
             velocity[axis] = match course {
                 InputCourse::Ramp => way / progress.length,
-                InputCourse::Smooth => (place[axis] - before[axis]) / progress.step,
+                InputCourse::Smooth | InputCourse::Quadratic => (place[axis] - before[axis]) / progress.step,
                 InputCourse::Hold => 0.0,
             };
         }

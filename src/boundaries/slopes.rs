@@ -71,7 +71,7 @@ fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, axis: usize, progress:
     for direction in 0..DIRECTIONS {
         let (target, before) = (slopes.end[axis][direction], slopes.displacement[axis][direction]);
         if motion.is_driven() {
-            let way = Way { start: 0.0, target, before, course: boundary.input };
+            let way = Way { start: 0.0, target, before, course: boundary.input, acceleration: 0.0 };
             if let Some([displacement, velocity]) = motion.lead(&way, progress) {
                 slopes.displacement[axis][direction] = displacement;
                 slopes.velocity[axis][direction] = velocity;
@@ -92,7 +92,7 @@ fn turn(boundary: &Boundary, moved: &BoundaryState, slopes: &mut BoundarySlopes,
     slopes.orientation = Dual::slopes_of(on_the_way.to_row());
     let rate = match course {
         InputCourse::Ramp => 1.0 / progress.length,
-        InputCourse::Smooth => (share - before) / progress.step,
+        InputCourse::Smooth | InputCourse::Quadratic => (share - before) / progress.step,
         InputCourse::Hold => 0.0,
     };
     slopes.angular_velocity = slopes.turn.map(|turn| turn.map(|slope| slope * rate));

@@ -8,16 +8,19 @@ mod findings;
 mod losses;
 mod parameters;
 mod quantity;
+mod reader;
 mod rows;
 
 pub use derivatives::Derivatives;
 pub use findings::Findings;
 pub use quantity::Quantity;
 
-use crate::scene::{self, Scene, SceneErrors};
+use crate::quantity::BoundaryIndex;
+use crate::scene::{self, InputCourse, Scene, SceneErrors};
 use crate::state::State;
 use crate::step::{NoDerivative, Simulation, TuneError};
 use parameters::Parameter;
+use reader::Reader;
 use rows::Present;
 use std::collections::BTreeMap;
 
@@ -157,6 +160,17 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
+    /// An input that has no second derivative.
+    #[error(
+        "order 2 for {index} ({name}); order 1, or the displacement along an axis of a boundary with input = \"quadratic\", is \
+         right"
+    )]
+    NoAcceleration {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
     /// A parameter that can no longer be changed.
     #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
     Fixed {
@@ -206,6 +220,8 @@ pub enum InterfaceError {
 pub struct Interface {
     /// The table.
     variables: Vec<Variable>,
+    /// How each is read.
+    readers: Vec<Reader>,
 }
 
 impl Interface {
@@ -213,7 +229,8 @@ impl Interface {
     pub fn of(scene: &Scene) -> Self {
         let mut variables = rows::variables(scene);
         variables.extend(parameters::variables(scene));
-        Self { variables }
+        let readers = variables.iter().map(Reader::of).collect();
+        Self { variables, readers }
     }
 
     /// The same variables, with the start values of a scene that begins in this state.
@@ -269,10 +286,18 @@ impl Interface {
 
     /// The same for several values: results found for one value are used again for the others.
     pub fn value_with(&self, simulation: &Simulation, findings: &Findings, index: usize) -> Value {
+        if let Reader { read: Some(read), at, .. } = self.readers[index] {
+            return read(Present { simulation, findings }, at);
+        }
         match &self.variables[index].source {
             Source::Row(rows::Source { row, at }) => (row.read)(Present { simulation, findings }, *at),
             Source::Parameter(parameter) => parameter.value(simulation),
         }
+    }
+
+    /// Whether the variable at an index is a whole number; nothing where there is no such variable.
+    pub fn is_whole(&self, index: usize) -> Option<bool> {
+        self.readers.get(index).map(|reader| reader.whole)
     }
 
     /// Whether the variable at an index may be set to a value.
@@ -346,6 +371,29 @@ impl Interface {
             (write.set_rate)(simulation, at, rate);
         }
         Ok(())
+    }
+}
+
+impl Interface {
+    /// The axis along which the variable at an index takes a second derivative: only quadratic motion has one.
+    pub fn check_acceleration(
+        &self,
+        scene: &Scene,
+        index: usize,
+        acceleration: f64,
+    ) -> Result<(BoundaryIndex, usize), InterfaceError> {
+        self.check_rate(index, acceleration)?;
+        let variable = self.variable(index)?;
+        let axis = match &variable.source {
+            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => (write.axis)(*at),
+            _ => None,
+        };
+        let quadratic = |&(boundary, axis): &(BoundaryIndex, usize)| {
+            let boundary = &scene.boundaries[boundary.index()];
+            boundary.input == InputCourse::Quadratic && axis < 3 && boundary.axes[axis].takes_place()
+        };
+        let refused = || InterfaceError::NoAcceleration { index, name: variable.name.clone() };
+        axis.filter(quadratic).ok_or_else(refused)
     }
 }
 

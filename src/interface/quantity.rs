@@ -57,6 +57,8 @@ quantities! {
     AngularVelocity Some("rad/s"), 0 0 -1 1;
     /// \[N\]
     Force Some("N"), 1 1 -2 0;
+    /// \[N/s\]
+    ForceRate Some("N/s"), 1 1 -3 0;
     /// Moment of forces \[N m\]
     Torque Some("N.m"), 1 2 -2 0;
     /// Mean square of velocities \[m²/s²\]

@@ -13,13 +13,16 @@ pub enum InputCourse {
     Smooth,
     /// At once, in the first time step of the communication step.
     Hold,
+    /// At the constant acceleration that the outside gives, arriving at the end of the step; it is then asked how the force
+    /// changed on the way.
+    Quadratic,
 }
 
 impl InputCourse {
     /// Which share of its way a driven axis has gone after a share of the time.
     fn at(self, share: f64) -> f64 {
         match self {
-            Self::Ramp => share,
+            Self::Ramp | Self::Quadratic => share,
             Self::Smooth => share * share * (3.0 - 2.0 * share),
             Self::Hold => 1.0,
         }
@@ -32,7 +35,7 @@ impl InputCourse {
         match self {
             // One that holds its new place jumps there: no speed of its own.
             Self::Hold => 0.0,
-            Self::Ramp => 1.0,
+            Self::Ramp | Self::Quadratic => 1.0,
             // The slope of 3 s² − 2 s³ at its middle.
             Self::Smooth => 1.5,
         }
@@ -73,6 +76,12 @@ impl Progress {
             return 0.0;
         }
         course.at(self.share_of_time(self.done.saturating_sub(1)))
+    }
+
+    /// Time from the middle of the communication step to that of the present time step \[s\].
+    pub(crate) fn from_the_middle(&self) -> f64 {
+        let (before, after) = (self.share_of_time(self.done.saturating_sub(1)), self.share_of_time(self.done));
+        0.5 * (before + after - 1.0) * self.length
     }
 
     /// The share of the time that has passed after so many time steps.

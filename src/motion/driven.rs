@@ -15,11 +15,18 @@ impl Motion for Driven {
     }
 
     fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        let Way { start, target, before, course } = *way;
-        let displacement = if progress.is_last() { target } else { start + (target - start) * progress.share(course) };
+        let Way { start, target, before, course, .. } = *way;
+        let share = progress.share(course);
+        let bent = match course {
+            InputCourse::Quadratic => {
+                0.5 * way.acceleration * progress.length * progress.length * share * (1.0 - share)
+            }
+            InputCourse::Ramp | InputCourse::Smooth | InputCourse::Hold => 0.0,
+        };
+        let displacement = if progress.is_last() { target } else { start + (target - start) * share - bent };
         let velocity = match course {
             InputCourse::Ramp => (target - start) / progress.length,
-            InputCourse::Smooth => (displacement - before) / progress.step,
+            InputCourse::Smooth | InputCourse::Quadratic => (displacement - before) / progress.step,
             InputCourse::Hold => 0.0,
         };
         Some([displacement, velocity])

@@ -93,6 +93,8 @@ pub(crate) struct Way {
     pub before: f64,
     /// In which way it moves there.
     pub course: InputCourse,
+    /// Its acceleration on the way, where its course has one \[m/s²\].
+    pub acceleration: f64,
 }
 
 /// Which variables of an axis the host sees.

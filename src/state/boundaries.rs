@@ -28,6 +28,10 @@ pub struct BoundaryState {
     pub target: [f64; 6],
     /// Rates of the inputs at the start of the communication step; 0 where none was given.
     pub target_rate: [f64; 6],
+    /// Second derivatives of the inputs along x, y, z; 0 where none was given \[m/s²\].
+    pub target_acceleration: [f64; 3],
+    /// Accelerations along x, y, z in the present communication step, where its motion is quadratic \[m/s²\].
+    pub acceleration: [f64; 3],
     /// Orientation when the present communication step began.
     pub start_orientation: Orientation,
     /// Rotation vector from there to its end \[rad\].
@@ -46,10 +50,15 @@ pub struct BoundaryState {
     pub conveying_power: f64,
     /// Sum of the half-kick impulses of the present communication step \[N s\].
     pub impulse: [f64; 3],
+    /// Sum of the same impulses times the time from the middle of the communication step to each \[N s²\]; 0 unless the motion is
+    /// quadratic.
+    pub first_moment: [f64; 3],
     /// Sum of the half-kick angular impulses of the present communication step \[N m s\].
     pub angular_impulse: [f64; 3],
     /// Mean force over the last communication step \[N\].
     pub mean_force: [f64; 3],
+    /// Slope of the straight line through the force over the last communication step, from its first moment \[N/s\].
+    pub force_slope: [f64; 3],
     /// Mean moment over the last communication step \[N m\].
     pub mean_moment: [f64; 3],
     /// Impulse since time 0 along axes that are not free, for the momentum balance \[N s\].

@@ -478,6 +478,7 @@ impl BoundaryState {
         } = self;
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
+        let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -492,6 +493,10 @@ impl BoundaryState {
             mean_force,
             mean_moment,
             total_impulse,
+            target_acceleration,
+            acceleration,
+            first_moment,
+            force_slope,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,

@@ -4,6 +4,7 @@
 //! contacts, stick and slip, as they were.
 
 use super::Simulation;
+use super::way_back::Given;
 use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
 use crate::dual::{DIRECTIONS, Dual, Slopes};
@@ -57,8 +58,7 @@ impl Simulation {
     /// kept; before it is found by making up to 64 time steps again.
     pub fn derivatives(&mut self, inputs: &[(BoundaryIndex, usize)]) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
         refuse(&self.scene)?;
-        let given: Vec<[[f64; 6]; 2]> =
-            self.state.boundaries.iter().map(|boundary| [boundary.target, boundary.target_rate]).collect();
+        let given: Vec<Given> = self.state.boundaries.iter().map(Given::of).collect();
         let stop = self.stop.take();
         let length = self.return_to_last();
         let mut found = Err(NoDerivative::NoStep);
@@ -75,9 +75,7 @@ impl Simulation {
                 found = Ok(tangent.boundaries.iter().map(|slopes| told(slopes, length)).collect());
             }
         }
-        for (boundary, [target, rate]) in self.state.boundaries.iter_mut().zip(given) {
-            (boundary.target, boundary.target_rate) = (target, rate);
-        }
+        self.state.boundaries.iter_mut().zip(given).for_each(|(boundary, given)| given.give_to(boundary));
         self.stop = stop;
         found
     }

@@ -224,13 +224,18 @@ impl Simulation {
     /// there bit for bit.
     pub fn restore(&mut self, state: &State) -> Result<(), StateFault> {
         self.check(state)?;
+        self.return_to(state);
+        Ok(())
+    }
+
+    /// Goes back to a state that this simulation was in, or one that has been checked: it is not looked at again.
+    pub fn return_to(&mut self, state: &State) {
         self.way_back.forget();
         let same = self.state.coefficients == state.coefficients && self.state.tuned == state.tuned;
         self.state.clone_from(state);
         if !same {
             self.take_coefficients();
         }
-        Ok(())
     }
 
     /// Uses this lane width from now on. Every width gives the same bits.
@@ -288,6 +293,9 @@ impl Simulation {
         let boundary = &mut self.state.boundaries[boundary.index()];
         boundary.target[axis] = value;
         boundary.target_rate[axis] = 0.0;
+        if let Some(acceleration) = boundary.target_acceleration.get_mut(axis) {
+            *acceleration = 0.0;
+        }
     }
 
     /// Sets where a node of a mesh, by its number from 0, is to be at the end of the next interval, along x, y or z \[m\].
@@ -308,6 +316,12 @@ impl Simulation {
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval.
     pub fn set_input_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
+    }
+
+    /// The second derivative of that value over the next interval, along x, y or z: the axis then moves at this acceleration, and ends
+    /// at the value plus rate × interval + ½ acceleration × interval² \[m/s²\].
+    pub fn set_input_acceleration(&mut self, boundary: BoundaryIndex, axis: usize, acceleration: f64) {
+        self.state.boundaries[boundary.index()].target_acceleration[axis] = acceleration;
     }
 
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end.
@@ -437,7 +451,7 @@ impl Simulation {
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
         self.done("kick");
-        felt::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, step);
+        felt::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, &progress);
         nodes::book(&mut self.state, &self.room.nodes, step);
         for axis in 0..3 {
             self.state.damping_impulse[axis] += 0.5 * step * (damping_before[axis] + self.state.damping_force[axis]);

@@ -54,6 +54,7 @@ impl Simulation {
                 placing::put(moved, axis, given.target[axis]);
                 moved.target_rate[axis] = given.target_rate[axis];
             }
+            moved.target_acceleration = given.target_acceleration;
             let others = |motion: &AxisMotion| motion.takes_force() || motion.takes_velocity();
             for axis in (0..6).filter(|&axis| others(&boundary.axes[axis])) {
                 loads |= moved.target[axis] != given.target[axis];
@@ -79,6 +80,7 @@ impl Simulation {
                 moved.target[axis] = given.target[axis];
                 moved.target_rate[axis] = given.target_rate[axis];
             }
+            moved.target_acceleration = given.target_acceleration;
         }
         for (moved, given) in self.state.nodes.iter_mut().zip(&other.state.nodes) {
             nodes::take_inputs(moved, given);

@@ -5,18 +5,33 @@
 //! same steps give the same bits, so going them again leads to where the failed one began.
 
 use super::{RunError, Simulation};
-use crate::state::{Row, State};
+use crate::state::{BoundaryState, Row, State};
 
 /// Time steps after which a new state is kept: what going back may cost, and what the copy is shared by.
 const MOST_STEPS: u64 = 64;
 
 /// What the outside gave for a communication step.
 #[derive(Clone, Copy, Debug)]
-struct Given {
+pub(super) struct Given {
     /// Values of the axes of a boundary.
     target: [f64; 6],
     /// Their rates.
     rate: [f64; 6],
+    /// Their second derivatives.
+    acceleration: [f64; 3],
+}
+
+impl Given {
+    /// What was given to a boundary.
+    pub(super) fn of(boundary: &BoundaryState) -> Self {
+        Self { target: boundary.target, rate: boundary.target_rate, acceleration: boundary.target_acceleration }
+    }
+
+    /// Gives it again.
+    pub(super) fn give_to(self, boundary: &mut BoundaryState) {
+        (boundary.target, boundary.target_rate) = (self.target, self.rate);
+        boundary.target_acceleration = self.acceleration;
+    }
 }
 
 /// An earlier state and the communication steps since then.
@@ -63,9 +78,7 @@ impl WayBack {
             self.holds = true;
         }
         self.intervals.push(interval);
-        let given =
-            |boundary: &crate::state::BoundaryState| Given { target: boundary.target, rate: boundary.target_rate };
-        self.given.extend(state.boundaries.iter().map(given));
+        self.given.extend(state.boundaries.iter().map(Given::of));
         let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
         self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
         let feeds = state.exchange.iter().flat_map(|exchange| &exchange.feeds);
@@ -102,7 +115,7 @@ impl Simulation {
         for (number, &interval) in way.intervals.iter().enumerate() {
             let count = self.state.boundaries.len();
             for (boundary, given) in self.state.boundaries.iter_mut().zip(&way.given[number * count..]) {
-                (boundary.target, boundary.target_rate) = (given.target, given.rate);
+                given.give_to(boundary);
             }
             let count = self.state.nodes.iter().map(|nodes| nodes.target.len()).sum::<usize>();
             let nodes =

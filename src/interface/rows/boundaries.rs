@@ -3,7 +3,7 @@
 use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
 use crate::interface::{Quantity, Value, Variability};
 use crate::motion::Seen;
-use crate::scene::Scene;
+use crate::scene::{InputCourse, Scene};
 
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
@@ -24,6 +24,11 @@ fn seen(scene: &Scene, at: At, first: usize) -> Seen {
 /// Whether the outside moves it.
 fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
     seen(scene, at, first) == Seen::Input
+}
+
+/// Whether it takes its acceleration, too.
+fn bends(scene: &Scene, at: At) -> bool {
+    scene.boundaries[at.boundary.index()].input == InputCourse::Quadratic
 }
 
 /// Whether its displacement follows from something else than an input of that name.
@@ -60,7 +65,7 @@ fn mass(scene: &Scene, at: At) -> f64 {
 }
 
 /// Variables of each boundary, inputs first.
-pub(super) static OF_BOUNDARIES: [Row; 19] = [
+pub(super) static OF_BOUNDARIES: [Row; 20] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
@@ -201,6 +206,16 @@ pub(super) static OF_BOUNDARIES: [Row; 19] = [
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis]),
         slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis]),
+        ..OF_AXIS
+    },
+    Row {
+        name: "force_slope",
+        description: "slope of the straight line through the force of the particles on {boundary} along {axis} over the last \
+                      communication step: 12 times the first moment of the force about the middle of the step over the cube of \
+                      its length",
+        quantity: Quantity::ForceRate,
+        exists: |scene, at| is_driven(scene, at, 0) && bends(scene, at),
+        read: |now, at| Value::Real(now.boundary(at).force_slope[at.axis]),
         ..OF_AXIS
     },
     Row {

@@ -43,7 +43,7 @@ impl PartialEq for Source {
 /// The variables of a scene, boundary by boundary, then region by region, of what comes, goes and passes, then of the whole.
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
-    let none = At { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
+    let none = At::NOWHERE;
     let of_boundaries = boundaries.flat_map(|boundary| {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
         let of_nodes =

@@ -66,6 +66,11 @@ pub(in crate::interface) struct At {
     pub(super) axis: usize,
 }
 
+impl At {
+    /// That of a variable that is of no row, or of the whole scene.
+    pub(in crate::interface) const NOWHERE: Self = Self { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
+}
+
 /// A simulation, and what has been found of it.
 #[derive(Clone, Copy)]
 pub(in crate::interface) struct Present<'a> {

@@ -11,7 +11,7 @@ use crate::document::Faults;
 use crate::document::Mistake;
 use crate::quantity::MaterialIndex;
 use crate::scene::Source;
-use crate::scene::{AxisMotion, Boundary, NodeMotion};
+use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion};
 use crate::scene_file::tables::BoundaryTable;
 use crate::surface::{Around, Files, Selection, Shape, Surface};
 
@@ -38,6 +38,11 @@ pub(super) fn boundaries(
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
         let input = boundary.input.unwrap_or_default();
+        if input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {
+            let what = format!("quadratic motion of {}", if driven { "nodes" } else { "rotations" });
+            let right = "ramp, smooth or hold; quadratic is for displacements of the whole boundary".to_owned();
+            faults.add(&table, "input", Mistake::Senseless { what, right });
+        }
         let body = body::body(boundary, &axes, (&*shape, reference), &table, faults);
         // What moves and turns by forces does so about its mass centre.
         let reference =

@@ -1,0 +1,26 @@
+//! How variables are read, in little memory: hosts read many thousands of them at a time.
+
+use super::rows::{At, Present, Source as Place};
+use super::{Source, Value, Variable};
+
+/// How one variable is read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reader {
+    /// Reads it; none where it is a parameter.
+    pub(super) read: Option<fn(Present, At) -> Value>,
+    /// Which of the variables of its row it is.
+    pub(super) at: At,
+    /// Whether it is a whole number.
+    pub(super) whole: bool,
+}
+
+impl Reader {
+    /// That of a variable.
+    pub(super) fn of(variable: &Variable) -> Self {
+        let (read, at) = match &variable.source {
+            Source::Row(Place { row, at }) => (Some(row.read), *at),
+            Source::Parameter(_) => (None, At::NOWHERE),
+        };
+        Self { read, at, whole: variable.quantity.unit().is_none() }
+    }
+}
