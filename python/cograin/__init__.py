@@ -3,8 +3,8 @@
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
 `Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An
 `Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit;
-`FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step. `couple` runs both sides and returns a
-`Record`.
+`FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order. `couple`
+runs both sides and returns a `Record`.
 
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
 
@@ -19,6 +19,7 @@ from cograin.mapping import Mapping
 from cograin.nodes import Nodes
 from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
 from cograin.program import Program, ProgramError
+from cograin.quadratic import Quadratic
 from cograin.record import Record, Row
 from cograin.step import Force, Outcome, Step
 from cograin.structure import Modal, Oscillator, Structure
@@ -47,6 +48,7 @@ __all__ = [
     "Partners",
     "Program",
     "ProgramError",
+    "Quadratic",
     "QuasiNewton",
     "Record",
     "Row",

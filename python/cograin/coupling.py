@@ -178,7 +178,7 @@ class Coupling:
         """The partner follows, and the row is written."""
         before = self.partner.displacement
         self.exchange.commit(self.partner, step, outcome)
-        on_partner = float(outcome.partner_force @ (self.partner.displacement - before))
+        on_partner = float(outcome.partner_force @ (self.partner.displacement - before)) + outcome.further_work
         on_units = self._work_on_units()
         self._before, self._force = self._force, outcome.force
         self._lengths = (self._lengths[1], step.length)

@@ -12,7 +12,7 @@ from cograin.exchange import Exchange, Side, Taker
 from cograin.step import Force, Outcome, Step
 from cograin.tolerance import Tolerance
 from cograin.unit import StepDiscarded
-from cograin.vector import Matrix, Vector
+from cograin.vector import Matrix, Vector, vector
 
 
 @dataclass
@@ -86,6 +86,9 @@ class Implicit(Exchange):
         self.tolerance = tolerance or Tolerance()
         self.force = force
         self.limit = limit
+        self._paces: list[
+            tuple[Vector, float]
+        ] = []  # mean velocity [m/s] and length [s] of the last two steps, newest first
 
     @abstractmethod
     def correct(self, search: Search) -> Vector | None:
@@ -97,13 +100,43 @@ class Implicit(Exchange):
     def accepted(self, search: Search) -> None:
         """Called after the last trial of a step."""
 
+    def answer(self, search: Search, residual: Vector) -> Vector | None:
+        """The change of the displacement that closes a residual, by what earlier steps showed of the particles.
+
+        ``None`` before they showed anything.
+        """
+        return None
+
+    def commit(self, partner: Taker, step: Step, outcome: Outcome) -> None:
+        self.note(outcome.displacement - partner.displacement, step.length)
+        super().commit(partner, step, outcome)
+
+    def note(self, move: Vector, length: float) -> None:
+        """Takes note of how far the interface went in a step that is kept."""
+        self._paces = [(move / length, length), *self._paces][:2]
+
+    def _first(self, search: Search, expected: Vector) -> Vector:
+        """The first trial: force and motion are both taken to go on as they did.
+
+        Under that force the partner makes another motion; the known answer of the particles closes the difference.
+        """
+        told = search.partner.predict(expected, search.step)
+        if not self._paces:
+            return told
+        length = search.step.length
+        (pace, newer), (before, older) = self._paces[0], self._paces[-1]
+        pace = pace + (pace - before) * ((length + newer) / (newer + older))
+        place = search.partner.displacement + pace * length
+        closing = self.answer(search, told - place)
+        return told if closing is None else place + closing
+
     #: Why `correct` gave up.
     why = ""
 
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
         search = Search(side, partner, step, self.force)
         self.begin(search)
-        displacement: Vector | None = partner.predict(expected, step)
+        displacement: Vector | None = self._first(search, expected)
         left = ""
         while displacement is not None:
             trial = self._try(search, displacement)
@@ -187,6 +220,9 @@ class Aitken(FixedPoint):
                 self.relaxation = -float(change @ (now.displacement - before.displacement)) / square
         return search.last.displacement + self.relaxation * search.last.residual
 
+    def answer(self, search: Search, residual: Vector) -> Vector:
+        return self.relaxation * residual
+
 
 class Secant(Implicit):
     """One direction: secant of the last two trials, kept in a bracket; a step begins with the slope of the last one.
@@ -249,6 +285,9 @@ class Secant(Implicit):
             target = middle
         return np.array([target])
 
+    def answer(self, search: Search, residual: Vector) -> Vector | None:
+        return None if self._slope is None else -residual / self._slope
+
     def _narrow(self, trial: Trial) -> None:
         """Keeps the nearest trials on both sides of the solution."""
         place = trial.displacement[0]
@@ -300,15 +339,23 @@ class QuasiNewton(Implicit):
     def correct(self, search: Search) -> Vector:
         now = search.last
         columns = self._differences(search) + [pair for step in self._past for pair in step]
+        return now.displacement + self._closing(columns, now.residual)
+
+    def answer(self, search: Search, residual: Vector) -> Vector | None:
+        columns = [pair for step in self._past for pair in step]
+        return self._closing(columns, residual) if columns else None
+
+    def _closing(self, columns: list[tuple[Vector, Vector]], residual: Vector) -> Vector:
+        """The change of the displacement that closes a residual, by these differences."""
         if not columns:
-            return now.displacement + self.relaxation * now.residual
+            return self.relaxation * residual
         residuals, answers = self._independent(columns)
-        weights = np.linalg.lstsq(residuals, -now.residual, rcond=None)[0]
-        along = answers @ weights
+        weights = np.linalg.lstsq(residuals, -residual, rcond=None)[0]
+        along: Vector = answers @ weights
         # What the differences do not span is relaxed.
-        rest = now.residual + residuals @ weights
-        full = len(weights) >= len(now.residual)
-        return now.displacement + along + (0.0 if full else self.relaxation) * rest
+        rest = residual + residuals @ weights
+        full = len(weights) >= len(residual)
+        return along + (0.0 if full else self.relaxation) * rest
 
     def accepted(self, search: Search) -> None:
         if self.reuse and len(search.trials) > 1:
@@ -381,8 +428,16 @@ class Newton(Implicit):
         slow = len(search.trials) > 1 and now.size > 0.1 * search.trials[-2].size
         if self._known is None or slow or not self.keep:
             self._known = self._change(search, now)
-        matrix = np.eye(len(now.residual)) - search.partner.compliance(search.step) @ self._known
-        return now.displacement + np.linalg.solve(matrix, now.residual)
+        return now.displacement + self._closing(search, now.residual, self._known)
+
+    def answer(self, search: Search, residual: Vector) -> Vector | None:
+        return None if self._known is None else self._closing(search, residual, self._known)
+
+    @staticmethod
+    def _closing(search: Search, residual: Vector, known: Matrix) -> Vector:
+        """The change of the displacement that closes a residual, with this change of the force per displacement."""
+        matrix = np.eye(len(residual)) - search.partner.compliance(search.step) @ known
+        return vector(np.linalg.solve(matrix, residual))
 
     def _change(self, search: Search, now: Trial) -> Matrix:
         """Change of the force per change of displacement about the last trial \\[N/m\\]."""

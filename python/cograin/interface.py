@@ -55,6 +55,19 @@ class _Part:
         given = displacement if self.through is None else self.begin + self.through @ displacement
         self.unit.set(self.displacements, given)
 
+    def bend(self, acceleration: Vector, displacement: Vector, length: float) -> None:
+        """Gives the unit where it is to be at the end of a step of this length \\[s\\], and its acceleration in it."""
+        self.move(displacement)
+        given = acceleration if self.through is None else self.through @ acceleration
+        # The step ends at value + (rate + ½ acceleration · length) · length: at the value, to the last bit.
+        self.unit.set_rates(self.displacements, -0.5 * given * length)
+        self.unit.set_rates(self.displacements, given, order=2)
+
+    def slope(self) -> Vector:
+        """Slopes of the forces over the last step \\[N/s\\]."""
+        found = self.unit.get(tuple(name.replace(".displacement.", ".force_slope.") for name in self.displacements))
+        return found if self.through is None else vector(self.through.T @ found)
+
     def force(self, kind: Force) -> Vector:
         """Forces of the particles \\[N, N m\\]."""
         found = self.unit.get(self.forces[kind])
@@ -179,6 +192,22 @@ class Interface:
                 impulse += self.force("mean")
         self.displacement = displacement
         return impulse / self.substeps if kind == "mean" else self.force("end")
+
+    def advance_quadratically(self, displacement: Vector, acceleration: Vector, step: Step) -> tuple[Vector, Vector]:
+        """Moves the interface to this displacement at this constant acceleration \\[m/s²\\] during the step.
+
+        Returns mean \\[N\\] and slope \\[N/s\\] of the force. Needs ``input = "quadratic"`` in the scenes of the units.
+        """
+        if self.substeps != 1:
+            raise ValueError(f"quadratic motion with {self.substeps} substeps of the units; 1 is right")
+        first = 0
+        for part in self._parts:
+            part.bend(acceleration[first : first + part.size], displacement[first : first + part.size], step.length)
+            first += part.size
+        for unit in self.units:
+            unit.step(step.length, until=step.end)
+        self.displacement = displacement
+        return self.force("mean"), np.concatenate([part.slope() for part in self._parts])
 
     def _move(self, displacement: Vector, length: float, end: float) -> None:
         """One step of every unit."""

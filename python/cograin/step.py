@@ -37,3 +37,4 @@ class Outcome:
     converged: bool = True
     reason: str = ""  # why it is not converged
     refusals: int = 0  # trials that a unit discarded
+    further_work: float = 0.0  # on the partner, beside that of its mean force along the displacement [J]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
+from cograin.quadratic_step import QuadraticStep
 from cograin.step import Step
 from cograin.vector import Matrix, Vector, is_sparse, vector
 
@@ -74,6 +75,7 @@ class Structure:
         self._responses: dict[float, tuple[Matrix, Matrix]] = {}
         self._unforced: tuple[Step, Vector] | None = None
         self._mass_solver: Any = None
+        self._quadratic_steps: dict[float, QuadraticStep] = {}
 
     # What it is and does
 
@@ -124,7 +126,7 @@ class Structure:
         else:
             applied = self.at @ force
             for middle, length in self._parts(step):
-                forces = applied if self._load is None else applied + self._loads(middle)
+                forces = applied if self._load is None else applied + self.loads(middle)
                 mean = self._mean_velocity(self.position, self.velocity, forces, length)
                 self._take(self.position + length * mean, middle, length)
         self._unforced = None
@@ -142,7 +144,7 @@ class Structure:
             if self._damped:
                 self.loss += length * float(mean @ (self.damping @ mean))
         if self._load is not None:
-            self.load_work += float(self._loads(middle) @ moved)
+            self.load_work += float(self.loads(middle) @ moved)
         self.position = end
 
     def _stand(self, displacement: Vector, force: Vector, step: Step) -> None:
@@ -155,6 +157,51 @@ class Structure:
         before = self.energy
         self.position = self.position + reached @ np.linalg.solve(compliance, off)
         self.correction += self.energy - before - float(force @ off)
+
+    # Along a parabola
+
+    def predict_quadratically(self, force: Vector, slope: Vector, step: Step) -> tuple[Vector, Vector]:
+        """Displacement at the end \\[m\\] and acceleration \\[m/s²\\] under this mean and slope; changes nothing."""
+        velocity, acceleration = self._quadratic_motion(force, slope, step)
+        return self._at_interface(self.position + step.length * velocity), self._at_interface(acceleration)
+
+    def quadratic_compliance(self, step: Step) -> Matrix:
+        """Change of both per change of mean and slope of the force."""
+        return self._quadratic_step(step.length).response()
+
+    def advance_quadratically(self, force: tuple[Vector, Vector], motion: tuple[Vector, Vector], step: Step) -> None:
+        """Makes the step under this mean and slope of the force, and then stands where the units stand.
+
+        ``motion`` is theirs: displacement at the end and acceleration.
+        """
+        (mean, slope), (displacement, acceleration), begin = force, motion, self.displacement
+        velocity, own = self._quadratic_motion(mean, slope, step)
+        moment = step.length**3 / 12.0  # work per slope and acceleration [s³]
+        self.position = self.position + step.length * velocity
+        self.velocity = self.velocity + step.length * own
+        if self._damped:
+            self.loss += step.length * float(velocity @ (self.damping @ velocity)) + moment * float(
+                own @ (self.damping @ own)
+            )
+        if self._load is not None:
+            load, change = self._quadratic_step(step.length).loads(step)
+            self.load_work += step.length * float(load @ velocity) + moment * float(change @ own)
+        self.correction += moment * float(slope @ (self._at_interface(own) - acceleration))
+        self._unforced = None
+        self._stand(displacement, mean, step)
+        self.work += float(mean @ (displacement - begin)) + moment * float(slope @ acceleration)
+
+    def _quadratic_motion(self, force: Vector, slope: Vector, step: Step) -> tuple[Vector, Vector]:
+        """Mean velocity and acceleration of the free degrees of freedom."""
+        stepping = self._quadratic_step(step.length)
+        load, change = stepping.loads(step)
+        return stepping.motion(self.at @ force + load, self.at @ slope + change, self.position, self.velocity)
+
+    def _quadratic_step(self, length: float) -> QuadraticStep:
+        """What steps of this length \\[s\\] need."""
+        if length not in self._quadratic_steps:
+            self._quadratic_steps[length] = QuadraticStep(self, length)
+        return self._quadratic_steps[length]
 
     # Velocity Verlet
 
@@ -172,7 +219,7 @@ class Structure:
         if self._damped:
             self.loss += step.length * float(half @ (self.damping @ half))
         if self._load is not None:
-            loads = 0.5 * (self._loads(step.begin) + self._loads(step.end))
+            loads = 0.5 * (self.loads(step.begin) + self.loads(step.end))
             self.load_work += step.length * float(loads @ half)
         self.work += 0.5 * float((begin + end) @ (self.displacement - before))
 
@@ -187,7 +234,7 @@ class Structure:
         if self._damped:
             forces = forces - self.damping @ velocity
         if self._load is not None:
-            forces = forces + self._loads(time)
+            forces = forces + self.loads(time)
         found: Vector = self._mass_solver(forces)
         return found
 
@@ -198,7 +245,7 @@ class Structure:
         length = step.length / self.substeps
         return [(step.begin + (count + 0.5) * length, length) for count in range(self.substeps)]
 
-    def _loads(self, time: float) -> Vector:
+    def loads(self, time: float) -> Vector:
         """External forces on the free degrees of freedom \\[N\\]."""
         if self._load is None:
             return np.zeros(len(self.free))
@@ -223,7 +270,7 @@ class Structure:
         if self._unforced is None or self._unforced[0] != step:
             position, velocity = self.position, self.velocity
             for middle, length in self._parts(step):
-                mean = self._mean_velocity(position, velocity, self._loads(middle), length)
+                mean = self._mean_velocity(position, velocity, self.loads(middle), length)
                 position, velocity = position + length * mean, 2.0 * mean - velocity
             self._unforced = (step, position)
         return self._unforced[1]

@@ -188,6 +188,13 @@ class Unit:
         room[:] = list(values)
         self._call(self.slave.fmi2SetReal, self.slave.component, references, count, room)
 
+    def set_rates(self, names: Sequence[str], rates: Iterable[float], *, order: int = 1) -> None:
+        """Sets derivatives of real inputs in time for the next step: all of them or none. Set their values first."""
+        references, room, count = self._group(tuple(names))
+        room[:] = list(rates)
+        orders = (ctypes.c_int * count)(*[order] * count)
+        self._call(self.slave.fmi2SetRealInputDerivatives, self.slave.component, references, count, orders, room)
+
     def __getitem__(self, name: str) -> Value:
         variable = self.variable(name)
         if variable.type == "Real":
