@@ -23,6 +23,7 @@ from cograin import (
     Jacobi,
     Newton,
     Program,
+    Quadratic,
     QuasiNewton,
     Secant,
     StepControl,
@@ -30,11 +31,12 @@ from cograin import (
     Unit,
     Verlet,
 )
+from beam_problem import LoadedBeam
 from peers import NAMES
 from problems import Drop, FiniteRod, Rod, TwoMasses
 
 HERE = Path(__file__).resolve().parent
-PROBLEMS = (Drop(), Rod(), FiniteRod(), TwoMasses())
+PROBLEMS = (Drop(), Rod(), FiniteRod(), TwoMasses(), LoadedBeam())
 TIGHT = Tolerance(displacement=1e-13)
 EXCHANGES = {
     "Gauss–Seidel": GaussSeidel,
@@ -45,6 +47,7 @@ EXCHANGES = {
     "secant": lambda: Secant(tolerance=TIGHT),
     "secant, two at most": lambda: Secant(limit=2),
     "quasi-Newton": lambda: QuasiNewton(tolerance=TIGHT),
+    "quadratic": lambda: Quadratic(QuasiNewton(tolerance=TIGHT)),
     "Newton, differences": lambda: Newton("differences", tolerance=TIGHT),
 }
 COLUMNS = ["problem", "program", "exchange", "step", "error", "energy", "interface", "evaluations", "in_contact"]
@@ -154,14 +157,20 @@ def of_peers(options):
         yield from found
 
 
+def opened(problem, command, folder):
+    """The unit of a problem; some prepare it in their own way."""
+    if hasattr(problem, "open"):
+        return problem.open(command, folder)
+    return Unit(command.export(HERE / problem.scene, folder / f"{Path(problem.scene).stem}.fmu"))
+
+
 def rows(options):
     """Rows of COLUMNS, as they come."""
     command = Program(options.program)
     for problem in chosen(options):
         print(f"\n{problem.name}: {problem.exact_error}")
-        path = options.output / f"{Path(problem.scene).stem}.fmu"
-        with Unit(command.export(HERE / problem.scene, path)) as unit:
-            for name in EXCHANGES:
+        with opened(problem, command, options.output) as unit:
+            for name in getattr(problem, "exchanges", EXCHANGES):
                 for step in problem.steps:
                     course = lambda n=name, s=step, p=problem, u=unit: ours(p, u, n, s)  # noqa: E731
                     yield row(problem, "cograin", name, step, course, options.repeats)

@@ -15,6 +15,7 @@ COLOURS = {
     "secant": "#1b6ca8",
     "secant, two at most": "#7fb3d5",
     "quasi-Newton": "#111111",
+    "quadratic": "#e0218a",
     "Newton, differences": "#d17fa6",
 }
 MARKS = {"cograin": "o", "lammps": "s", "liggghts": "^"}

@@ -1,8 +1,8 @@
 """What the run is held against: the weight, the static sag, and the energy on both sides of the interface."""
 
 import numpy as np
+from loads import GRAVITY
 
-GRAVITY = 9.81  # [m/s²], as in scene.toml
 LAST = 0.05  # time at the end over which forces are averaged [s]
 
 

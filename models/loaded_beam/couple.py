@@ -5,8 +5,6 @@ A jack holds the plate where the beam is straight and is then lowered: the beam 
 
 import argparse
 import csv
-import gzip
-import math
 import time
 from pathlib import Path
 
@@ -25,10 +23,10 @@ from cograin import (
     Unit,
     stiffness,
 )
+from loads import GRAVITY, jack_force, particles, weight_of
 from picture import draw
 
 HERE = Path(__file__).resolve().parent
-GRAVITY = 9.81  # [m/s²], as in scene.toml
 FLOOR = "floor.displacement.z"
 WALLS = [f"{wall}.force.z" for wall in ("x_low", "x_high", "y_low", "y_high")]
 COLUMNS = ["time", "displacement", "force", "mean_force", "wall_force", "jack_force", "work", "evaluations"]
@@ -57,17 +55,6 @@ def packaged(program, output):
         print(program.settle(scene, settled), flush=True)
         program.export(scene, unit, start=settled)
     return unit
-
-
-def particles():
-    """The packing: rows of x, y, z, radius, density."""
-    with gzip.open(HERE / "dense_20k.csv.gz", "rt") as text:
-        return np.loadtxt(text, delimiter=",", skiprows=1, usecols=(1, 2, 3, 4, 5))
-
-
-def jack_force(load, now, lowering):
-    """Force of the jack on the plate [N]: all the load at first, none once it is down."""
-    return 0.5 * load * (1.0 + math.cos(math.pi * min(now / lowering, 1.0)))
 
 
 def coupling(design, bed, exchange, load, options):
@@ -139,7 +126,7 @@ def main():
     options.output.mkdir(parents=True, exist_ok=True)
     design = Design(plate_mass=options.plate_mass, height=options.height)
     packing = particles()
-    weight = float(np.sum(4.0 / 3.0 * np.pi * packing[:, 3] ** 3 * packing[:, 4])) * GRAVITY
+    weight = weight_of(packing)
 
     bed = Unit(packaged(Program(options.program), options.output))
     at_start = -bed["floor.force.z"]

@@ -18,6 +18,7 @@ import theory  # noqa: E402
 CASES = [
     (problems.Drop(), "secant", 1e-3, 3.5e-3),
     (problems.Drop(), "secant", 5e-4, 8.6e-4),
+    (problems.Drop(), "quadratic", 1e-3, 9.8e-6),
     (problems.Drop(), "Verlet", 1e-3, 2.8e-3),
     (problems.Drop(), "Gauss–Seidel", 1e-3, 3.4e-2),
 ]
@@ -45,9 +46,9 @@ def test_errors_are_the_schemes_own_and_repeated_steps_keep_the_energy(opened, p
     (measure, _, touched, unconverged), _, said = couple.ours(problem, opened(problem), exchange, step)
     assert not said and not unconverged
     assert measure.error == pytest.approx(error, rel=0.02)
-    if exchange == "secant":
+    if exchange in ("secant", "quadratic"):
         assert measure.interface <= 1e-9
-        assert touched <= 2.6
+        assert touched <= 3.0
 
 
 @pytest.mark.parametrize("ratio", [10.0, 100.0, 1000.0])
