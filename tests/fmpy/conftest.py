@@ -49,6 +49,17 @@ def unit(cograin, tmp_path_factory):
     return package
 
 
+# What an input of force or moment is given for each metre that a displacement would be given [N/m, N].
+FORCES = {"force": 1e5, "moment": 1e2}
+
+
+def given(name, displacement):
+    """What an input is given where inputs of displacement are given this one [m]: others in proportion."""
+    if name.endswith(".rate"):
+        return abs(displacement)  # nothing is fed backwards
+    return displacement * FORCES.get(name.split(".")[-2].split("_")[-1], 1.0)
+
+
 @dataclass
 class Course:
     """How a test drives a model: every driven displacement swings by this much in this time."""
@@ -115,9 +126,10 @@ class Slave:
         return self.unit.get(names).tolist()
 
     def step(self, displacement, interval):
-        """Moves every driven axis there during one communication step; gives all real outputs."""
+        """Moves every driven axis there during one communication step, and loads the others in proportion; gives all real
+        outputs."""
         for name in self.inputs:
-            self.set(name, abs(displacement) if name.endswith(".rate") else displacement)  # nothing is fed backwards
+            self.set(name, given(name, displacement))
         self.unit.step(interval, until=self.time + interval)
         return self.get(*self.reals)
 

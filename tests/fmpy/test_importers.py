@@ -4,6 +4,7 @@ import ctypes
 import sys
 from pathlib import Path
 
+from conftest import given
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimManipulator import CosimManipulator
@@ -17,7 +18,7 @@ def with_fmpy(slave, path, course):
     return unit, [unit.step(course.displacement(step), course.interval) for step in range(1, course.steps + 1)]
 
 
-def with_libcosimpy(path, course, inputs, outputs):
+def with_libcosimpy(path, course, names, inputs, outputs):
     """The same rows, from a clock in whole nanoseconds."""
     log_output_level(CosimLogLevel.WARNING)
     execution = CosimExecution.from_step_size(step_size=round(course.interval * 1e9))
@@ -28,7 +29,7 @@ def with_libcosimpy(path, course, inputs, outputs):
     execution.add_observer(observer)
     rows = []
     for step in range(1, course.steps + 1):
-        manipulator.slave_real_values(index, inputs, [course.displacement(step)] * len(inputs))
+        manipulator.slave_real_values(index, inputs, [given(name, course.displacement(step)) for name in names])
         assert execution.step(), f"libcosimpy: step {step} failed"
         rows.append(observer.last_real_values(index, outputs))
     return rows
@@ -45,7 +46,7 @@ def with_ecospy(path, course, inputs, outputs):
         simulation.init()
         for step in range(1, course.steps + 1):
             for name in inputs:
-                simulation.set_real(f"unit::{name}", course.displacement(step))
+                simulation.set_real(f"unit::{name}", given(name, course.displacement(step)))
             simulation.step()
             rows.append([simulation.get_real(f"unit::{name}") for name in outputs])
         simulation.terminate()
@@ -72,7 +73,7 @@ def first_difference(names, ours, theirs):
 def test_libcosimpy_gets_the_bits_of_fmpy(unit, model, course, slave):
     ours, rows = with_fmpy(slave, unit(model), course)
     references = [[ours.reference(name) for name in names] for names in (ours.inputs, ours.reals)]
-    assert first_difference(ours.reals, rows, with_libcosimpy(unit(model), course, *references)) is None
+    assert first_difference(ours.reals, rows, with_libcosimpy(unit(model), course, ours.inputs, *references)) is None
 
 
 def test_ecospy_gets_the_bits_of_fmpy(unit, model, course, slave):
