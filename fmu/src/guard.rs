@@ -113,7 +113,12 @@ pub(crate) fn call(
 ) -> Status {
     floating_point::standard(|| {
         let Some(guarded) = find(component) else { return Status::Error };
-        match run(&guarded, call, action) {
+        let (result, warning) = run(&guarded, call, action);
+        if let Some(warning) = &warning {
+            guarded.logger.warned(call.name, warning);
+        }
+        match result {
+            Ok(()) if warning.is_some() => Status::Warning,
             Ok(()) => Status::Ok,
             Err(refusal) => {
                 guarded.logger.refused(call.name, &refusal);
@@ -123,25 +128,26 @@ pub(crate) fn call(
     })
 }
 
-/// Runs a function on an instance, if it may be called now.
+/// Runs a function on an instance, if it may be called now. Yields also what it left undone, in words.
 fn run(
     guarded: &Guarded,
     call: &Call,
     action: impl FnOnce(&mut Instance, &Logger) -> Result<(), Refusal>,
-) -> Result<(), Refusal> {
+) -> (Result<(), Refusal>, Option<String>) {
     let mut instance = match guarded.instance.try_lock() {
         Ok(instance) => instance,
         Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-        Err(TryLockError::WouldBlock) => return Err(Refusal::Busy),
+        Err(TryLockError::WouldBlock) => return (Err(Refusal::Busy), None),
     };
     let phase = instance.phase();
     if !call.allowed.contains(&phase) {
-        return Err(Refusal::Phase { phase, allowed: call.allowed });
+        return (Err(Refusal::Phase { phase, allowed: call.allowed }), None);
     }
-    catch_unwind(AssertUnwindSafe(|| action(&mut instance, &guarded.logger))).unwrap_or_else(|panic| {
+    let result = catch_unwind(AssertUnwindSafe(|| action(&mut instance, &guarded.logger))).unwrap_or_else(|panic| {
         instance.break_down();
         Err(Refusal::Panic { message: message_of(panic.as_ref()) })
-    })
+    });
+    (result, instance.take_warning())
 }
 
 /// What a panic says.

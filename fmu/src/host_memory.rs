@@ -3,7 +3,7 @@
 
 use crate::refusal::Refusal;
 use crate::types::Text;
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 
 /// Memory of the host that results go to.
 pub(crate) struct Target<T> {
@@ -113,11 +113,22 @@ fn fits<T>(argument: &'static str, is_null: bool, length: usize) -> Result<(), R
     Ok(())
 }
 
-/// A C string; none if it is null.
+/// A C string, copied; none if it is null.
 ///
 /// # Safety
 /// A string that ends in a zero stands at `text` if it is not null.
-pub(crate) unsafe fn text(text: Text) -> Option<String> {
+pub(crate) unsafe fn text(text: Text) -> Option<CString> {
     // SAFETY: the caller's promise.
-    (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
+    (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_owned())
+}
+
+/// What can be read of a C string.
+pub(crate) fn readable(text: CString) -> String {
+    text.to_string_lossy().into_owned()
+}
+
+/// A C string that is UTF-8, as FMI 2.0 has it.
+pub(crate) fn utf8(argument: &'static str, text: Option<CString>) -> Result<CString, Refusal> {
+    let text = text.ok_or(Refusal::Null { argument })?;
+    if text.to_str().is_ok() { Ok(text) } else { Err(Refusal::Utf8 { argument, text: readable(text) }) }
 }

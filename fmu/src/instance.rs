@@ -1,6 +1,7 @@
 //! One instance of the unit: the functions of FMI 2.0 in safe Rust.
 
 use crate::calls::Phase;
+use crate::frames::Frames;
 use crate::guard;
 use crate::host_memory::{Items, Target};
 use crate::location::{self, LocationError};
@@ -8,12 +9,14 @@ use crate::refusal::Refusal;
 use crate::saved::{BlobError, Course, Saved};
 use crate::types::{Reference, Status};
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Causality, Derivatives, Findings, Interface, Value, Variable};
+use cograin::interface::{Causality, Derivatives, Findings, Interface, InterfaceError, Type, Value, Variable};
 use cograin::scene::{Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
 use cograin::step::{Description, RunError, Simulation};
 use std::collections::BTreeMap;
+use std::ffi::{CStr, CString};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -187,6 +190,8 @@ pub(crate) struct Instance {
     derivatives: Derivatives,
     /// The values that are being handed out.
     values: Vec<Value>,
+    /// What it writes beside its work.
+    frames: Frames,
     /// Set to end the communication step under way.
     stop: Arc<AtomicBool>,
 }
@@ -198,6 +203,7 @@ impl Instance {
         let Begun { simulation, start, given } = unit.begin(Given::new())?;
         let course = Self::at_the_beginning(&simulation);
         let stop = Arc::<AtomicBool>::default();
+        let frames = Frames::of(&unit.interface);
         let mut instance = Self {
             unit,
             simulation,
@@ -209,6 +215,7 @@ impl Instance {
             findings: Findings::default(),
             derivatives: Derivatives::default(),
             values: Vec::new(),
+            frames,
             stop,
         };
         instance.simulation.stop_when(&instance.stop);
@@ -251,6 +258,11 @@ impl Instance {
         self.simulation.time() + self.course.origin
     }
 
+    /// The host's time at which the experiment starts \[s\].
+    fn start_time(&self) -> f64 {
+        self.start.as_ref().map_or(0.0, |start| start.clock.time) + self.course.origin
+    }
+
     /// The time step, the stable one and what limits it, in words.
     pub(crate) fn time_step_limit(&self) -> String {
         let (limit, step) = (self.simulation.limit(), self.simulation.state().clock.step);
@@ -288,22 +300,38 @@ impl Instance {
     /// `fmi2ExitInitializationMode`
     pub(crate) fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.place()?;
+        self.frames.begin(&self.simulation, self.start_time(), self.time()).map_err(Refusal::Frames)?;
         self.course.phase = Phase::Ready;
         Ok(())
     }
 
     /// `fmi2Terminate`
     pub(crate) fn terminate(&mut self) {
+        self.frames.end(&self.simulation);
         self.course.phase = Phase::Terminated;
+    }
+
+    /// What the last call left undone, in words, if anything.
+    pub(crate) fn take_warning(&mut self) -> Option<String> {
+        self.frames.take_warning()
     }
 
     /// `fmi2Reset`. Saved states stay.
     pub(crate) fn reset(&mut self) -> Result<(), Refusal> {
         let begun = self.unit.begin(Given::new()).map_err(|error| Refusal::Reset { error: error.to_string() })?;
+        self.leave_frames();
+        self.frames = Frames::of(&self.unit.interface);
         self.given.clear();
         self.take(begun);
         self.course = Self::at_the_beginning(&self.simulation);
         Ok(())
+    }
+
+    /// Writes the frame that is due at the present time, from which nothing goes on.
+    fn leave_frames(&mut self) {
+        if matches!(self.course.phase, Phase::Ready | Phase::Discarded) {
+            self.frames.pass(&self.simulation, None);
+        }
     }
 
     /// Goes on with another simulation.
@@ -339,7 +367,7 @@ impl Instance {
     fn variable(&self, reference: Reference, expected: &'static str) -> Result<(usize, &Variable), Refusal> {
         let index = reference as usize;
         let variable = self.unit.interface.variable(index)?;
-        let found = if variable.quantity.unit().is_some() { "Real" } else { "Integer" };
+        let found = variable.quantity.of_type().name();
         if found == expected {
             Ok((index, variable))
         } else {
@@ -355,13 +383,13 @@ impl Instance {
             }
             self.place()?;
         }
-        let whole = ["Real", "Integer"].iter().position(|&known| known == kind).map(|place| place == 1);
+        let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name() == kind);
         let mut values = std::mem::take(&mut self.values);
         values.clear();
         values.reserve(references.len());
         for reference in references.iter() {
             let index = reference as usize;
-            if whole.is_none() || self.unit.interface.is_whole(index) != whole {
+            if wanted.is_none() || self.unit.interface.type_of(index) != wanted {
                 self.variable(reference, kind)?;
             }
             let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
@@ -392,6 +420,7 @@ impl Instance {
             }
         }
         if !tuned.is_empty() {
+            self.frames.pass(&self.simulation, None);
             self.unit.interface.tune(&mut self.simulation, &tuned)?;
             self.changed();
         }
@@ -414,6 +443,27 @@ impl Instance {
         } else if variable.causality == Causality::Parameter {
             self.given.insert(index, value);
         }
+    }
+
+    /// `fmi2GetString`
+    pub(crate) fn texts(&self, references: Items<Reference>) -> Result<Vec<&CStr>, Refusal> {
+        let text = |reference| self.variable(reference, "String").map(|(index, _)| self.frames.text(index));
+        references.iter().map(text).collect()
+    }
+
+    /// `fmi2SetString`: all or nothing.
+    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) -> Result<(), Refusal> {
+        let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
+        for reference in references.iter() {
+            let (index, variable) = self.variable(reference, "String")?;
+            if !starting {
+                return Err(InterfaceError::Fixed { index, name: variable.name.clone() }.into());
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.frames.set_text(reference as usize, value);
+        }
+        Ok(())
     }
 
     /// The other setters: there are no inputs of these types, so every reference is a wrong one.
@@ -521,8 +571,10 @@ impl Instance {
         }
         self.stop.store(false, Ordering::Relaxed);
         self.changed();
+        self.frames.pass(&self.simulation, Some(point));
         match self.simulation.advance_or_return(length) {
             Ok(()) => {
+                self.frames.come_to(point + length);
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);
                 Ok(())
             }
@@ -570,6 +622,11 @@ impl Instance {
         self.changed();
         self.simulation.return_to(&self.kept[&address].saved.state);
         self.course = course;
+        match course.phase {
+            Phase::Ready | Phase::Discarded => self.frames.go_back(&self.simulation, self.start_time(), self.time()),
+            Phase::Instantiated | Phase::Initialization => self.frames.undo(),
+            Phase::Terminated | Phase::Broken => {}
+        }
         Ok(())
     }
 
@@ -626,5 +683,12 @@ impl Instance {
     /// A simulation with the parameters of a saved state.
     fn made_with_those_of(&self, saved: &Saved) -> Result<Begun, Refusal> {
         self.unit.begin(saved.given.clone()).map_err(|error| Refusal::Parameters { error: error.to_string() })
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // A host must not see a panic, and there is nobody left to tell.
+        let _ = catch_unwind(AssertUnwindSafe(|| self.leave_frames()));
     }
 }

@@ -10,6 +10,7 @@
 
 mod calls;
 mod floating_point;
+mod frames;
 mod guard;
 mod host_memory;
 mod instance;
@@ -22,7 +23,7 @@ pub mod values;
 
 use cograin::export::LIBRARY_MARK;
 use guard::{Guarded, call};
-use host_memory::{Items, Target, text};
+use host_memory::{Items, Target, readable, text};
 use instance::{Instance, Request};
 use logger::Logger;
 use refusal::Refusal;
@@ -71,7 +72,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let Some(callbacks) = callbacks else { return null_mut() };
     let logger = Logger::new(callbacks, label, logging != 0);
     // SAFETY: demands of FMI 2.0.
-    let request = unsafe { Request { name: text(name), kind, identity: text(guid), location: text(location) } };
+    let [name, identity, location] = unsafe { [text(name), text(guid), text(location)] }.map(|text| text.map(readable));
+    let request = Request { name, kind, identity, location };
     let made = || catch_unwind(AssertUnwindSafe(|| Instance::new(&request)));
     match floating_point::standard(made) {
         Ok(Ok(instance)) => {
@@ -106,7 +108,10 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     call(component, &calls::SET_DEBUG_LOGGING, |_, logger| {
         // SAFETY: demands of FMI 2.0.
         let names = unsafe { Items::new("categories", categories, count)?.iter().map(|name| text(name)) };
-        let names = names.collect::<Option<Vec<_>>>().ok_or(Refusal::Null { argument: "a category" })?;
+        let names = names
+            .map(|name| name.map(readable))
+            .collect::<Option<Vec<_>>>()
+            .ok_or(Refusal::Null { argument: "a category" })?;
         logger.want(on != 0, &names)
     })
 }

@@ -13,8 +13,10 @@ pub(crate) enum Category {
     Error = 1,
     /// Communication steps that failed.
     Discard = 2,
+    /// What is missing though the call was done.
+    Warning = 4,
     /// What happens.
-    Events = 4,
+    Events = 8,
 }
 
 /// Place of `logAll` in [`LOG_CATEGORIES`]; the categories after it are bits 0, 1, 2 … of the mask.
@@ -68,6 +70,11 @@ impl Logger {
         self.send(status, category, &format!("{function}: {refusal}"));
     }
 
+    /// Reports what a function that was done left undone; whether or not it is wanted.
+    pub(crate) fn warned(&self, function: &str, warning: &str) {
+        self.send(Status::Warning, Category::Warning, &format!("{function}: {warning}"));
+    }
+
     /// Reports that there is no instance.
     pub(crate) fn failed(&self, function: &str, reason: &str) {
         self.send(Status::Error, Category::Error, &format!("{function}: {reason}"));
@@ -89,6 +96,7 @@ impl Logger {
         let category = match category {
             Category::Error => c"logStatusError",
             Category::Discard => c"logStatusDiscard",
+            Category::Warning => c"logStatusWarning",
             Category::Events => c"logEvents",
         };
         // SAFETY: the host vouches for its logger; all strings end in a zero and live until it returns.

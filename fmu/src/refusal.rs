@@ -25,6 +25,14 @@ pub(crate) enum Refusal {
         /// The argument.
         argument: &'static str,
     },
+    /// A text in another encoding.
+    #[error("{argument} is {text:?}, which is not UTF-8; UTF-8 is right")]
+    Utf8 {
+        /// The argument.
+        argument: &'static str,
+        /// What can be read of it.
+        text: String,
+    },
     /// An array that no memory holds.
     #[error("{argument} has {length} elements; fewer are right")]
     Length {
@@ -157,6 +165,9 @@ pub(crate) enum Refusal {
         /// Why, in the words of the scene's mistakes.
         error: String,
     },
+    /// The folder of the frames.
+    #[error("run.frames: {0}")]
+    Frames(cograin::results::Failure),
     /// The unit does not begin anew.
     #[error("{error}")]
     Reset {

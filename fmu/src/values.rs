@@ -2,13 +2,13 @@
 
 use crate::calls::{self, Call};
 use crate::guard::{call, cancel};
-use crate::host_memory::{Items, Target};
+use crate::host_memory::{Items, Target, text, utf8};
 use crate::refusal::Refusal;
 use crate::types::{
     Boolean, Component, LAST_SUCCESSFUL_TIME, PENDING_STATUS, Reference, STEP_STATUS, Status, TERMINATED, Text,
 };
 use cograin::interface::Value;
-use std::ffi::c_int;
+use std::ffi::{CStr, c_int};
 
 /// Reads variables of one type, all or nothing.
 ///
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     unsafe { get(component, &calls::GET_BOOLEAN, "Boolean", (references, count, values), |_| 0) }
 }
 
-/// `fmi2GetString`: there are no such variables.
+/// `fmi2GetString`: the texts stay where they are until they are set again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetString(
     component: Component,
@@ -80,8 +80,14 @@ pub unsafe extern "C" fn fmi2GetString(
     count: usize,
     values: *mut Text,
 ) -> Status {
-    // SAFETY: demands of FMI 2.0.
-    unsafe { get(component, &calls::GET_STRING, "String", (references, count, values), |_| c"".as_ptr()) }
+    call(component, &calls::GET_STRING, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, targets) =
+            unsafe { (Items::new("vr", references, count)?, Target::array("value", values, count)?) };
+        let texts = instance.texts(references)?;
+        targets.put_all(&texts.into_iter().map(CStr::as_ptr).collect::<Vec<_>>());
+        Ok(())
+    })
 }
 
 /// `fmi2SetReal`
@@ -97,26 +103,6 @@ pub unsafe extern "C" fn fmi2SetReal(
         let (references, values) =
             unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
         instance.set(references, values, "Real")
-    })
-}
-
-/// Refuses to set variables of a type that has no inputs.
-///
-/// # Safety
-/// As FMI 2.0 demands of the arrays.
-unsafe fn refuse_to_set<T: Copy>(
-    component: Component,
-    function: &Call,
-    kind: &'static str,
-    (references, count, values): (*const Reference, usize, *const T),
-) -> Status {
-    call(component, function, |instance, _| {
-        // SAFETY: demands of FMI 2.0.
-        let references = unsafe {
-            Items::new("value", values, count)?;
-            Items::new("vr", references, count)?
-        };
-        instance.refuse_to_set(references, kind)
     })
 }
 
@@ -136,7 +122,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
     })
 }
 
-/// `fmi2SetBoolean`: there are no such inputs.
+/// `fmi2SetBoolean`: there are no such inputs, so every reference is a wrong one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetBoolean(
     component: Component,
@@ -144,11 +130,17 @@ pub unsafe extern "C" fn fmi2SetBoolean(
     count: usize,
     values: *const Boolean,
 ) -> Status {
-    // SAFETY: demands of FMI 2.0.
-    unsafe { refuse_to_set(component, &calls::SET_BOOLEAN, "Boolean", (references, count, values)) }
+    call(component, &calls::SET_BOOLEAN, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let references = unsafe {
+            Items::new("value", values, count)?;
+            Items::new("vr", references, count)?
+        };
+        instance.refuse_to_set(references, "Boolean")
+    })
 }
 
-/// `fmi2SetString`: there are no such inputs.
+/// `fmi2SetString`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetString(
     component: Component,
@@ -156,8 +148,15 @@ pub unsafe extern "C" fn fmi2SetString(
     count: usize,
     values: *const Text,
 ) -> Status {
-    // SAFETY: demands of FMI 2.0.
-    unsafe { refuse_to_set(component, &calls::SET_STRING, "String", (references, count, values)) }
+    call(component, &calls::SET_STRING, |instance, _| {
+        // SAFETY: demands of FMI 2.0.
+        let (references, values) = unsafe {
+            let values: Vec<_> = Items::new("value", values, count)?.iter().map(|value| text(value)).collect();
+            (Items::new("vr", references, count)?, values)
+        };
+        let values = values.into_iter().map(|value| utf8("a value", value));
+        instance.set_texts(references, values.collect::<Result<_, _>>()?)
+    })
 }
 
 /// `fmi2SetRealInputDerivatives`: order 1, and 2 of quadratic motion.

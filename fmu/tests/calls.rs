@@ -3,6 +3,7 @@
 mod cost;
 mod derivatives;
 mod environment;
+mod frames;
 mod host;
 mod order;
 mod parameters;

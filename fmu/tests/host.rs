@@ -4,7 +4,7 @@ use crate::types::{Callbacks, Component, Reference, StateHandle, Status, Text};
 use crate::values::*;
 use crate::*;
 use cograin::export::{identity, resources};
-use cograin::interface::Interface;
+use cograin::interface::{Interface, Type};
 use cograin::scene::{Scene, Source};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -203,6 +203,24 @@ impl<'a> Host<'a> {
         unsafe { fmi2SetReal(self.component, &raw const reference, 1, &raw const value) }
     }
 
+    /// Sets a text.
+    pub(super) fn set_text(&self, name: &str, value: &str) -> Status {
+        let (reference, text) = (self.unit.reference(name), CString::new(value).unwrap());
+        let text = text.as_ptr();
+        // SAFETY: one reference and one text.
+        unsafe { fmi2SetString(self.component, &raw const reference, 1, &raw const text) }
+    }
+
+    /// A text.
+    pub(super) fn text(&self, name: &str) -> String {
+        let (reference, mut text) = (self.unit.reference(name), ptr::null());
+        // SAFETY: one reference and one text, which the unit keeps.
+        unsafe {
+            assert_eq!(fmi2GetString(self.component, &raw const reference, 1, &raw mut text), Status::Ok);
+            CStr::from_ptr(text).to_str().unwrap().to_owned()
+        }
+    }
+
     /// Sets the rate of an input.
     pub(super) fn set_rate(&self, name: &str, rate: f64) -> Status {
         self.set_derivative(name, 1, rate)
@@ -248,7 +266,7 @@ impl<'a> Host<'a> {
 
     /// Every real output, bit by bit.
     pub(super) fn outputs(&self) -> Vec<u64> {
-        let real = self.unit.interface.outputs().filter(|(_, variable)| variable.quantity.unit().is_some());
+        let real = self.unit.interface.outputs().filter(|(_, variable)| variable.quantity.of_type() == Type::Real);
         real.map(|(_, variable)| self.get(&variable.name).to_bits()).collect()
     }
 

@@ -69,6 +69,7 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
         host.refused(status, &["type Boolean"]);
         let status = fmi2GetString(host.component, &raw const force, 1, &raw mut text);
         host.refused(status, &["type String"]);
+        text = c"here".as_ptr();
         let status = fmi2SetString(host.component, &raw const force, 1, &raw const text);
         host.refused(status, &["type String"]);
         assert_eq!(fmi2GetInteger(host.component, &raw const count, 1, &raw mut integer), Status::Ok);

@@ -19,6 +19,7 @@ from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
 
 _log = logging.getLogger("cograin")
+_WARNING = 1  # status of a call that was done but for something beside it
 _DISCARD = 2  # status of a step that was not made
 
 Value = float | int | bool | str
@@ -106,6 +107,8 @@ class Unit:
             text = (message or b"").decode(errors="replace")
             if status >= _DISCARD:
                 self._messages.append(text)
+            elif status == _WARNING:
+                _log.warning("%s: %s", self.name, text)
             else:
                 _log.info("%s: %s", self.name, text)
 

@@ -1,6 +1,6 @@
 //! `modelDescription.xml`, from the interface alone.
 
-use crate::interface::{Causality, Interface, Quantity, Variability, Variable};
+use crate::interface::{Causality, Interface, Quantity, Type, Variability, Variable};
 use crate::scene::Scene;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -29,10 +29,11 @@ const CAPABILITIES: [(&str, &str); 5] = [
 ];
 
 /// Categories of messages, with what they are.
-pub const LOG_CATEGORIES: [(&str, &str); 4] = [
+pub const LOG_CATEGORIES: [(&str, &str); 5] = [
     ("logAll", "everything below"),
     ("logStatusError", "refused calls; always reported"),
     ("logStatusDiscard", "communication steps that failed; always reported"),
+    ("logStatusWarning", "frames that could not be written; always reported"),
     ("logEvents", "instances made and started, steps done"),
 ];
 
@@ -136,12 +137,12 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> 
         (Causality::Parameter, _) | (Causality::Output, Some(_)) => Some(("initial", "exact")),
         (Causality::Output, None) => Some(("initial", "calculated")),
     };
-    let (kind, integer) = if variable.quantity.unit().is_some() { ("Real", false) } else { ("Integer", true) };
-    let number = |value: f64| if integer { format!("{value:.0}") } else { format!("{value:?}") };
-    let start = variable.start.map(number);
+    let kind = variable.quantity.of_type();
+    let number = |value: f64| if kind == Type::Integer { format!("{value:.0}") } else { format!("{value:?}") };
+    let start = variable.start.map(number).or(variable.start_text().map(str::to_owned));
     let [minimum, maximum] = [variable.minimum, variable.maximum].map(|bound| bound.map(number));
     let of_type = [
-        Some(("quantity", variable.quantity.name())),
+        (kind != Type::String).then_some(("quantity", variable.quantity.name())),
         variable.quantity.unit().map(|unit| ("unit", unit)),
         minimum.as_ref().map(|minimum| ("min", minimum.as_str())),
         maximum.as_ref().map(|maximum| ("max", maximum.as_str())),
@@ -157,7 +158,7 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> 
         ])
         .with_attributes(initial)
         .write_inner_content(|xml| {
-            xml.create_element(kind).with_attributes(of_type.into_iter().flatten()).write_empty()?;
+            xml.create_element(kind.name()).with_attributes(of_type.into_iter().flatten()).write_empty()?;
             Ok(())
         })?;
     Ok(())
@@ -176,8 +177,10 @@ fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
     let followed: Vec<usize> = interface.followed(model.scene);
     let followed = followed.iter().map(|index| (index + 1).to_string()).collect::<Vec<_>>().join(" ");
     let dependencies = |index: usize| if interface.has_slopes(index) { followed.as_str() } else { "" };
-    let parameters = places(interface.of_causality(Causality::Parameter));
-    let given = places(interface.inputs().chain(interface.of_causality(Causality::Parameter)));
+    // Texts say what the unit does beside the simulation.
+    let deciding = || interface.of_causality(Causality::Parameter).filter(|(_, it)| it.start_text().is_none());
+    let parameters = places(deciding());
+    let given = places(interface.inputs().chain(deciding()));
     let outputs: Vec<Unknown> =
         interface.outputs().map(|(index, _)| ((index + 1).to_string(), Some(dependencies(index)))).collect();
     // Without a list an unknown depends on all: the nodes of a mesh would make it as long as the square of their number.

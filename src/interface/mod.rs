@@ -10,10 +10,12 @@ mod parameters;
 mod quantity;
 mod reader;
 mod rows;
+mod texts;
 
 pub use derivatives::Derivatives;
 pub use findings::Findings;
-pub use quantity::Quantity;
+pub use quantity::{Quantity, Type};
+pub use texts::FRAMES;
 
 use crate::quantity::BoundaryIndex;
 use crate::scene::{self, InputCourse, Scene, SceneErrors};
@@ -23,6 +25,7 @@ use parameters::Parameter;
 use reader::Reader;
 use rows::Present;
 use std::collections::BTreeMap;
+use texts::Text;
 
 /// Whether the host sets a variable or the program computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +95,7 @@ pub struct Variable {
     pub causality: Causality,
     /// When it changes.
     pub variability: Variability,
-    /// Its value before anything is set, for inputs and constants.
+    /// Its value before anything is set, for inputs, parameters and constants that are numbers.
     pub start: Option<f64>,
     /// Its lower bound, if physics sets one.
     pub minimum: Option<f64>,
@@ -109,7 +112,15 @@ impl Variable {
     pub fn node(&self) -> Option<usize> {
         match &self.source {
             Source::Row(row) => row.node(),
-            Source::Parameter(_) => None,
+            Source::Parameter(_) | Source::Text(_) => None,
+        }
+    }
+
+    /// Its value before anything is set, if it is a text.
+    pub fn start_text(&self) -> Option<&'static str> {
+        match self.source {
+            Source::Text(text) => Some(text.start),
+            Source::Row(_) | Source::Parameter(_) => None,
         }
     }
 }
@@ -121,6 +132,8 @@ enum Source {
     Row(rows::Source),
     /// The parameter of the scene with this place.
     Parameter(Parameter),
+    /// A row of the table of texts.
+    Text(&'static Text),
 }
 
 /// Why a variable was not set.
@@ -229,6 +242,7 @@ impl Interface {
     pub fn of(scene: &Scene) -> Self {
         let mut variables = rows::variables(scene);
         variables.extend(parameters::variables(scene));
+        variables.extend(texts::variables());
         let readers = variables.iter().map(Reader::of).collect();
         Self { variables, readers }
     }
@@ -279,7 +293,7 @@ impl Interface {
         self.variables.get(index).ok_or(unknown)
     }
 
-    /// The present value of the variable at an index of the table.
+    /// The present value of the variable at an index of the table; not a number for a text.
     pub fn value(&self, simulation: &Simulation, index: usize) -> Value {
         self.value_with(simulation, &Findings::default(), index)
     }
@@ -292,12 +306,14 @@ impl Interface {
         match &self.variables[index].source {
             Source::Row(rows::Source { row, at }) => (row.read)(Present { simulation, findings }, *at),
             Source::Parameter(parameter) => parameter.value(simulation),
+            // Who holds the simulation holds its texts.
+            Source::Text(_) => Value::Real(f64::NAN),
         }
     }
 
-    /// Whether the variable at an index is a whole number; nothing where there is no such variable.
-    pub fn is_whole(&self, index: usize) -> Option<bool> {
-        self.readers.get(index).map(|reader| reader.whole)
+    /// The type of the variable at an index; nothing where there is no such variable.
+    pub fn type_of(&self, index: usize) -> Option<Type> {
+        self.readers.get(index).map(|reader| reader.of_type)
     }
 
     /// Whether the variable at an index may be set to a value.

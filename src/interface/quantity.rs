@@ -13,6 +13,28 @@ pub struct BaseUnits {
     pub radian: i32,
 }
 
+/// The type of a variable, as FMI has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// A real number.
+    Real,
+    /// A whole number.
+    Integer,
+    /// A text.
+    String,
+}
+
+impl Type {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Real => "Real",
+            Self::Integer => "Integer",
+            Self::String => "String",
+        }
+    }
+}
+
 /// Declares the quantities: name, symbol of the unit, exponents of kilogram, metre, second and radian.
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident $unit:expr, $kilogram:literal $metre:literal $second:literal $radian:literal;)+) => {
@@ -31,7 +53,7 @@ macro_rules! quantities {
                 match self { $(Self::$name => stringify!($name),)+ }
             }
 
-            /// Symbol of its unit; none for a count, which is an integer.
+            /// Symbol of its unit; none for a count, which is an integer, and for a text.
             pub fn unit(self) -> Option<&'static str> {
                 match self { $(Self::$name => $unit,)+ }
             }
@@ -97,9 +119,20 @@ quantities! {
     DampingRatePerLength Some("1/(m.s)"), 0 -1 -1 0;
     /// A whole number of things
     Count None, 0 0 0 0;
+    /// A text
+    Text None, 0 0 0 0;
 }
 
 impl Quantity {
+    /// The type of what has it.
+    pub fn of_type(self) -> Type {
+        match self {
+            Self::Count => Type::Integer,
+            Self::Text => Type::String,
+            _ => Type::Real,
+        }
+    }
+
     /// That of a parameter with this unit; a whole number without one.
     pub(super) fn of_unit(unit: Option<&str>) -> Self {
         Self::ALL.iter().copied().find(|quantity| quantity.unit() == unit).unwrap_or(Self::Ratio)

@@ -26,6 +26,12 @@ pub enum OutputError {
         /// What the encoder said.
         source: EncodeError,
     },
+    /// A child of the process that writes.
+    #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
+    Forked {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The thread that writes ended without a reason.
     #[error("{}: the writer stopped; its results are not whole", path.display())]
     Writer {

@@ -45,7 +45,7 @@ pub enum Refusal {
         folder: PathBuf,
     },
     /// Another process writes into the folder.
-    #[error("{}: in use by {holder}; another folder with -o is right, or the same one when that run has ended", folder.display())]
+    #[error("{}: in use by {holder}; another folder is right, or the same one when that run has ended", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
@@ -58,6 +58,14 @@ pub enum Refusal {
          another folder with -o keeps both", folder.display()
     )]
     Used {
+        /// The folder.
+        folder: PathBuf,
+        /// What is known of that run.
+        held: String,
+    },
+    /// The folder holds results, and nothing else may be written there.
+    #[error("{}: holds results of an earlier run ({held}); an empty folder, or a name that is not there yet, is right", folder.display())]
+    Taken {
         /// The folder.
         folder: PathBuf,
         /// What is known of that run.

@@ -1,16 +1,13 @@
 //! The folder of a run's results: which files stand in it, and how they are begun, taken up and added to.
 
-use super::collection::Collection;
 use super::error::{OutputError, ResumeError};
-use super::files::{Durability, sync, write_checkpoint, write_whole};
+use super::files::{sync, write_checkpoint};
+use super::frame_files::{Frame, FrameFiles};
 use super::job::{Job, cells};
 use super::replacement::results;
 use super::schedule::Schedule;
 use super::table::{Found, Table};
-use super::{
-    BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, collection_name, frame_name, frame_number, frames,
-    vtk::Cloud,
-};
+use super::{BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, frame_name, frame_number};
 use crate::bond::breakage::cause_name;
 use crate::scene::Scene;
 use crate::state::{Break, State};
@@ -34,16 +31,6 @@ const BREAKAGE_COLUMNS: [&str; 12] = [
     "area",
 ];
 
-/// A frame's `.pvd` and what has been added.
-struct Series {
-    /// Beginning of the file names.
-    name: &'static str,
-    /// The `.pvd`.
-    collection: Collection,
-    /// Number of the next frame.
-    next: usize,
-}
-
 /// The open folder.
 pub(crate) struct Folder {
     /// What is simulated.
@@ -56,8 +43,10 @@ pub(crate) struct Folder {
     history: Table,
     /// `breakage.csv`, if the scene has bonds.
     breakage: Option<Table>,
-    /// The kinds of frames that the scene asks for.
-    series: Vec<Series>,
+    /// The frames, if the scene asks for them.
+    frames: Option<FrameFiles>,
+    /// Number of the next frame.
+    next_frame: usize,
     /// Frames that may not be on the disk yet.
     unsynced: Vec<PathBuf>,
 }
@@ -69,8 +58,8 @@ pub(crate) struct Kept {
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
     breakage: Option<Found>,
-    /// Numbers and times of the frames that are there \[s\].
-    frames: Vec<(usize, f64)>,
+    /// The frames that are there.
+    frames: Vec<Frame>,
     /// Number of the next frame.
     next_frame: usize,
 }
@@ -117,8 +106,8 @@ impl Kept {
         };
         let times = schedule.frames_until(time);
         let next_frame = times.len();
-        let there = |number: &usize| path.join(frame_name(FRAMES[0], *number)).exists();
-        let frames = (0..).zip(times).filter(|(number, _)| there(number)).collect();
+        let there = |frame: &Frame| path.join(frame_name(FRAMES[0], frame.number)).exists();
+        let frames = (0..).zip(times).map(|(number, time)| Frame { number, time }).filter(there).collect();
         Ok(Self { history: Some(history), breakage, frames, next_frame })
     }
 }
@@ -142,18 +131,16 @@ impl Folder {
         let bonded = !scene.bonds.is_empty();
         let breakage =
             bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
-        let wanted = [true, scene.output.contacts, bonded, scene.output.boundaries];
-        let series = (FRAMES.into_iter().zip(wanted))
-            .filter(|(_, wanted)| *wanted && scene.output.frame_interval.is_some())
-            .map(|(name, _)| Series::open(path, name, kept))
-            .collect::<Result<_, _>>()?;
+        let asked = scene.output.frame_interval.is_some();
+        let frames = asked.then(|| FrameFiles::open(path, &scene, &kept.frames)).transpose()?;
         Ok(Self {
             scene,
             scene_name: scene_name.to_owned(),
             path: path.to_owned(),
             history,
             breakage,
-            series,
+            frames,
+            next_frame: kept.next_frame,
             unsynced: Vec::new(),
         })
     }
@@ -168,10 +155,7 @@ impl Folder {
         match job {
             Job::Row { time, values } => self.history.add(&cells(time, &values)),
             Job::Breaks(breaks) => self.breaks(&breaks),
-            Job::Frame { time, .. } => {
-                let clouds = frames::clouds(&self.scene, job);
-                self.frame(time, clouds.into_iter().flatten())
-            }
+            Job::Frame { time, .. } => self.frame(time, job),
             Job::Checkpoint(state) => self.checkpoint(&state),
             Job::Tell(done) => {
                 // Whoever does not wait any more need not know.
@@ -212,32 +196,13 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes the files of a frame, then their entries.
-    fn frame(&mut self, time: f64, clouds: impl Iterator<Item = Cloud>) -> Result<(), OutputError> {
-        for (series, cloud) in self.series.iter_mut().zip(clouds) {
-            self.unsynced.push(series.add(&self.path, time, cloud)?);
-        }
-        Ok(())
-    }
-}
-
-impl Series {
-    /// Takes up the frames that are kept.
-    fn open(path: &Path, name: &'static str, kept: &Kept) -> Result<Self, OutputError> {
-        let frames: Vec<_> = kept.frames.iter().map(|(number, time)| (*time, frame_name(name, *number))).collect();
-        let collection = Collection::create(&path.join(collection_name(name)), &frames)?;
-        Ok(Self { name, collection, next: kept.next_frame })
-    }
-
     /// Writes the next frame.
-    fn add(&mut self, folder: &Path, time: f64, cloud: Cloud) -> Result<PathBuf, OutputError> {
-        let name = frame_name(self.name, self.next);
-        let path = folder.join(&name);
-        let bytes = cloud.encode().map_err(|source| OutputError::Encode { path: path.clone(), source })?;
-        write_whole(&path, &bytes, Durability::Process)?;
-        self.collection.add(time, &name)?;
-        self.next += 1;
-        Ok(path)
+    fn frame(&mut self, time: f64, job: Job) -> Result<(), OutputError> {
+        let Some(frames) = &mut self.frames else { return Ok(()) };
+        let frame = Frame { number: self.next_frame, time };
+        self.unsynced.extend(frames.write(&self.scene, frame, job)?);
+        self.next_frame += 1;
+        Ok(())
     }
 }
 

@@ -18,6 +18,8 @@ pub(crate) const LOCK: &str = ".cograin-lock";
 pub(crate) struct FolderLock {
     /// The locked file.
     path: PathBuf,
+    /// The process that took it. A child made by `fork` has a copy of this value, but the lock is not its own to give back.
+    process: u32,
     /// What keeps it locked.
     _file: File,
 }
@@ -49,13 +51,21 @@ impl FolderLock {
             file.set_len(0).and_then(|()| file.rewind()).map_err(failed)?;
             let begun = humantime::format_rfc3339_seconds(SystemTime::now());
             writeln!(file, "process {}, started {begun}", std::process::id()).map_err(failed)?;
-            return Ok(Self { path, _file: file });
+            return Ok(Self { path, process: std::process::id(), _file: file });
         }
+    }
+
+    /// Whether this process took it.
+    pub(crate) fn is_own(&self) -> bool {
+        self.process == std::process::id()
     }
 }
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
+        if !self.is_own() {
+            return;
+        }
         // A file that stays locks nobody out.
         let _ = fs::remove_file(&self.path);
     }

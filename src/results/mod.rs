@@ -22,6 +22,7 @@ mod error;
 mod failure;
 pub(crate) mod files;
 pub(crate) mod folder;
+pub(crate) mod frame_files;
 pub(crate) mod frames;
 pub(crate) mod job;
 pub(crate) mod lock;

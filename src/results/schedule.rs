@@ -8,6 +8,7 @@
 //! not drift; two of them that differ by rounding alone are one.
 
 use super::failure::Refusal;
+use super::frame_files::Frame;
 use crate::scene::{Scene, Step};
 use crate::step::divide;
 
@@ -29,6 +30,9 @@ const SAME: f64 = 1e-9;
 
 /// A saved time may be off by this part of the shortest interval.
 const NEAR: f64 = 1e-3;
+
+/// A master that sums up its steps may miss a time by this part of an interval: it has come there.
+const MET: f64 = 1e-6;
 
 /// Times at equal intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -218,6 +222,36 @@ impl Schedule {
         let slack = SAME * series.interval;
         let count = series.last(time, slack) + 1;
         if count > 1 && self.end - series.time(count - 1) < slack { count - 1 } else { count }
+    }
+}
+
+/// When frames are due where the communication points come from outside: at the first point at or after each multiple of
+/// the scene's interval, or at every point if the scene has none. Nothing is shortened for them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MetFrames {
+    /// The scene's interval.
+    series: Option<Series>,
+}
+
+impl MetFrames {
+    /// Those that a scene asks for.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        Self { series: scene.output.frame_interval.map(Series::every) }
+    }
+
+    /// The frame that is due at a point \[s\] if the last one is this, with the time that it is known by; none if none is
+    /// due. Times are since the start.
+    pub(crate) fn due(&self, time: f64, last: Option<Frame>) -> Option<Frame> {
+        let Some(series) = self.series else {
+            let number = last.map_or(0, |last| last.number + 1);
+            return last.is_none_or(|last| time > last.time).then_some(Frame { number, time });
+        };
+        let slack = MET * series.interval;
+        let count = series.last(time, slack);
+        let regular = series.time(count);
+        let number = usize::try_from(count).unwrap_or(usize::MAX);
+        let time = if (time - regular).abs() <= slack { regular } else { time };
+        last.is_none_or(|last| number > last.number).then_some(Frame { number, time })
     }
 }
 

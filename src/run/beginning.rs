@@ -67,19 +67,32 @@ impl First<'_> {
     }
 }
 
-/// Locks the folder of the results, ends what another run may have left half done there, and refuses to begin where
-/// an earlier run's results are to be kept.
-pub(super) fn claim(order: &RunOrder<'_>) -> Result<FolderLock, Failure> {
-    let path = order.folder;
+/// Locks the folder of the results, which is made if it is not there, and ends what another run may have left half done there.
+pub(super) fn lock(path: &Path) -> Result<FolderLock, Failure> {
     if path.exists() && !path.is_dir() {
         return Err(Refusal::NotAFolder { folder: path.to_owned() }.into());
     }
     fs::create_dir_all(path).map_err(OutputError::at(path))?;
     let lock = FolderLock::take(path)?;
     replacement::take_up(path)?;
+    Ok(lock)
+}
+
+/// What is known of the run whose results are in a folder; none if there are no results.
+pub(super) fn held(path: &Path) -> Result<Option<String>, OutputError> {
+    Ok((!replacement::results(path)?.is_empty()).then(|| summary::told(&path.join(SUMMARY))))
+}
+
+/// Locks the folder of the results, and refuses to begin where an earlier run's results are to be kept.
+pub(super) fn claim(order: &RunOrder<'_>) -> Result<FolderLock, Failure> {
+    let path = order.folder;
+    let lock = lock(path)?;
     let own = || *order.start == Start::LastCheckpoint || matches!(checkpoint(order), Ok(Some((_, Origin::Here))));
-    if order.earlier_results == EarlierResults::Keep && !own() && !replacement::results(path)?.is_empty() {
-        return Err(Refusal::Used { folder: path.to_owned(), held: summary::told(&path.join(SUMMARY)) }.into());
+    if order.earlier_results == EarlierResults::Keep
+        && !own()
+        && let Some(held) = held(path)?
+    {
+        return Err(Refusal::Used { folder: path.to_owned(), held }.into());
     }
     Ok(lock)
 }

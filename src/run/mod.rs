@@ -1,6 +1,7 @@
 //! A run of a scene without a master, from one communication point to the next, and what it writes there.
 
 mod beginning;
+mod frame_writer;
 mod inputs;
 pub(crate) mod jobs;
 mod meter;
@@ -10,6 +11,7 @@ pub(crate) mod remarks;
 mod settle;
 mod summary;
 
+pub use frame_writer::FrameWriter;
 pub use order::{EarlierResults, Progress, RunOrder, Start};
 pub use remarks::remarks;
 pub use settle::{SettleOrder, SettleProgress, Settled, settle};

@@ -102,3 +102,25 @@ fn a_scene_without_intervals_has_a_hundred_points_and_two_rows() {
     assert_eq!(all.iter().filter(|point| point.due.history).count(), 1);
     assert_eq!((plain.rows_until(0.25), plain.rows_until(0.5)), (1, 2));
 }
+
+#[test]
+fn a_frame_is_due_at_the_first_point_from_outside_that_is_not_before_it() {
+    let frames = MetFrames { series: Some(Series::every(0.1)) };
+    // A clock that sums up its steps.
+    let (mut time, mut last, mut found) = (0.0, None, Vec::new());
+    for _ in 0..=3000 {
+        if let Some(frame) = frames.due(time, last) {
+            last = Some(frame);
+            found.push((frame.number, frame.time));
+        }
+        time += 1e-4;
+    }
+    let expected: Vec<_> = (0..=3_usize).map(|k| (k, k as f64 / 10.0)).collect();
+    assert_eq!(found, expected);
+    let last = Some(Frame { number: 3, time: 0.3 });
+    assert_eq!(frames.due(0.65, last), Some(Frame { number: 6, time: 0.65 }));
+    assert_eq!(frames.due(0.35, last), None);
+    let each = MetFrames { series: None };
+    assert_eq!(each.due(0.35, last), Some(Frame { number: 4, time: 0.35 }));
+    assert_eq!(each.due(0.3, last), None);
+}
