@@ -58,7 +58,7 @@ pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Wa
             let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
             moved.impulse[axis] += impulse;
             if boundary.input == InputCourse::Quadratic {
-                moved.first_moment[axis] += impulse * progress.from_the_middle();
+                moved.first_moment[axis] += impulse * progress.since_the_middle();
             }
             if !boundary.axes[axis].is_free() {
                 moved.total_impulse[axis] += impulse;

@@ -79,7 +79,7 @@ impl Progress {
     }
 
     /// Time from the middle of the communication step to that of the present time step \[s\].
-    pub(crate) fn from_the_middle(&self) -> f64 {
+    pub(crate) fn since_the_middle(&self) -> f64 {
         let (before, after) = (self.share_of_time(self.done.saturating_sub(1)), self.share_of_time(self.done));
         0.5 * (before + after - 1.0) * self.length
     }
