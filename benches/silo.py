@@ -8,6 +8,10 @@ wide    144 mm, 29,000 spheres: orifices of 6 to 15 diameters, of which the wide
         from 0.2 s after the opening, until 0.8 s or until four tenths of the spheres are out.
 
     python3 benches/silo.py [narrow | wide] [--orifices 4.5 6 7.5] [--seeds 0 1 2] [--shape revolved | meshed] [--cograin FILE]
+    python3 benches/silo.py narrow --liggghts liggghts [--orifices 4.5 6 7.5] [--seeds 0 1 2]
+
+With --liggghts the same packings come to rest and run out in LIGGGHTS (apt-get install liggghts), between the walls of --shape meshed
+and with the same time step. Needs meshio.
 
 Beverloo's law (Chem. Eng. Sci. 15 (1961) 260-269), W = C rho sqrt(g) (D - k d)^2.5, is fitted where there are three orifices or more.
 """
@@ -131,41 +135,123 @@ def slope(times, counts):
     return sum((time - middle) * (count - mean) for time, count in zip(times, counts)) / along
 
 
+def head_of(silo, shape, seed):
+    """The scene without its walls, and the number of its spheres; END stands for its end."""
+    # The polygon of a meshed wall is inside of the circle.
+    packed = silo.radius * (math.cos(math.pi / SIDES) if shape == "meshed" else 1.0)
+    head = HEAD.replace("SEED", str(seed)).replace("PACKED", repr(packed)).replace("HEIGHT", repr(silo.height))
+    return head, SOLID_FRACTION * math.pi * packed**2 * silo.height / (math.pi / 6.0 * DIAMETER**3)
+
+
+def lasts(silo, diameters, spheres):
+    """How long an orifice is open [s]."""
+    expected = LIGGGHTS.get(diameters, 34.0 * (diameters - 1.4) ** 2.5)
+    return min(silo.until, (silo.counted[1] + 0.1) * spheres / expected)
+
+
+def fitted(silo, spheres, passed):
+    """Spheres per second of rows of time after the opening [s] and spheres that are out."""
+    least, most = (part * spheres for part in silo.counted)
+    return slope(*zip(*((time, count) for time, count in passed if time > silo.after and least < count < most)))
+
+
+def call(command, folder=None):
+    """Runs a program; ends with what it says if it fails. Returns what it says."""
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(done.stdout + done.stderr)
+    return done.stdout
+
+
+def run_scene(program, folder, name, text, *options):
+    """Runs a scene, whose results are in the folder of its name."""
+    scene = folder / f"{name}.toml"
+    scene.write_text(text)
+    call([program, "run", scene, "-o", folder / name, "--overwrite", *options])
+
+
 class Filled:
     """A silo full of spheres at rest, of which orifices are opened."""
 
     def __init__(self, program, silo, shape, seed, folder):
         self.program, self.silo, self.shape, self.folder = program, silo, shape, folder
-        # The polygon of a meshed wall is inside of the circle.
-        packed = silo.radius * (math.cos(math.pi / SIDES) if shape == "meshed" else 1.0)
-        self.head = HEAD.replace("SEED", str(seed)).replace("PACKED", repr(packed)).replace("HEIGHT", repr(silo.height))
-        self.spheres = SOLID_FRACTION * math.pi * packed**2 * silo.height / (math.pi / 6.0 * DIAMETER**3)
-        self.run("fill", self.head.replace("END", str(REST)) + self.surfaces(0.0))
+        self.head, self.spheres = head_of(silo, shape, seed)
+        run_scene(program, folder, "fill", self.head.replace("END", str(REST)) + self.surfaces(0.0))
 
     def surfaces(self, hole):
         """The boundaries of the scene."""
         return meshed(self.silo, hole, self.folder) if self.shape == "meshed" else revolved(self.silo, hole)
 
-    def run(self, name, text, *options):
-        """Runs a scene; ends with what the program says if it refuses."""
-        scene = self.folder / f"{name}.toml"
-        scene.write_text(text)
-        command = [self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options]
-        done = subprocess.run(command, check=False, capture_output=True, text=True)
-        if done.returncode:
-            raise SystemExit(done.stdout + done.stderr)
-
     def rate(self, diameters):
         """Spheres per second through an orifice of so many diameters."""
         silo = self.silo
-        expected = LIGGGHTS.get(diameters, 34.0 * (diameters - 1.4) ** 2.5)
-        lasts = min(silo.until, (silo.counted[1] + 0.1) * self.spheres / expected)
-        text = self.head.replace("END", str(REST + lasts)) + self.surfaces(diameters * DIAMETER / 2) + OUT
-        self.run("flow", text, "--from", self.folder / "fill" / "checkpoint.cograin")
+        end = REST + lasts(silo, diameters, self.spheres)
+        text = self.head.replace("END", str(end)) + self.surfaces(diameters * DIAMETER / 2) + OUT
+        run_scene(self.program, self.folder, "flow", text, "--from", self.folder / "fill" / "checkpoint.cograin")
         rows = list(csv.DictReader((self.folder / "flow" / "history.csv").open()))
-        passed = [(float(row["time"]) - REST, float(row["orifice.count"])) for row in rows]
-        least, most = (part * self.spheres for part in silo.counted)
-        return slope(*zip(*((time, count) for time, count in passed if time > silo.after and least < count < most)))
+        return fitted(silo, self.spheres, [(float(row["time"]) - REST, float(row["orifice.count"])) for row in rows])
+
+
+DECK = f"""atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+units si
+SPHERES
+neighbor 0.001 bin
+neigh_modify delay 0
+fix m1 all property/global youngsModulus peratomtype 5e6
+fix m2 all property/global poissonsRatio peratomtype 0.25
+fix m3 all property/global coefficientRestitution peratomtypepair 1 0.5
+fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
+pair_style gran model hertz tangential history
+pair_coeff * *
+fix wall all mesh/surface file wall.stl type 1
+fix BOTTOM all mesh/surface file bottom.stl type 1
+fix walls all wall/gran model hertz tangential history mesh n_meshes 2 meshes wall BOTTOM
+fix g all gravity {GRAVITY} vector 0 0 -1
+fix integrate all nve/sphere
+timestep {STEP!r}
+thermo_style custom step atoms ke
+thermo_modify lost ignore norm no
+thermo 1000
+run STEPS
+"""
+
+
+class Peer:
+    """The same silo in LIGGGHTS, between meshes: what has fallen out of the domain is counted."""
+
+    def __init__(self, program, cograin, silo, seed, folder):
+        import meshio
+
+        self.program, self.silo, self.folder = program, silo, folder
+        head, self.spheres = head_of(silo, "meshed", seed)
+        walls = meshed(silo, 0.0, folder)
+        run_scene(cograin, folder, "start", head.replace("END", repr(STEP)) + f"frame_interval = {STEP!r}\n" + walls)
+        points = meshio.read(folder / "start" / "particles_000000.vtu").points.tolist()
+        side = silo.radius + 0.01
+        text = f"spheres\n\n{len(points)} atoms\n1 atom types\n\n{-side} {side} xlo xhi\n{-side} {side} ylo yhi\n"
+        text += "-0.02 0.25 zlo zhi\n\nAtoms\n\n"
+        rows = (f"{number} 1 {DIAMETER} {DENSITY} {x!r} {y!r} {z!r}\n" for number, (x, y, z) in enumerate(points, 1))
+        (folder / "spheres.data").write_text(text + "".join(rows))
+        self.run("read_data spheres.data", "bottom", REST, "write_restart full.restart\n")
+
+    def run(self, spheres, bottom, time, then=""):
+        """Runs a deck for a time [s]; returns rows of steps and spheres."""
+        deck = DECK.replace("SPHERES", spheres).replace("BOTTOM", bottom).replace("STEPS", str(round(time / STEP)))
+        (self.folder / "deck.in").write_text(deck + then)
+        words = (line.split() for line in call([self.program, "-in", "deck.in", "-log", "none"], self.folder).splitlines())
+        return [(int(row[0]), int(row[1])) for row in words if len(row) == 3 and row[0].isdigit() and row[1].isdigit()]
+
+    def rate(self, diameters):
+        """Spheres per second through an orifice of so many diameters."""
+        meshed(self.silo, diameters * DIAMETER / 2, self.folder)
+        # A mesh of the name that it had when the silo was full would be the closed bottom.
+        rows = self.run("read_restart full.restart", "orifice", lasts(self.silo, diameters, self.spheres))
+        passed = [((step - rows[0][0]) * STEP, rows[0][1] - spheres) for step, spheres in rows]
+        return fitted(self.silo, self.spheres, passed)
 
 
 def beverloo(rates):
@@ -185,13 +271,17 @@ def main():
     parser.add_argument("--cograin", metavar="FILE", default=str(Path(__file__).resolve().parents[1] / "target/release/cograin"))
     parser.add_argument("--orifices", metavar="D", type=float, nargs="+")
     parser.add_argument("--seeds", metavar="N", type=int, nargs="+", default=[0])
+    parser.add_argument("--liggghts", metavar="FILE", help="the program of that name, which runs in place of cograin")
     parser.add_argument("--shape", choices=["revolved", "meshed"], default="revolved")
     options = parser.parse_args()
     silo = SILOS[options.silo]
     rates = {diameters: [] for diameters in options.orifices or silo.orifices}
     for seed in options.seeds:
         with tempfile.TemporaryDirectory() as folder:
-            filled = Filled(options.cograin, silo, options.shape, seed, Path(folder))
+            if options.liggghts:
+                filled = Peer(options.liggghts, options.cograin, silo, seed, Path(folder))
+            else:
+                filled = Filled(options.cograin, silo, options.shape, seed, Path(folder))
             print(f"seed {seed}, {filled.spheres:.0f} spheres", flush=True)
             for diameters, found in rates.items():
                 found.append(filled.rate(diameters))
@@ -199,7 +289,7 @@ def main():
     means = {diameters: sum(found) / len(found) for diameters, found in rates.items()}
     for diameters, mean in means.items():
         spread = max(rates[diameters]) - min(rates[diameters])
-        peer = f", {mean / LIGGGHTS[diameters] - 1.0:+.1%} of LIGGGHTS'" if options.silo == "narrow" and diameters in LIGGGHTS else ""
+        peer = f", {mean / LIGGGHTS[diameters] - 1.0:+.1%} of the first packing in LIGGGHTS" if options.silo == "narrow" and diameters in LIGGGHTS else ""
         print(f"{diameters} d: mean {mean:.0f} per second, spread {spread:.0f}{peer}")
     if len(means) > 2:
         print("C = {:.3f}, k = {:.2f}, furthest from the line {:.2%}".format(*beverloo(means)))
