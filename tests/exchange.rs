@@ -176,6 +176,15 @@ outside = "remove"
 energy = true
 "#;
 
+/// What momentum along z differs from that which came less what went and the impulse of the weight, over the larger of these.
+fn momentum_residual(simulation: &Simulation) -> f64 {
+    let (state, net) = (simulation.state(), exchange(simulation).net);
+    let momentum: f64 = state.particles.velocity.iter().map(|row| row[3] * row[2]).sum();
+    let mass: f64 = state.particles.velocity.iter().map(|row| row[3]).sum();
+    let weight = simulation.scene().gravity[2] * (mass * simulation.time() - net.mass_time);
+    (momentum - net.momentum[2] - weight) / weight.abs().max(net.momentum[2].abs())
+}
+
 #[test]
 fn what_leaves_the_domain_goes_and_what_falls_freely_is_there_as_long_as_the_fall_takes() {
     let scene = scene(FREE);
@@ -191,6 +200,7 @@ fn what_leaves_the_domain_goes_and_what_falls_freely_is_there_as_long_as_the_fal
     let ledger = simulation.state().ledger.as_ref().unwrap();
     let residual = simulation.energy_residual().unwrap() / ledger.turnover;
     assert!(residual.abs() < 1e-12, "{residual:e}");
+    assert!(momentum_residual(&simulation).abs() < 1e-12, "{:e}", momentum_residual(&simulation));
 }
 
 #[test]
@@ -333,7 +343,8 @@ fn a_hundred_thousand_come_and_go() {
         known.outside,
         state.particles.slot.len()
     );
-    println!("energy {residual:e}, mass {lost:e}");
-    assert!(known.outside.count > 90_000 && residual.abs() < 1e-12 && lost.abs() < 1e-12);
+    let momentum = momentum_residual(&simulation);
+    println!("energy {residual:e}, mass {lost:e}, momentum {momentum:e}");
+    assert!(known.outside.count > 90_000 && residual.abs() < 1e-12 && lost.abs() < 1e-12 && momentum.abs() < 1e-11);
     assert!(state.particles.slot.len() < most + 5000);
 }

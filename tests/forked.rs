@@ -3,6 +3,7 @@
 
 #![cfg(unix)]
 
+use cograin::run::FrameWriter;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
 use std::collections::BTreeMap;
@@ -48,6 +49,25 @@ file = "block.csv"
     Simulation::new(Arc::new(scene)).unwrap()
 }
 
+/// A child writes no frames into the folder of its parent, and does not give it back.
+fn frames_stay_with_the_process_that_opened_their_folder(simulation: &Simulation) {
+    let folder = std::env::temp_dir().join(format!("cograin-forked-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    let mut writer = Some(FrameWriter::open(&folder, simulation, 0.0, 0.0).unwrap());
+    let files = || std::fs::read_dir(&folder).unwrap().count();
+    let before = files();
+    let refused = in_child(|| {
+        let said = writer.as_mut().unwrap().pass(simulation, 1.0).unwrap_err().to_string();
+        drop(writer.take());
+        said.ends_with("the process that opened it writes there; a child that it made by fork does not")
+    });
+    assert!(refused && files() == before, "nothing is written, and the lock stays");
+    writer.as_mut().unwrap().pass(simulation, 1.0).unwrap();
+    assert_eq!(files(), before + 1);
+    drop(writer);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 /// Whether a child that does this ends well.
 fn in_child(act: impl FnOnce() -> bool) -> bool {
     // SAFETY: this is the only test of its program, and the library has no lock that helpers hold for longer than a
@@ -84,4 +104,5 @@ fn a_simulation_with_helpers_goes_on_and_ends_in_a_forked_child() {
     let simulation = simulation.as_mut().unwrap();
     simulation.advance(2e-5).unwrap();
     assert_eq!(simulation.state().fingerprint(), expected, "the parent goes on");
+    frames_stay_with_the_process_that_opened_their_folder(simulation);
 }

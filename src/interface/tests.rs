@@ -141,7 +141,8 @@ fn what_was_found_for_one_value_serves_the_others() {
     scene.boundaries.retain(|boundary| boundary.name != "grip");
     let mut simulation = Simulation::new(std::sync::Arc::new(scene)).unwrap();
     let (interface, findings) = (Interface::of(simulation.scene()), Findings::default());
-    for index in 0..interface.variables().len() {
+    let is_number = |index: &usize| interface.type_of(*index) != Some(Type::String);
+    for index in (0..interface.variables().len()).filter(is_number) {
         let alone = interface.value(&simulation, index);
         assert_eq!(interface.value_with(&simulation, &findings, index), alone, "{index}");
     }

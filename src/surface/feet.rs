@@ -74,6 +74,17 @@ impl Feet {
     }
 }
 
+/// What one part of a plane tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OnPlane {
+    /// The sphere touches nothing.
+    Away,
+    /// It touches the plane here.
+    On(Foot),
+    /// Nothing: all parts are to be looked at.
+    Unknown,
+}
+
 /// A surface of features. Positions are in the axes of the surface, as it stands at time 0.
 pub trait Features: Debug + Send + Sync {
     /// Adds the parts within reach of a centre, ascending. A surface of few parts adds one whenever any is.
@@ -90,17 +101,10 @@ pub trait Features: Debug + Send + Sync {
         false
     }
 
-    /// Finds what [`Features::feet`] finds on parts of one plane, by a look at one of them: the one of the feature that was touched
-    /// last, if any. Returns whether that was enough.
-    fn feet_on_plane(
-        &self,
-        _centre: Vector,
-        _radius: f64,
-        _parts: &[u32],
-        _last: Option<u32>,
-        _feet: &mut Feet,
-    ) -> bool {
-        false
+    /// What [`Features::feet`] finds on parts of one plane, by a look at one of them: the one of the feature that was touched
+    /// last, if any.
+    fn on_plane(&self, _centre: Vector, _radius: f64, _parts: &[u32], _last: Option<u32>) -> OnPlane {
+        OnPlane::Unknown
     }
 
     /// Asks the memory for what a look at these features needs, so that it is there soon.

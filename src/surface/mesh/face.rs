@@ -95,6 +95,13 @@ impl Face {
         self.beyond(centre).iter().all(|beyond| *beyond <= 0.0)
     }
 
+    /// Whether the foot of the centre of a sphere with this radius \[m\] is inside the triangle, and not so near to an edge that
+    /// it may be on the next one as well.
+    #[inline(always)]
+    pub(super) fn is_well_over(&self, centre: Vector, radius: f64) -> bool {
+        largest(self.beyond(centre)) <= -BAND * radius
+    }
+
     /// How a centre stands to the triangle where edges within reach are flat, a bit for each edge in `flat`; `rest` as for
     /// [`Face::stand`], `radius` that of the sphere \[m\].
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::edge::OnEdge;
 use super::face::{FLAT, Place, Stand};
 use super::{Mesh, Sides};
 use crate::number::Vector;
-use crate::surface::feet::{Features, Feet, Foot};
+use crate::surface::feet::{Features, Feet, Foot, OnPlane};
 
 impl Mesh {
     /// The nearest point of an edge.
@@ -111,25 +111,21 @@ impl Features for Mesh {
     }
 
     #[inline]
-    fn feet_on_plane(&self, centre: Vector, radius: f64, parts: &[u32], last: Option<u32>, feet: &mut Feet) -> bool {
+    fn on_plane(&self, centre: Vector, radius: f64, parts: &[u32], last: Option<u32>) -> OnPlane {
         let last = last.and_then(|feature| feature.checked_sub(self.face(0)));
-        let Some(triangle) = last.or(parts.first().copied()) else { return false };
+        let Some(triangle) = last.or(parts.first().copied()) else { return OnPlane::Unknown };
         let face = &self.faces[triangle as usize];
         let height = face.height(centre);
         // Other triangles of the plane may be nearer by what their angles make.
         if height.abs() > radius * (1.0 + 1e-3) {
-            return true;
+            return OnPlane::Away;
         }
         let counts = self.sides == Sides::Both || height > 0.0;
-        if !counts || height.abs() > radius {
-            return false;
+        if counts && height.abs() <= radius && face.is_well_over(centre, radius) {
+            OnPlane::On(self.on_face(triangle, height))
+        } else {
+            OnPlane::Unknown
         }
-        let is_over = face.place(centre, radius * radius - height * height, radius, self.flat.edges[triangle as usize])
-            == Place::Over;
-        if is_over {
-            feet.list.push(self.on_face(triangle, height));
-        }
-        is_over
     }
 
     fn prefetch(&self, features: &[u32]) {

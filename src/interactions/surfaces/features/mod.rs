@@ -18,7 +18,7 @@ use crate::batches::Entries;
 use crate::number::Vector;
 use crate::state::WallContacts;
 use crate::state::contacts::REVERSE;
-use crate::surface::{Feet, Foot, Saddle};
+use crate::surface::{Feet, Foot, OnPlane, Saddle};
 use at_feet::AtFeet;
 use columns::finish;
 pub(super) use columns::{FeatureContacts, Spare, replace};
@@ -87,23 +87,27 @@ impl AtSurface {
         contacts: &mut FeatureContacts,
     ) {
         let sticks = self.law.law.holds_beyond_touch();
+        // Where contacts have no more than a foot.
+        let is_plain = !sticks && !self.law.law.has_pair_constant() && at.moving.is_none();
         let near = &list.near.particle;
         let [first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
         let (mut feet, mut entry) = (std::mem::take(&mut contacts.feet), 0);
         for (place, &slot) in (first..last).zip(&near[first..last]) {
             let position = particles.position[slot as usize];
-            let constant = constant(list, place);
-            let beyond = if sticks { constant } else { 0.0 };
-            feet.clear();
-            let centre = at.frame.inside(Vector::from(position));
-            let (radius, parts) = (position[3] + beyond, parts(list, place));
-            let in_plane = list.near.plane[place] != 0 && {
-                let last = past.last(slot, &mut entry);
-                at.features.feet_on_plane(centre, radius, parts, last, &mut feet)
-            };
-            if !in_plane {
-                at.features.feet(centre, radius, parts, &mut feet);
+            let (centre, parts) = (at.frame.inside(Vector::from(position)), parts(list, place));
+            if is_plain && list.near.plane[place] != 0 {
+                match at.features.on_plane(centre, position[3], parts, past.last(slot, &mut entry)) {
+                    OnPlane::Away => continue,
+                    OnPlane::On(foot) => {
+                        contacts.push(slot, &foot, at.frame.outside(foot.normal), 1.0);
+                        continue;
+                    }
+                    OnPlane::Unknown => {}
+                }
             }
+            let constant = constant(list, place);
+            feet.clear();
+            at.features.feet(centre, position[3] + if sticks { constant } else { 0.0 }, parts, &mut feet);
             if sticks {
                 self.keep_touched(at, (slot, position[3]), past, &mut feet);
             }
