@@ -13,7 +13,7 @@ const FILE: usize = 300;
 /// Files above that, each with its reason.
 const LONG: [(&str, &str); 24] = [
     ("command/src/main.rs", "one command after another; each is a few lines"),
-    ("fmu/src/instance.rs", "the life of an instance: every call that FMI allows in each of its states"),
+    ("fmu/src/instance/mod.rs", "the life of an instance: every call that FMI allows in each of its states"),
     ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
     ("src/batches/mod.rs", "a batch from its entries to its loads, phase after phase"),
     ("src/bond/formulation/finite_rotation.rs", "one formulation, with the tests that its equations are held to"),

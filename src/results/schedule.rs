@@ -32,7 +32,7 @@ const SAME: f64 = 1e-9;
 const NEAR: f64 = 1e-3;
 
 /// A master that sums up its steps may miss a time by this part of an interval: it has come there.
-const MET: f64 = 1e-6;
+const ARRIVED: f64 = 1e-6;
 
 /// Times at equal intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,12 +228,12 @@ impl Schedule {
 /// When frames are due where the communication points come from outside: at the first point at or after each multiple of
 /// the scene's interval, or at every point if the scene has none. Nothing is shortened for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MetFrames {
+pub(crate) struct FrameSchedule {
     /// The scene's interval.
     series: Option<Series>,
 }
 
-impl MetFrames {
+impl FrameSchedule {
     /// Those that a scene asks for.
     pub(crate) fn of(scene: &Scene) -> Self {
         Self { series: scene.output.frame_interval.map(Series::every) }
@@ -246,7 +246,7 @@ impl MetFrames {
             let number = last.map_or(0, |last| last.number + 1);
             return last.is_none_or(|last| time > last.time).then_some(Frame { number, time });
         };
-        let slack = MET * series.interval;
+        let slack = ARRIVED * series.interval;
         let count = series.last(time, slack);
         let regular = series.time(count);
         let number = usize::try_from(count).unwrap_or(usize::MAX);

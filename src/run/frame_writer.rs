@@ -9,7 +9,7 @@ use super::beginning::{held, lock};
 use super::jobs::frame;
 use crate::results::frame_files::{Frame, FrameFiles};
 use crate::results::lock::FolderLock;
-use crate::results::schedule::MetFrames;
+use crate::results::schedule::FrameSchedule;
 use crate::results::{Failure, OutputError, Refusal};
 use crate::step::Simulation;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub struct FrameWriter {
     /// Whether the last one is there because the simulation ended.
     ended: bool,
     /// When they are due.
-    due: MetFrames,
+    due: FrameSchedule,
     /// The time at which the experiment starts \[s\].
     start: f64,
     /// The lock that keeps others out of the folder.
@@ -45,7 +45,7 @@ impl FrameWriter {
             return Err(Refusal::Taken { folder: folder.to_owned(), held }.into());
         }
         let files = FrameFiles::begin(folder, simulation.scene())?;
-        let due = MetFrames::of(simulation.scene());
+        let due = FrameSchedule::of(simulation.scene());
         let (folder, written) = (folder.to_owned(), Vec::new());
         let mut writer = Self { folder, files, written, ended: false, due, start, lock };
         match writer.pass(simulation, time) {

@@ -105,7 +105,7 @@ fn a_scene_without_intervals_has_a_hundred_points_and_two_rows() {
 
 #[test]
 fn a_frame_is_due_at_the_first_point_from_outside_that_is_not_before_it() {
-    let frames = MetFrames { series: Some(Series::every(0.1)) };
+    let frames = FrameSchedule { series: Some(Series::every(0.1)) };
     // A clock that sums up its steps.
     let (mut time, mut last, mut found) = (0.0, None, Vec::new());
     for _ in 0..=3000 {
@@ -120,7 +120,7 @@ fn a_frame_is_due_at_the_first_point_from_outside_that_is_not_before_it() {
     let last = Some(Frame { number: 3, time: 0.3 });
     assert_eq!(frames.due(0.65, last), Some(Frame { number: 6, time: 0.65 }));
     assert_eq!(frames.due(0.35, last), None);
-    let each = MetFrames { series: None };
+    let each = FrameSchedule { series: None };
     assert_eq!(each.due(0.35, last), Some(Frame { number: 4, time: 0.35 }));
     assert_eq!(each.due(0.3, last), None);
 }

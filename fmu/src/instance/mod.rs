@@ -1,21 +1,21 @@
 //! One instance of the unit: the functions of FMI 2.0 in safe Rust.
 
+mod states;
+mod values;
+
 use crate::calls::Phase;
 use crate::frames::Frames;
-use crate::guard;
-use crate::host_memory::{Items, Target};
 use crate::location::{self, LocationError};
 use crate::refusal::Refusal;
-use crate::saved::{BlobError, Course, Saved};
-use crate::types::{Reference, Status};
+use crate::saved::{Course, Saved};
+use crate::types::Status;
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Causality, Derivatives, Findings, Interface, InterfaceError, Type, Value, Variable};
+use cograin::interface::{Derivatives, Findings, Interface, Value};
 use cograin::scene::{Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
 use cograin::step::{Description, RunError, Simulation};
 use std::collections::BTreeMap;
-use std::ffi::{CStr, CString};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -363,188 +363,6 @@ impl Instance {
         Ok(())
     }
 
-    /// The variable with a reference, if it is of the type that the function is for.
-    fn variable(&self, reference: Reference, expected: &'static str) -> Result<(usize, &Variable), Refusal> {
-        let index = reference as usize;
-        let variable = self.unit.interface.variable(index)?;
-        let found = variable.quantity.of_type().name();
-        if found == expected {
-            Ok((index, variable))
-        } else {
-            Err(Refusal::Type { reference, name: variable.name.clone(), found, expected })
-        }
-    }
-
-    /// Values of variables of one type.
-    pub(crate) fn values(&mut self, references: Items<Reference>, kind: &'static str) -> Result<&[Value], Refusal> {
-        if !self.course.placed {
-            for reference in references.iter() {
-                self.variable(reference, kind)?;
-            }
-            self.place()?;
-        }
-        let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name() == kind);
-        let mut values = std::mem::take(&mut self.values);
-        values.clear();
-        values.reserve(references.len());
-        for reference in references.iter() {
-            let index = reference as usize;
-            if wanted.is_none() || self.unit.interface.type_of(index) != wanted {
-                self.variable(reference, kind)?;
-            }
-            let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
-            if !value.number().is_finite() {
-                let name = self.unit.interface.variables()[index].name.clone();
-                return Err(Refusal::NoNumber { reference, name, value: value.number() });
-            }
-            values.push(value);
-        }
-        self.values = values;
-        Ok(&self.values)
-    }
-
-    /// `fmi2SetReal` and `fmi2SetInteger`: all or nothing.
-    pub(crate) fn set<T: Copy + Into<f64>>(
-        &mut self,
-        references: Items<Reference>,
-        values: Items<T>,
-        kind: &'static str,
-    ) -> Result<(), Refusal> {
-        let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
-        let mut tuned = Vec::new();
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let (index, variable) = self.variable(reference, kind)?;
-            self.unit.interface.check(index, value.into())?;
-            if variable.causality == Causality::Parameter && !starting {
-                tuned.push((index, value.into()));
-            }
-        }
-        if !tuned.is_empty() {
-            self.frames.pass(&self.simulation, None);
-            self.unit.interface.tune(&mut self.simulation, &tuned)?;
-            self.changed();
-        }
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let (index, value) = (reference as usize, value.into());
-            if starting {
-                self.course.placed = false;
-                self.give(index, value);
-            }
-            self.unit.interface.set(&mut self.simulation, index, Value::Real(value))?;
-        }
-        Ok(())
-    }
-
-    /// Notes the value of a parameter that the simulation is to be made with.
-    fn give(&mut self, index: usize, value: f64) {
-        let variable = &self.unit.interface.variables()[index];
-        if variable.start == Some(value) {
-            self.given.remove(&index);
-        } else if variable.causality == Causality::Parameter {
-            self.given.insert(index, value);
-        }
-    }
-
-    /// `fmi2GetString`
-    pub(crate) fn texts(&self, references: Items<Reference>) -> Result<Vec<&CStr>, Refusal> {
-        let text = |reference| self.variable(reference, "String").map(|(index, _)| self.frames.text(index));
-        references.iter().map(text).collect()
-    }
-
-    /// `fmi2SetString`: all or nothing.
-    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) -> Result<(), Refusal> {
-        let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
-        for reference in references.iter() {
-            let (index, variable) = self.variable(reference, "String")?;
-            if !starting {
-                return Err(InterfaceError::Fixed { index, name: variable.name.clone() }.into());
-            }
-        }
-        for (reference, value) in references.iter().zip(values) {
-            self.frames.set_text(reference as usize, value);
-        }
-        Ok(())
-    }
-
-    /// The other setters: there are no inputs of these types, so every reference is a wrong one.
-    pub(crate) fn refuse_to_set(&self, references: Items<Reference>, kind: &'static str) -> Result<(), Refusal> {
-        for reference in references.iter() {
-            let (index, _) = self.variable(reference, kind)?;
-            self.unit.interface.check(index, 0.0)?;
-        }
-        Ok(())
-    }
-
-    /// `fmi2SetRealInputDerivatives`, of order 1, or 2 where the motion is quadratic: all or nothing.
-    pub(crate) fn set_rates(
-        &mut self,
-        references: Items<Reference>,
-        orders: Items<i32>,
-        rates: Items<f64>,
-    ) -> Result<(), Refusal> {
-        for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
-            let (index, variable) = self.variable(reference, "Real")?;
-            match order {
-                1 => self.unit.interface.check_rate(index, rate)?,
-                2 => drop(self.unit.interface.check_acceleration(&self.unit.scene, index, rate)?),
-                _ => {
-                    let right = "order 1, or order 2 of quadratic motion,";
-                    return Err(Refusal::Order { order, right, reference, name: variable.name.clone() });
-                }
-            }
-        }
-        for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
-            let (interface, index) = (&self.unit.interface, reference as usize);
-            if order == 1 {
-                interface.set_rate(&mut self.simulation, index, rate)?;
-            } else {
-                let (boundary, axis) = interface.check_acceleration(&self.unit.scene, index, rate)?;
-                self.simulation.set_input_acceleration(boundary, axis, rate);
-            }
-        }
-        Ok(())
-    }
-
-    /// `fmi2GetDirectionalDerivative`: change of each unknown, an output, per unit of a direction of inputs.
-    pub(crate) fn directional_derivatives(
-        &mut self,
-        unknowns: Items<Reference>,
-        knowns: Items<Reference>,
-        direction: Items<f64>,
-    ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_derivatives(&self.unit.scene)?;
-        let mut changes = Vec::new();
-        for unknown in unknowns.iter() {
-            let (output, _) = self.variable(unknown, "Real")?;
-            let mut change = 0.0;
-            for (known, share) in knowns.iter().zip(direction.iter()) {
-                let (input, _) = self.variable(known, "Real")?;
-                let (interface, known) = (&self.unit.interface, &mut self.derivatives);
-                change += share * interface.derivative(&mut self.simulation, known, [output, input])?;
-            }
-            changes.push(change);
-        }
-        Ok(changes)
-    }
-
-    /// `fmi2GetRealOutputDerivatives`: of order 1.
-    pub(crate) fn output_derivatives(
-        &mut self,
-        references: Items<Reference>,
-        orders: Items<i32>,
-    ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_rates(&self.unit.scene)?;
-        let mut rates = Vec::new();
-        for (reference, order) in references.iter().zip(orders.iter()) {
-            let (index, variable) = self.variable(reference, "Real")?;
-            if order != 1 {
-                return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
-            }
-            rates.push(self.unit.interface.rate(&mut self.simulation, &mut self.derivatives, index)?);
-        }
-        Ok(rates)
-    }
-
     /// `fmi2DoStep`
     pub(crate) fn step(&mut self, point: f64, length: f64) -> Result<(), Refusal> {
         let present = self.time();
@@ -583,106 +401,6 @@ impl Instance {
                 Err(Refusal::Discarded { cause, time: self.time() })
             }
         }
-    }
-
-    /// `fmi2GetFMUstate`: over the state at `address`, or anew if that is 0. Yields the address.
-    pub(crate) fn save(&mut self, address: usize) -> Result<usize, Refusal> {
-        if address != 0 && !self.kept.contains_key(&address) {
-            return Err(Refusal::Handle);
-        }
-        self.make()?;
-        let (state, given) = (self.simulation.state().clone(), self.made_with.clone());
-        let saved = Saved { state, course: self.course, given };
-        Ok(self.keep(saved, address))
-    }
-
-    /// Keeps a state at `address`, or at a new one if this unit has none there. Yields the address.
-    fn keep(&mut self, saved: Saved, address: usize) -> usize {
-        if let Some(kept) = self.kept.get_mut(&address) {
-            *kept = Kept { saved, bytes: None };
-            return address;
-        }
-        let address = guard::fresh_address();
-        self.kept.insert(address, Kept { saved, bytes: None });
-        address
-    }
-
-    /// `fmi2SetFMUstate`
-    pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
-        let Kept { saved, .. } = self.kept.get(&address).ok_or(Refusal::Handle)?;
-        let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(saved)?) };
-        let course = saved.course;
-        // Kept states are those of this instance, or were checked as they came in; a simulation made anew has not seen them yet.
-        if let Some(begun) = other {
-            begun.simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
-            self.given.clone_from(&begun.given);
-            self.take(begun);
-        }
-        self.given.clone_from(&self.made_with);
-        self.changed();
-        self.simulation.return_to(&self.kept[&address].saved.state);
-        self.course = course;
-        match course.phase {
-            Phase::Ready | Phase::Discarded => self.frames.go_back(&self.simulation, self.start_time(), self.time()),
-            Phase::Instantiated | Phase::Initialization => self.frames.undo(),
-            Phase::Terminated | Phase::Broken => {}
-        }
-        Ok(())
-    }
-
-    /// `fmi2FreeFMUstate`; freeing nothing is fine.
-    pub(crate) fn forget(&mut self, address: usize) -> Result<(), Refusal> {
-        if address == 0 {
-            return Ok(());
-        }
-        self.kept.remove(&address).map(drop).ok_or(Refusal::Handle)
-    }
-
-    /// Bytes of a saved state.
-    fn bytes(&mut self, address: usize) -> Result<&mut Option<Vec<u8>>, Refusal> {
-        let kept = self.kept.get_mut(&address).ok_or(Refusal::Handle)?;
-        if kept.bytes.is_none() {
-            kept.bytes = Some(kept.saved.to_bytes(&self.unit.identity, self.unit.scene.fingerprint));
-        }
-        Ok(&mut kept.bytes)
-    }
-
-    /// `fmi2SerializedFMUstateSize`
-    pub(crate) fn serialized_size(&mut self, address: usize) -> Result<usize, Refusal> {
-        Ok(self.bytes(address)?.as_ref().map_or(0, Vec::len))
-    }
-
-    /// `fmi2SerializeFMUstate`: a large buffer is filled to the number of bytes there are.
-    pub(crate) fn serialize(&mut self, address: usize, buffer: &Target<u8>) -> Result<(), Refusal> {
-        let given = buffer.len();
-        let kept = self.bytes(address)?;
-        let needed = kept.as_ref().map_or(0, Vec::len);
-        if given < needed {
-            return Err(Refusal::Size { given, needed });
-        }
-        // the bytes are as large as the state; they are made again if they are asked for again
-        buffer.put_all(&kept.take().unwrap_or_default());
-        Ok(())
-    }
-
-    /// `fmi2DeSerializeFMUstate`: over the state at `address`, or anew. Yields the address.
-    pub(crate) fn deserialize(&mut self, bytes: &[u8], address: usize) -> Result<usize, Refusal> {
-        if address != 0 && !self.kept.contains_key(&address) {
-            return Err(Refusal::Handle);
-        }
-        let saved = Saved::from_bytes(bytes, &self.unit.identity, self.unit.scene.fingerprint)?;
-        for (&index, &value) in &saved.given {
-            self.unit.interface.check(index, value)?;
-        }
-        let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(&saved)?) };
-        let simulation = other.as_ref().map_or(&self.simulation, |begun| &begun.simulation);
-        simulation.check(&saved.state).map_err(|fault| BlobError::State(fault.into()))?;
-        Ok(self.keep(saved, address))
-    }
-
-    /// A simulation with the parameters of a saved state.
-    fn made_with_those_of(&self, saved: &Saved) -> Result<Begun, Refusal> {
-        self.unit.begin(saved.given.clone()).map_err(|error| Refusal::Parameters { error: error.to_string() })
     }
 }
 

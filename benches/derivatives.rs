@@ -1,0 +1,86 @@
+//! What directional derivatives cost, in communication steps of the same length: a bonded block, the bed of the coupling set, and
+//! spheres with Hertz contacts and friction that press each other.
+//!
+//! `cargo bench --bench derivatives`
+
+use cograin::dual::DIRECTIONS;
+use cograin::quantity::BoundaryIndex;
+use cograin::scene::{Scene, Source};
+use cograin::step::Simulation;
+use std::collections::BTreeMap;
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Time steps of a communication step.
+const STEPS: f64 = 50.0;
+
+/// Ten by ten by ten spheres between planes, pressed by the upper one.
+const PRESSED: &str = r#"
+[run]
+step = 1.0e-5
+threads = 1
+[material.glass]
+density = 2500.0
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+[pair.glass.glass]
+restitution = 0.5
+friction = 0.5
+[contact.all.normal.hertz]
+[contact.all.tangential.history]
+[particles.all]
+material = "glass"
+lattice = { kind = "simple_cubic", radius = 0.005, spacing = 0.00999, counts = [10, 10, 10], origin = [0.0, 0.0, 0.0] }
+[boundary.floor]
+plane = { point = [0.0, 0.0, -0.004995], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+[boundary.top]
+plane = { point = [0.0, 0.0, 0.094905], normal = [0.0, 0.0, -1.0] }
+material = "glass"
+motion = { driven = ["x", "y", "z"] }
+"#;
+
+/// A scene of the coupling set, whose boundary of this name is driven.
+fn model(name: &str) -> Source {
+    let read = |file: &str| std::fs::read(format!("models/coupling_set/{file}")).expect("the model can be read");
+    let text = String::from_utf8(read(&format!("{name}.toml"))).expect("it is text");
+    Source { name: name.into(), text, files: BTreeMap::from([("bed.csv.gz".into(), read("bed.csv.gz"))]) }
+}
+
+/// The quickest of some times \[s\] that something took after a communication step.
+fn quickest(simulation: &mut Simulation, length: f64, mut work: impl FnMut(&mut Simulation)) -> f64 {
+    let times = (0..20).map(|_| {
+        simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
+        let begun = Instant::now();
+        work(simulation);
+        begun.elapsed().as_secs_f64()
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
+
+/// Prints the cost of a derivative in a scene, for one input and for as many as are followed at a time.
+#[allow(clippy::print_stdout, reason = "a benchmark prints")]
+fn tell(source: &Source, step: f64, boundary: &str) {
+    let scene = Arc::new(Scene::from_source(source).unwrap_or_else(|errors| panic!("{errors}")));
+    let place = scene.boundaries.iter().position(|it| it.name == boundary).expect("the boundary is there");
+    let boundary = BoundaryIndex(place as u32);
+    let mut simulation = Simulation::new(scene).expect("the scene starts");
+    let length = STEPS * step;
+    let once = quickest(&mut simulation, length, |it| it.advance_or_return(length).expect("it runs"));
+    for inputs in [1, DIRECTIONS] {
+        let inputs = vec![(boundary, 2); inputs];
+        let cost = quickest(&mut simulation, length, |it| {
+            black_box(it.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+        });
+        let (count, steps) = (inputs.len(), cost / once);
+        println!("{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input", source.name, once * 1e3, steps / count as f64);
+    }
+}
+
+fn main() {
+    tell(&model("block"), 1e-6, "top");
+    tell(&model("bed"), 5e-5, "floor");
+    let pressed = Source { name: "pressed".into(), text: PRESSED.into(), files: BTreeMap::new() };
+    tell(&pressed, 1e-5, "top");
+}
