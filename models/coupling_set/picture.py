@@ -18,7 +18,7 @@ COLOURS = {
     "quadratic": "#e0218a",
     "Newton, differences": "#d17fa6",
 }
-MARKS = {"cograin": "o", "lammps": "s", "liggghts": "^"}
+MARKS = {"cograin": "o", "lammps": "s", "liggghts": "^", "yade": "v", "kratos": "D"}
 ROUNDING = 1e-17  # where an interface energy of nothing is drawn
 
 

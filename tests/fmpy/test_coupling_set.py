@@ -1,5 +1,6 @@
 """The coupling set gives the errors and the energies that its page states, at steps that take no time."""
 
+import argparse
 import sys
 
 import numpy as np
@@ -13,6 +14,7 @@ import couple  # noqa: E402
 import problems  # noqa: E402
 import stability  # noqa: E402
 import theory  # noqa: E402
+from peers.process import HERE, Process  # noqa: E402
 
 # Problem, exchange, step, error: the scheme's own, from the table of the page.
 CASES = [
@@ -59,3 +61,66 @@ def test_verlet_grows_at_the_border_of_theory_and_not_one_step_below_it(opened, 
     unit = opened(problems.TwoMasses())
     assert stability.grows(unit, Verlet, mass, border)
     assert not stability.grows(unit, Verlet, mass, border - time_step)
+
+
+WORLD = '''
+import sys
+sys.path.insert(0, sys.argv[1])
+from serving import serve
+
+class World:
+    """Velocity Verlet by hand."""
+    def __init__(self, given):
+        self.given, self.floor = given, 0.0
+        self.height, self.speed = given["height"], given["velocity"]
+    def rate(self):
+        return -self.force() / self.given["mass"] - self.given["gravity"]
+    def step(self, speed):
+        length = self.given["time_step"]
+        self.speed += 0.5 * length * self.rate()
+        self.height += length * self.speed
+        self.floor += length * speed
+        self.speed += 0.5 * length * self.rate()
+    def force(self):
+        return -self.given["stiffness"] * max(self.floor - self.height, 0.0)
+    def sphere(self):
+        return self.height, self.speed
+    def save(self):
+        self.kept = self.height, self.speed, self.floor
+    def restore(self):
+        self.height, self.speed, self.floor = self.kept
+
+serve(World)
+'''
+
+
+@pytest.mark.parametrize(("exchange", "error"), [("Gauss–Seidel", 3.4e-2), ("secant", 3.5e-3)])
+def test_a_program_of_its_own_is_a_side_of_the_same_exchanges(tmp_path, exchange, error):
+    (tmp_path / "world.py").write_text(WORLD)
+
+    class Side(Process):
+        can_restore, keeps_itself = True, False
+
+        def __init__(self, *problem):
+            super().__init__([sys.executable, tmp_path / "world.py", HERE], *problem)
+
+    (measure, *_), taken, said = couple.theirs(problems.Drop(), Side, exchange, 1e-3)
+    assert not said and taken > 0.0
+    assert measure.error == pytest.approx(error, rel=0.02)
+
+
+def test_a_program_that_ends_says_why_at_once(tmp_path):
+    (tmp_path / "world.py").write_text("raise ValueError('no sphere today')")
+    with pytest.raises(ChildProcessError, match="ValueError: no sphere today"):
+        Process([sys.executable, tmp_path / "world.py"], problems.Drop(), 1e-5, 0.05, 0.0, True)
+
+
+def test_the_set_goes_on_where_other_programs_are_missing(monkeypatch, capfd):
+    monkeypatch.setattr(couple, "NAMES", ("yade", "kratos"))
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setenv("KRATOS_PYTHON", "no-such-interpreter")
+    options = argparse.Namespace(repeats=1, problems=["rod"])
+    assert list(couple.of_peers(options)) == []
+    said = capfd.readouterr().out
+    assert "yade is left out: ImportError: no program yade on the path" in said
+    assert "kratos is left out: ImportError: no KratosMultiphysics with DEMApplication in no-such-interpreter" in said

@@ -1,10 +1,11 @@
 """Other particle programs as sides of the same exchanges, each where it is installed.
 
-They have no unit and no saved state, so only explicit exchanges can be had of them; a sphere falls on a driven floor.
-Each runs in a process of its own: their libraries do not bear each other.
+They have no unit, and most have no saved state, so only explicit exchanges can be had of them; a sphere falls on a
+driven floor. Each runs in a process of its own: their libraries do not bear each other. Those that have an interpreter
+of their own are spoken to line by line (`process.py`, `serving.py`).
 """
 
-NAMES = ("lammps", "liggghts")
+NAMES = ("lammps", "liggghts", "yade", "kratos")
 
 
 class FallingSphere:

@@ -1,0 +1,83 @@
+"""A program with an interpreter of its own as a side: it runs beside this process and is spoken to line by line."""
+
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from problems import GRAVITY, MASS, RADIUS
+
+from peers import FallingSphere
+
+HERE = Path(__file__).resolve().parent
+
+
+class Process(FallingSphere):
+    """One sphere in a process that runs `serving.serve`; a saved state where it says that it has some."""
+
+    def __init__(self, command, problem, time_step, height, velocity, gravity):
+        super().__init__(problem, time_step)
+        self.folder = tempfile.TemporaryDirectory(prefix="cograin-")
+        with (Path(self.folder.name) / "said").open("w") as said:
+            self.child = subprocess.Popen(
+                list(map(str, command)),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=said,
+                text=True,
+                cwd=self.folder.name,
+            )
+        self.values, self.processor = [], 0.0
+        sphere = {"radius": RADIUS, "mass": MASS, "height": height, "velocity": velocity}
+        settings = {"stiffness": problem.contact, "gravity": GRAVITY if gravity else 0.0, "time_step": time_step}
+        self._ask(**sphere, **settings)
+
+    def _ask(self, **words):
+        """One line to it, and its answer: forces, height and velocity, and the processor time it has had [s]."""
+        try:
+            self.child.stdin.write(json.dumps(words) + "\n")
+            self.child.stdin.flush()
+        except BrokenPipeError:
+            pass  # why it ended is said below
+        for line in self.child.stdout:
+            if line.startswith("##"):
+                *self.values, self.processor = json.loads(line[2:])
+                return
+        said = (Path(self.folder.name) / "said").read_text().strip().splitlines()
+        raise ChildProcessError(said[-1] if said else "it ended without a word")
+
+    def force(self, kind):
+        """Force of the sphere on the floor [N]: at the end of the last step, or its mean."""
+        return np.array([self.values[1 if kind == "mean" else 0]])
+
+    def advance(self, displacement, step, kind):
+        """Moves the floor there during a step."""
+        count = round(step.length / self.time_step)
+        self._ask(place=float(displacement[0]), count=count)
+        if not np.isfinite(self.values).all():
+            raise ValueError(f"the sphere is at {self.values[2]} m after {step.end:g} s")
+        self.steps += count
+        self.displacement = displacement
+        return self.force(kind)
+
+    def sphere(self):
+        """Height and velocity of the sphere's lowest point [m, m/s]."""
+        return tuple(self.values[2:4])
+
+    def save(self):
+        """Saves its state in place of the one saved before."""
+        self._ask(state="save")
+        self.saved = self.steps, self.displacement, list(self.values)
+
+    def restore(self):
+        """Restores the saved state."""
+        self._ask(state="restore")
+        self.steps, self.displacement, self.values = self.saved[0], self.saved[1], list(self.saved[2])
+
+    def close(self):
+        """Ends it."""
+        self.child.stdin.close()
+        self.child.wait()
+        self.child.stdout.close()
+        self.folder.cleanup()

@@ -1,0 +1,35 @@
+"""What a program says of one sphere over a driven floor, line by line; it runs in that program's own interpreter."""
+
+import json
+import sys
+import time
+
+
+def serve(open_world):
+    """Answers every line of the standard input with force, mean force, height, velocity and processor time.
+
+    The first line opens the world with the numbers of the problem; the next ones move the floor to `place` \\[m\\] within
+    `count` time steps, or save and restore. A world has the methods `step(speed)`, `force()` and `sphere()`.
+    """
+    settings = json.loads(sys.stdin.readline())
+    world, place, saved = open_world(settings), 0.0, 0.0
+    force = mean = world.force()
+    while True:
+        print("##" + json.dumps([force, mean, *world.sphere(), time.process_time()]), flush=True)
+        line = sys.stdin.readline()
+        if not line:
+            return
+        asked = json.loads(line)
+        if "state" in asked:
+            getattr(world, asked["state"])()
+            saved, place = (place, place) if asked["state"] == "save" else (saved, saved)
+            force = world.force()
+            continue
+        speed = (asked["place"] - place) / (asked["count"] * settings["time_step"])
+        impulse = 0.0
+        for _ in range(asked["count"]):
+            world.step(speed)
+            # What moves the sphere in a step of velocity Verlet is half of the force at each of its ends.
+            before, force = force, world.force()
+            impulse += 0.5 * (before + force)
+        mean, place = impulse / asked["count"], asked["place"]

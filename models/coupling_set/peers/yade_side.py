@@ -1,0 +1,20 @@
+"""YADE, which is a program with an interpreter of its own: the floor is a wall that moves at constant velocity."""
+
+import shutil
+
+from peers.process import HERE, Process
+
+PROGRAM = shutil.which("yade")
+if PROGRAM is None:
+    raise ImportError("no program yade on the path")
+
+
+class Side(Process):
+    """One sphere in YADE. It can restore a state of its memory, so it can be had in repeated exchanges, too."""
+
+    can_restore = True
+    # Nothing returns to the beginning of a step by itself.
+    keeps_itself = False
+
+    def __init__(self, *problem):
+        super().__init__([PROGRAM, "-j1", "-n", "-x", HERE / "yade_program.py", HERE], *problem)
