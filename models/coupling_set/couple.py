@@ -143,14 +143,19 @@ def chosen(options):
 
 def of_peer(options):
     """Rows of one other program."""
-    open_side = import_module(f"peers.{options.peer}_side").Side
+    module = import_module(f"peers.{options.peer}_side")
+    own = import_module(f"peers.{module.OWN}") if hasattr(module, "OWN") else None
     for problem in chosen(options):
         # A dashpot has no mass for velocity Verlet, and nothing bonded is compared here.
         names = {"drop": ("Gauss–Seidel", "Verlet"), "rod": ("Gauss–Seidel",)}.get(problem.name, ())
-        repeated = ("secant",) if names and open_side.can_restore else ()
+        repeated = ("secant",) if names and module.Side.can_restore else ()
         for name in (*names, *repeated):
             for step in problem.steps:
-                course = lambda n=name, s=step, p=problem: theirs(p, open_side, n, s)  # noqa: E731
+                course = lambda n=name, s=step, p=problem: theirs(p, module.Side, n, s)  # noqa: E731
+                yield row(problem, options.peer, name, step, course, options.repeats)
+        for name in own.EXCHANGES if own else ():
+            for step in own.steps(problem, name):
+                course = lambda n=name, s=step, p=problem: own.course(p, n, s)  # noqa: E731
                 yield row(problem, options.peer, name, step, course, options.repeats)
 
 

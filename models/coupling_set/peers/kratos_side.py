@@ -6,6 +6,7 @@ import sys
 
 from peers.process import HERE, Process
 
+OWN = "kratos_cosimulation"  # its own exchanges, beside ours
 PYTHON = os.environ.get("KRATOS_PYTHON", sys.executable)
 
 

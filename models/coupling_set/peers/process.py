@@ -3,6 +3,7 @@
 import json
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -28,22 +29,32 @@ class Process(FallingSphere):
                 text=True,
                 cwd=self.folder.name,
             )
-        self.values, self.processor = [], 0.0
+        #: Processor time of that process, less that of the words on this side: a program is not to pay for them [s].
+        self.values, self.processor, self.there = [], 0.0, 0.0
         sphere = {"radius": RADIUS, "mass": MASS, "height": height, "velocity": velocity}
         settings = {"stiffness": problem.contact, "gravity": GRAVITY if gravity else 0.0, "time_step": time_step}
         self._ask(**sphere, **settings)
 
     def _ask(self, **words):
         """One line to it, and its answer: forces, height and velocity, and the processor time it has had [s]."""
+        begin, before = time.process_time(), self.there
+        self._say(words)
+        *self.values, self.there = self._hear()
+        self.processor += self.there - before - (time.process_time() - begin)
+
+    def _say(self, words):
+        """One line to it."""
         try:
             self.child.stdin.write(json.dumps(words) + "\n")
             self.child.stdin.flush()
         except BrokenPipeError:
-            pass  # why it ended is said below
+            pass  # why it ended is said where its answer is awaited
+
+    def _hear(self):
+        """The numbers of its next answer."""
         for line in self.child.stdout:
             if line.startswith("##"):
-                *self.values, self.processor = json.loads(line[2:])
-                return
+                return json.loads(line[2:])
         said = (Path(self.folder.name) / "said").read_text().strip().splitlines()
         raise ChildProcessError(said[-1] if said else "it ended without a word")
 

@@ -6,20 +6,25 @@ import time
 
 
 def serve(open_world):
-    """Answers every line of the standard input with force, mean force, height, velocity and processor time.
+    """Answers every line of the standard input with force, mean force, height, velocity and processor time so far.
 
+    That time is the program's own: words are not counted.
     The first line opens the world with the numbers of the problem; the next ones move the floor to `place` \\[m\\] within
     `count` time steps, or save and restore. A world has the methods `step(speed)`, `force()` and `sphere()`.
     """
     settings = json.loads(sys.stdin.readline())
     world, place, saved = open_world(settings), 0.0, 0.0
     force = mean = world.force()
+    taken, begin = 0.0, time.process_time()
     while True:
-        print("##" + json.dumps([force, mean, *world.sphere(), time.process_time()]), flush=True)
+        place_and_speed = world.sphere()
+        taken += time.process_time() - begin
+        print("##" + json.dumps([force, mean, *place_and_speed, taken]), flush=True)
         line = sys.stdin.readline()
         if not line:
             return
         asked = json.loads(line)
+        begin = time.process_time()
         if "state" in asked:
             getattr(world, asked["state"])()
             saved, place = (place, place) if asked["state"] == "save" else (saved, saved)

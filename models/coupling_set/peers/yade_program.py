@@ -36,7 +36,7 @@ class World:
         contact = Ip2_FrictMat_FrictMat_FrictPhys(kn=stiffness, ks=MatchMaker(algo="val", val=0.0))
         # Motion first: after a step the forces are those of where the sphere is then.
         O.engines = [
-            NewtonIntegrator(damping=0.0, gravity=(0, 0, -settings["gravity"])),
+            NewtonIntegrator(damping=0.0, gravity=(0, 0, -settings["gravity"]), warnNoForceReset=False),
             ForceResetter(),
             InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
             InteractionLoop([Ig2_Wall_Sphere_ScGeom()], [contact], [Law2_ScGeom_FrictPhys_CundallStrack()]),
