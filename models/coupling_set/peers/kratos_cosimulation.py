@@ -47,7 +47,7 @@ class Record(dict):
 
 
 def course(problem, name, step):
-    """One course: its measure, means of the evaluations in all and in contact, steps left; processor time; or why not."""
+    """One course: its measure, evaluations in all and in contact, steps left; processor time; or why there is none."""
     strong, accelerator = EXCHANGES[name]
     settings = {"radius": RADIUS, "mass": MASS, "height": problem.height, "velocity": 0.0, "gravity": GRAVITY}
     settings |= {"stiffness": problem.contact, "plate": problem.plate, "spring": problem.spring, "end": problem.end}

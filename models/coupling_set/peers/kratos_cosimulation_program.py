@@ -1,7 +1,7 @@
 """The drop by the coupling that Kratos has itself: its DEM and its structural mechanics under its CoSimulation.
 
-Run by an interpreter that has them, in an empty folder, with one line of settings; prints a line for each step: height and
-velocity of the sphere, displacement and velocity of the plate, coupling iterations, processor time.
+Run by an interpreter that has them, in an empty folder, with one line of settings; prints a line for each step: height
+and velocity of the sphere, displacement and velocity of the plate, coupling iterations, processor time.
 """
 
 import json
@@ -73,29 +73,32 @@ def values(part, **variables):
     }
 
 
-def coupling(settings):
-    """Spheres first, then the plate; where the coupling is strong, both again until the plate stays."""
+MOTION = {"displacement": "DISPLACEMENT", "velocity": "VELOCITY"}
+
+
+def sides():
+    """The programs of both sides, and what they give and take."""
     wrapper = "solver_wrappers.kratos"
-    load = {"data": "load", "from_solver": "dem", "from_solver_data": "load", "data_transfer_operator": "nearest"}
-    motion = {"displacement": "DISPLACEMENT", "velocity": "VELOCITY"}
-    solvers = {
+    spheres = {"input_file": "DEM", "move_mesh_model_part": ["RigidFacePart.0"], "working_directory": str(Path.cwd())}
+    return {
         "dem": {
             "type": f"{wrapper}.dem_wrapper",
-            "solver_wrapper_settings": {
-                "input_file": "DEM",
-                "move_mesh_model_part": ["RigidFacePart.0"],
-                "working_directory": str(Path.cwd()),
-            },
-            "data": values("RigidFacePart.0", load="CONTACT_FORCES", **motion),
+            "solver_wrapper_settings": spheres,
+            "data": values("RigidFacePart.0", load="CONTACT_FORCES", **MOTION),
         },
         "structure": {
             "type": f"{wrapper}.structural_mechanics_wrapper",
             "solver_wrapper_settings": {"input_file": "FEM"},
-            "data": values("Structure.all", load="POINT_LOAD", **motion),
+            "data": values("Structure.all", load="POINT_LOAD", **MOTION),
         },
     }
+
+
+def coupling(settings):
+    """Spheres first, then the plate; where the coupling is strong, both again until the plate stays."""
+    load = {"data": "load", "from_solver": "dem", "from_solver_data": "load", "data_transfer_operator": "nearest"}
     nearest = {"type": "kratos_mapping", "mapper_settings": {"mapper_type": "nearest_neighbor"}}
-    outputs = [sent(name, "dem") for name in motion]
+    outputs = [sent(name, "dem") for name in MOTION]
     found = {
         "type": f"coupled_solvers.gauss_seidel_{'strong' if settings['strong'] else 'weak'}",
         "echo_level": 0,
@@ -104,7 +107,7 @@ def coupling(settings):
             {"name": "dem", "input_data_list": [], "output_data_list": []},
             {"name": "structure", "input_data_list": [load], "output_data_list": outputs},
         ],
-        "solvers": solvers,
+        "solvers": sides(),
     }
     if settings["strong"]:
         place = {"solver": "structure", "data_name": "displacement"}

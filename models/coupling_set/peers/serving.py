@@ -8,9 +8,9 @@ import time
 def serve(open_world):
     """Answers every line of the standard input with force, mean force, height, velocity and processor time so far.
 
-    That time is the program's own: words are not counted.
-    The first line opens the world with the numbers of the problem; the next ones move the floor to `place` \\[m\\] within
-    `count` time steps, or save and restore. A world has the methods `step(speed)`, `force()` and `sphere()`.
+    That time is the program's own: words are not counted. The first line opens the world with the numbers of the
+    problem; the next ones move the floor to `place` \\[m\\] within `count` time steps, or save and restore. A world has
+    the methods `step(speed)`, `force()`, `sphere()`, and `save()` and `restore()` if it can.
     """
     settings = json.loads(sys.stdin.readline())
     world, place, saved = open_world(settings), 0.0, 0.0
