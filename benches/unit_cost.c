@@ -1,4 +1,6 @@
-/* What calls of a unit cost. Built and called by unit_cost.py:  unit_cost LIBRARY RESOURCES GUID STEP COUNT OUTPUT
+/* What calls of a unit cost. Built and called by unit_cost.py:  unit_cost LIBRARY RESOURCES GUID STEP COUNT OUTPUT [MANY [LENGTH]]
+ *
+ * With a LENGTH: does nothing but COUNT time steps, so many in each call, for who counts from outside.
  *
  * Writes lines of "name value": least processor time of each call over the repeats [us], of a value read [ns], bytes,
  * kB. */
@@ -80,6 +82,13 @@ int main(int count, char **arguments) {
     DEMAND(fmi2EnterInitializationMode(unit));
     DEMAND(fmi2ExitInitializationMode(unit));
 
+    const int only = count > 8 ? atoi(arguments[8]) : 0;
+    if (only) {
+        for (long call = 0; call < steps / only; call++) DEMAND(fmi2DoStep(unit, call * only * step, only * step, 0));
+        fmi2FreeInstance(unit);
+        return 0;
+    }
+
     long done = 0;
     const int lengths[] = {1, 10, 100};
     double of_length[] = {1e9, 1e9, 1e9};
@@ -138,6 +147,20 @@ int main(int count, char **arguments) {
         fmi2FreeInstance(unit);
         if (number + 1 == many / 10) early = memory("VmRSS:");
     }
+
+    /* as many side by side */
+    void **units = calloc(many ? many : 1, sizeof *units);
+    for (int number = 0; number < many; number++) {
+        units[number] = fmi2Instantiate("unit", 1, arguments[3], location, &callbacks, 0, 0);
+        if (!units[number]) return 1;
+        DEMAND(fmi2SetupExperiment(units[number], 0, 0, 0, 0, 0));
+        DEMAND(fmi2EnterInitializationMode(units[number]));
+        DEMAND(fmi2ExitInitializationMode(units[number]));
+    }
+    for (int call = 0; call < 3 * many; call++) DEMAND(fmi2DoStep(units[call % many], call / many * step, step, 0));
+    if (many) printf("memory_together %ld\nthreads_together %ld\n", memory("VmRSS:"), memory("Threads:"));
+    for (int number = 0; number < many; number++) fmi2FreeInstance(units[number]);
+    free(units);
     if (many) printf("memory_after_tenth %ld\nmemory_after_all %ld\nthreads %ld\n", early, memory("VmRSS:"), memory("Threads:"));
     return 0;
 }

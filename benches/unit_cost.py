@@ -6,7 +6,8 @@
 A small host in C (unit_cost.c, built with cc) calls the unit's library directly, so nothing of an importer is measured. Each
 figure is the least processor time of several repeats. "Over the engine" is what one call of one time step takes more than a hundredth of a
 call of a hundred. Without scenes: the smallest (two spheres, one held), models/ice_beam, 10,000 spheres, and 1,000
-units with two threads each, one after the other in one process.
+units with two threads each in one process, one after the other and side by side; at last, counted by valgrind, 20,000 spheres beside
+`cograin run`.
 """
 
 import argparse
@@ -16,7 +17,11 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+import peer_scenes
+from regions import instructions
+
 ROOT = Path(__file__).resolve().parents[1]
+COUNTS = (50, 150)  # time steps of the short and the long run that are counted: set-up is removed
 PROGRAM = ROOT / "target/release/cograin"
 
 SMALLEST = """
@@ -85,8 +90,8 @@ def build(folder):
     return host
 
 
-def measure(host, folder, scene, steps, many=0):
-    """What calls of the unit of a scene cost: a figure for each name."""
+def unpack(folder, scene):
+    """The unit of a scene: what the host has to know of it."""
     unit = folder / f"{scene.stem}.fmu"
     subprocess.run([PROGRAM, "export", scene, "-o", unit], check=True)
     place = folder / scene.stem
@@ -97,7 +102,13 @@ def measure(host, folder, scene, steps, many=0):
     library = next((place / "binaries/linux64").glob("*.so"))
     output = re.search(r'name="[^"]+\.force\.z" valueReference="(\d+)"', text)[1]
     step = re.search(r"^step = ([\d.e+-]+)", scene.read_text(), re.MULTILINE)[1]
-    command = [host, library, place / "resources", guid, step, str(steps), output, str(many)]
+    return library, place / "resources", guid, step, output
+
+
+def measure(host, folder, scene, steps, many=0):
+    """What calls of the unit of a scene cost: a figure for each name."""
+    *unit, output = unpack(folder, scene)
+    command = [host, *unit, str(steps), output, str(many)]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split("\n")
     return {name: float(value) for name, value in (line.split() for line in lines if line)}
 
@@ -119,6 +130,21 @@ def report(title, found):
             f"  memory after a tenth of the units {found['memory_after_tenth']:.0f} kB, after all {found['memory_after_all']:.0f} kB; "
             f"{found['threads']:.0f} thread"
         )
+        print(f"  as many side by side: {found['memory_together']:.0f} kB, {found['threads_together']:.0f} threads")
+
+
+def beside_run(host, folder):
+    """Instructions of a time step of 20,000 spheres: `cograin run`, and the unit with 10 time steps in each call."""
+    scene, length = peer_scenes.Scene("s1_20k", COUNTS), 10
+    runs = {steps: [str(PROGRAM), *peer_scenes.cograin(scene, steps, 1, folder)] for steps in COUNTS}
+    *unit, output = unpack(folder, folder / f"{COUNTS[0]}.toml")
+    calls = {steps: [str(host), *map(str, unit), str(steps), output, "0", str(length)] for steps in COUNTS}
+    short, long = COUNTS
+    alone, called = (
+        (instructions(of[long], folder) - instructions(of[short], folder)) / (long - short) for of in (runs, calls)
+    )
+    print(f"\n20,000 spheres, {length} time steps in each call")
+    print(f"  a time step of cograin run {alone / 1e6:.3f}, of the unit {called / 1e6:.3f} million instructions ({100 * (called / alone - 1):+.2f} %)")
 
 
 def main():
@@ -142,6 +168,7 @@ def main():
             (folder / f"{stem}.toml").write_text(text)
             report(title, measure(host, folder, folder / f"{stem}.toml", steps, many))
         report("models/ice_beam", measure(host, folder, ROOT / "models/ice_beam/scene.toml", 2000))
+        beside_run(host, folder)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ use super::pairs::Laws;
 use crate::geometry::Frame;
 use crate::number::Vector;
 use crate::state::{NearParts, Particles, WallContacts};
-use crate::surface::Features;
+use crate::surface::{Features, NO_PLANE};
 use crate::threads::{CHUNK, Context};
 
 /// A surface of the scene that is touched feature by feature.
@@ -42,7 +42,8 @@ pub(crate) fn replace(
             if found.parts.len() > before {
                 found.particle.push(slot as u32);
                 found.starts.push(before as u32);
-                found.plane.push(u8::from(near.features.is_plane(centre, reach, &found.parts[before..])));
+                let plane = near.features.plane(centre, reach, &found.parts[before..]);
+                found.plane.push(plane.unwrap_or(NO_PLANE));
             }
         }
         found

@@ -404,7 +404,7 @@ impl NearParts {
     /// Whether the lists can be of so many particles.
     fn check(&self, particles: usize) -> Result<(), StateFault> {
         ascending(&self.particle, particles, "near")?;
-        demand(self.plane.len() == self.particle.len(), "near", self.plane.len(), "a mark for each particle")?;
+        demand(self.plane.len() == self.particle.len(), "near", self.plane.len(), "a plane or none for each particle")?;
         if self.starts.is_empty() {
             return demand(self.particle.is_empty() && self.parts.is_empty(), "near", 0, "no part without a start");
         }

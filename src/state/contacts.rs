@@ -159,9 +159,10 @@ pub struct NearParts {
     /// The parts.
     #[serde(with = "plain")]
     pub parts: Vec<u32>,
-    /// Whether those of each lie in one plane that goes on as far as it may come until the lists are made again: 1, or 0.
+    /// A feature of the plane in which those of each lie, if they lie in one that goes on as far as it may come until the lists
+    /// are made again ([`NO_PLANE`](crate::surface::NO_PLANE) otherwise).
     #[serde(with = "plain")]
-    pub plane: Vec<u8>,
+    pub plane: Vec<u32>,
 }
 
 clone_in_place!(WallContacts { boundary, law, particle, flags, history, pair_constant, feature, near });

@@ -13,7 +13,8 @@
 //! whatever the triangulation: the force is continuous and conservative over flat, convex and concave bends, without a
 //! tolerance.
 
-use crate::number::Vector;
+use crate::lanes::Width;
+use crate::number::{Row, Vector};
 use std::fmt::Debug;
 
 /// Where a sphere touches one feature.
@@ -74,15 +75,37 @@ impl Feet {
     }
 }
 
-/// What one part of a plane tells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum OnPlane {
-    /// The sphere touches nothing.
-    Away,
-    /// It touches the plane here.
-    On(Foot),
-    /// Nothing: all parts are to be looked at.
-    Unknown,
+/// Spheres that are looked at together where each is near parts of one plane.
+pub const TOGETHER: usize = 32;
+
+/// The feature of a sphere that is near parts of no plane.
+pub const NO_PLANE: u32 = u32::MAX;
+
+/// Spheres, each near parts of one plane, and what one part of this plane tells of each. Behind the last sphere stands anything.
+#[derive(Clone, Copy, Debug)]
+pub struct OnPlanes {
+    /// How many there are.
+    pub count: usize,
+    /// Centre, in the axes of the surface, and radius of each \[m\].
+    pub sphere: [Row; TOGETHER],
+    /// The part that is asked: its feature.
+    pub feature: [u32; TOGETHER],
+    /// The unit normal from the foot on the part to the centre, and the distance \[m\].
+    pub foot: [Row; TOGETHER],
+    /// A bit for each sphere that touches its plane in this foot, and in no other one.
+    pub touching: u32,
+    /// A bit for each that does not touch its plane. Of the rest nothing is known: all parts are to be looked at.
+    pub away: u32,
+    /// A bit for each whose centre is behind the part.
+    pub behind: u32,
+}
+
+impl OnPlanes {
+    /// No spheres.
+    pub fn none() -> Self {
+        let rows = [[0.0; 4]; TOGETHER];
+        Self { count: 0, sphere: rows, feature: [NO_PLANE; TOGETHER], foot: rows, touching: 0, away: 0, behind: 0 }
+    }
 }
 
 /// A surface of features. Positions are in the axes of the surface, as it stands at time 0.
@@ -96,16 +119,15 @@ pub trait Features: Debug + Send + Sync {
     /// Finds the feet on these parts that are nearer to a centre than `radius` \[m\].
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet);
 
-    /// Whether these parts, all that are within reach of a centre \[m\], lie in one plane that goes on to the end of this reach.
-    fn is_plane(&self, _centre: Vector, _reach: f64, _parts: &[u32]) -> bool {
-        false
+    /// The feature of the first of these parts, all that are within reach of a centre \[m\], if they lie in one plane that goes on
+    /// to the end of this reach.
+    fn plane(&self, _centre: Vector, _reach: f64, _parts: &[u32]) -> Option<u32> {
+        None
     }
 
-    /// What [`Features::feet`] finds on parts of one plane, by a look at one of them: the one of the feature that was touched
-    /// last, if any.
-    fn on_plane(&self, _centre: Vector, _radius: f64, _parts: &[u32], _last: Option<u32>) -> OnPlane {
-        OnPlane::Unknown
-    }
+    /// What [`Features::feet`] finds where each sphere is near parts of one plane, by a look at one of them. The bits of all are 0
+    /// before.
+    fn on_planes(&self, _spheres: &mut OnPlanes, _width: Width) {}
 
     /// Asks the memory for what a look at these features needs, so that it is there soon.
     fn prefetch(&self, _features: &[u32]) {}

@@ -18,7 +18,7 @@ pub(crate) mod rectangle;
 pub(crate) mod revolution;
 
 pub use facets::Facets;
-pub use feet::{Features, Feet, Foot, OnPlane, Saddle};
+pub use feet::{Features, Feet, Foot, NO_PLANE, OnPlanes, Saddle, TOGETHER};
 pub use group::Group;
 pub(crate) use group::Selection;
 pub use mesh::{Deforming, Grip};

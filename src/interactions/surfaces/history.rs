@@ -33,15 +33,6 @@ impl Past<'_> {
         first..first + self.particle[first..].iter().take_while(|&&other| other == slot).count()
     }
 
-    /// The first feature that a particle (slot) touched; `entry` goes on from one particle to the next, by ascending slots.
-    #[inline]
-    pub(super) fn last(&self, slot: u32, entry: &mut usize) -> Option<u32> {
-        while *entry < self.particle.len() && self.particle[*entry] < slot {
-            *entry += 1;
-        }
-        (self.particle.get(*entry) == Some(&slot)).then(|| self.feature[*entry])
-    }
-
     /// Which of some entries is that of a feature.
     #[inline]
     pub(super) fn entry(&self, entries: &Range<usize>, feature: u32) -> Option<usize> {

@@ -1,24 +1,26 @@
 //! A triangle as the search for feet wants it: all numbers side by side.
 
-use crate::memory::prefetch;
-use crate::number::Vector;
+use crate::lanes::{Lane, Table};
+use crate::number::{Number, Row, Vector};
 
 /// What rounding may take from a distance, with room.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
+/// Triangles, side by side: what the search for feet waits for is memory, and each fills two lines of the cache.
+#[derive(Clone)]
+pub(super) struct Faces(Table<4>);
+
 /// A triangle. Heights and distances are taken from its first corner, so that a wall of triangles gives the bits of a plane.
-/// It fills two lines of the cache: what the search for feet waits for is memory.
 #[derive(Clone, Copy)]
-#[repr(align(64))]
-pub(super) struct Face {
+pub(super) struct Face<N = f64> {
     /// First corner \[m\].
-    corner: Vector,
+    corner: Vector<N>,
     /// Unit normal.
-    pub(super) normal: Vector,
+    pub(super) normal: Vector<N>,
     /// For each edge the unit normal in the plane of the triangle that points away from it.
-    outwards: [Vector; 3],
+    outwards: [Vector<N>; 3],
     /// How far the second edge is from the first corner \[m\]; the others go through it.
-    second: f64,
+    second: N,
 }
 
 /// The sine of the angle at an edge below which it is flat: vertices in single precision give 1e-7 and more.
@@ -54,15 +56,57 @@ pub(super) enum Stand {
 }
 
 /// Nothing but the name: all numbers follow from the topology, which is told already where scenes are compared.
-impl std::fmt::Debug for Face {
+impl std::fmt::Debug for Faces {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str("Face")
+        formatter.write_str("Faces")
     }
 }
 
+impl Faces {
+    /// Those with these corners \[m\].
+    pub(super) fn of(corners: impl Iterator<Item = [Vector; 3]>) -> Self {
+        Self(Table::of(corners.map(|corners| Face::of(corners).to_rows())))
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// A triangle.
+    #[inline(always)]
+    pub(super) fn at(&self, triangle: u32) -> Face {
+        Face::of_rows(*self.0.at(triangle as usize))
+    }
+
+    /// The first of these triangles, one in each lane.
+    #[inline(always)]
+    pub(super) fn in_lanes<N: Lane>(&self, triangles: &[u32; 8]) -> Face<N> {
+        Face::of_rows(self.0.columns(triangles))
+    }
+
+    /// Moves each to other corners \[m\].
+    pub(super) fn follow(&mut self, corners: impl Iterator<Item = [Vector; 3]>) {
+        self.0.iter_mut().zip(corners).for_each(|(rows, corners)| *rows = Face::of(corners).to_rows());
+    }
+
+    /// Whether they are too many for the first cache, whose other half is for the particles.
+    pub(super) fn are_many(&self) -> bool {
+        self.0.bytes() > FIRST_CACHE / 2
+    }
+
+    /// Asks the memory for a triangle, if it is there.
+    pub(super) fn prefetch(&self, triangle: u32) {
+        self.0.prefetch(triangle as usize);
+    }
+}
+
+/// What the first cache of every processor of the last ten years holds at least \[bytes\].
+const FIRST_CACHE: usize = 1 << 15;
+
 impl Face {
     /// A triangle.
-    pub(super) fn of(corners: [Vector; 3]) -> Self {
+    fn of(corners: [Vector; 3]) -> Self {
         let [a, b, c] = corners;
         let unit = |vector: Vector| crate::surface::direction(vector.to_array()).map_or(vector, Vector::from);
         let normal = unit((b - a).cross(c - a));
@@ -70,36 +114,56 @@ impl Face {
         Self { corner: a, normal, outwards, second: outwards[1].dot(b - a) }
     }
 
-    /// Asks the memory for both of its lines.
-    pub(super) fn prefetch(&self) {
-        prefetch(&raw const *self);
-        prefetch(&raw const self.second);
+    /// Its numbers, row by row.
+    fn to_rows(self) -> [Row; 4] {
+        let [first, second, third] = self.outwards;
+        [
+            self.corner.row_with(self.second),
+            self.normal.row_with(first.x),
+            [first.y, first.z, second.x, second.y],
+            third.row_with(second.z),
+        ]
+    }
+}
+
+impl<N: Number> Face<N> {
+    /// The triangle with these numbers.
+    #[inline(always)]
+    fn of_rows([corner, normal, first, third]: [[N; 4]; 4]) -> Self {
+        let outwards = [
+            Vector::new(normal[3], first[0], first[1]),
+            Vector::new(first[2], first[3], third[3]),
+            Vector::of_row(third),
+        ];
+        Self { corner: Vector::of_row(corner), normal: Vector::of_row(normal), outwards, second: corner[3] }
     }
 
     /// Height of a centre over the plane of the triangle \[m\].
     #[inline(always)]
-    pub(super) fn height(&self, centre: Vector) -> f64 {
+    pub(super) fn height(&self, centre: Vector<N>) -> N {
         (centre - self.corner).dot(self.normal)
     }
 
     /// How far the foot of a centre is beyond each edge \[m\].
     #[inline(always)]
-    fn beyond(&self, centre: Vector) -> [f64; 3] {
+    fn beyond(&self, centre: Vector<N>) -> [N; 3] {
         let from = centre - self.corner;
         let [first, second, third] = self.outwards;
         [from.dot(first), from.dot(second) - self.second, from.dot(third)]
     }
 
+    /// Whether the foot of the centre of a sphere with this radius \[m\] is not well inside the triangle: it is outside, or so near
+    /// to an edge that it may be on the next one as well.
+    #[inline(always)]
+    pub(super) fn is_beside(&self, centre: Vector<N>, radius: N) -> N::Mask {
+        largest(self.beyond(centre)).greater(-(N::splat(BAND) * radius))
+    }
+}
+
+impl Face {
     /// Whether the foot of a centre in the plane of the triangle is inside it.
     pub(super) fn is_over(&self, centre: Vector) -> bool {
         self.beyond(centre).iter().all(|beyond| *beyond <= 0.0)
-    }
-
-    /// Whether the foot of the centre of a sphere with this radius \[m\] is inside the triangle, and not so near to an edge that
-    /// it may be on the next one as well.
-    #[inline(always)]
-    pub(super) fn is_well_over(&self, centre: Vector, radius: f64) -> bool {
-        largest(self.beyond(centre)) <= -BAND * radius
     }
 
     /// How a centre stands to the triangle where edges within reach are flat, a bit for each edge in `flat`; `rest` as for
@@ -142,7 +206,7 @@ impl Face {
 
 /// The largest of three finite numbers; the maximum of the standard library takes longer, for numbers that are not.
 #[inline(always)]
-fn largest([first, second, third]: [f64; 3]) -> f64 {
-    let larger = if second > first { second } else { first };
-    if third > larger { third } else { larger }
+fn largest<N: Number>([first, second, third]: [N; 3]) -> N {
+    let larger = N::select(second.greater(first), second, first);
+    N::select(third.greater(larger), third, larger)
 }

@@ -2,9 +2,11 @@
 
 use super::edge::OnEdge;
 use super::face::{FLAT, Place, Stand};
+use super::planes::Look;
 use super::{Mesh, Sides};
+use crate::lanes::{self, Width};
 use crate::number::Vector;
-use crate::surface::feet::{Features, Feet, Foot, OnPlane};
+use crate::surface::feet::{Features, Feet, Foot, OnPlanes};
 
 impl Mesh {
     /// The nearest point of an edge.
@@ -76,7 +78,7 @@ impl Features for Mesh {
 
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
         for &triangle in parts {
-            let face = &self.faces[triangle as usize];
+            let face = self.faces.at(triangle);
             let height = face.height(centre);
             let counts = self.sides == Sides::Both || height > 0.0;
             if !counts || height.abs() > radius {
@@ -95,42 +97,29 @@ impl Features for Mesh {
         // Feet inside of faces alone: in order already, and each counts once.
     }
 
-    fn is_plane(&self, centre: Vector, reach: f64, parts: &[u32]) -> bool {
-        let Some(&first) = parts.first() else { return false };
-        let (normal, height) = (self.faces[first as usize].normal, self.height(centre, first as usize));
-        parts.iter().map(|&part| part as usize).all(|part| {
-            let bends = self.topology.edges_of[part]
-                .iter()
-                .enumerate()
-                .filter(|(place, _)| self.flat.edges[part] >> place & 1 == 0);
-            self.flat.patch[part] == self.flat.patch[first as usize]
-                && self.faces[part].normal.cross(normal).length() < 4.0 * FLAT
+    fn plane(&self, centre: Vector, reach: f64, parts: &[u32]) -> Option<u32> {
+        let first = *parts.first()?;
+        let (normal, height) = (self.faces.at(first).normal, self.height(centre, first));
+        let is_plane = parts.iter().all(|&part| {
+            let (edges, flat) = (self.topology.edges_of[part as usize], self.flat.edges[part as usize]);
+            let bends = edges.iter().enumerate().filter(|(place, _)| flat >> place & 1 == 0);
+            self.flat.patch[part as usize] == self.flat.patch[first as usize]
+                && self.faces.at(part).normal.cross(normal).length() < 4.0 * FLAT
                 && (self.height(centre, part) - height).abs() < FLAT * reach
                 && bends.into_iter().all(|(_, edge)| self.on_edge(centre, *edge).distance > reach)
-        })
+        });
+        is_plane.then_some(self.face(first))
     }
 
-    #[inline]
-    fn on_plane(&self, centre: Vector, radius: f64, parts: &[u32], last: Option<u32>) -> OnPlane {
-        let last = last.and_then(|feature| feature.checked_sub(self.face(0)));
-        let Some(triangle) = last.or(parts.first().copied()) else { return OnPlane::Unknown };
-        let face = &self.faces[triangle as usize];
-        let height = face.height(centre);
-        // Other triangles of the plane may be nearer by what their angles make.
-        if height.abs() > radius * (1.0 + 1e-3) {
-            return OnPlane::Away;
-        }
-        let counts = self.sides == Sides::Both || height > 0.0;
-        if counts && height.abs() <= radius && face.is_well_over(centre, radius) {
-            OnPlane::On(self.on_face(triangle, height))
-        } else {
-            OnPlane::Unknown
-        }
+    fn on_planes(&self, spheres: &mut OnPlanes, width: Width) {
+        lanes::run(width, Look { mesh: self, spheres });
     }
 
     fn prefetch(&self, features: &[u32]) {
-        let faces = features.iter().filter_map(|feature| self.faces.get(feature.checked_sub(self.face(0))? as usize));
-        faces.for_each(|face| face.prefetch());
+        if self.faces.are_many() {
+            let triangles = features.iter().filter_map(|feature| feature.checked_sub(self.face(0)));
+            triangles.for_each(|triangle| self.faces.prefetch(triangle));
+        }
     }
 
     fn meet(&self, one: u32, other: u32) -> bool {
@@ -147,7 +136,7 @@ impl Mesh {
     /// The foot of a centre at this height over a triangle, inside of which it lies.
     #[inline(always)]
     fn on_face(&self, triangle: u32, height: f64) -> Foot {
-        let (normal, behind) = (self.faces[triangle as usize].normal, height < 0.0);
+        let (normal, behind) = (self.faces.at(triangle).normal, height < 0.0);
         let normal = if behind { -normal } else { normal };
         Foot { feature: self.face(triangle), distance: height.abs(), normal, weight: 1.0, behind }
     }
@@ -162,7 +151,7 @@ impl Mesh {
         let Feet { list, room: [touched, vertices], .. } = feet;
         touched.clear();
         for &triangle in parts {
-            let face = &self.faces[triangle as usize];
+            let face = self.faces.at(triangle);
             let height = face.height(centre);
             let counts = self.sides == Sides::Both || height > 0.0;
             if !counts || height.abs() > radius {

@@ -3,9 +3,10 @@
 use super::Mesh;
 use super::topology::Topology;
 use crate::geometry::rotation;
+use crate::lanes::Width;
 use crate::number::Vector;
 use crate::quantity::MaterialIndex;
-use crate::surface::feet::{Features, Feet, OnPlane};
+use crate::surface::feet::{Features, Feet, Foot, OnPlanes, TOGETHER};
 
 /// A block of n × n × 1 squares of two triangles each, turned and rounded to single precision as an STL file would; or,
 /// without `closed`, its lid alone, with a slot in it.
@@ -77,18 +78,28 @@ fn one_triangle_of_a_plane_tells_what_all_of_them_do() {
             let (centre, radius, skin) = (turn.turn(Vector::from(place)), 0.2 + 0.4 * part(0.618_033_99), 0.1);
             parts.clear();
             mesh.near(centre, radius + skin, &mut parts);
-            if parts.is_empty() || !mesh.is_plane(centre, radius + skin, &parts) {
+            if mesh.plane(centre, radius + skin, &parts) != parts.first().map(|part| mesh.face(*part))
+                || parts.is_empty()
+            {
                 continue;
             }
             planes += 1;
             // Wherever it goes until parts are looked for again, and whichever of them it has touched before.
             let way = [0.33, 0.21, 0.47].map(|ratio| (part(ratio) - 0.5) * skin);
             let (centre, last) = (centre + turn.turn(Vector::from(way)), parts[number as usize % parts.len()]);
-            let found = match mesh.on_plane(centre, radius, &parts, Some(mesh.face(last))) {
-                OnPlane::Unknown => continue,
-                OnPlane::Away => None,
-                OnPlane::On(foot) => Some(foot),
-            };
+            let width = Width::ALL[number as usize % Width::ALL.len()];
+            let (mut spheres, place) = (OnPlanes::none(), number as usize % TOGETHER);
+            (spheres.count, spheres.sphere[place]) = (place + 1, centre.row_with(radius));
+            spheres.feature[place] = mesh.face(last);
+            mesh.on_planes(&mut spheres, if width.offered() { width } else { Width::Least });
+            let [touches, away, behind] =
+                [spheres.touching, spheres.away, spheres.behind].map(|bits| bits >> place & 1);
+            if touches == 0 && away == 0 {
+                continue;
+            }
+            let [x, y, z, distance] = spheres.foot[place];
+            let (feature, normal, behind) = (spheres.feature[place], Vector::new(x, y, z), behind != 0);
+            let found = (touches != 0).then_some(Foot { feature, distance, normal, weight: 1.0, behind });
             told += 1;
             whole.clear();
             mesh.feet_at_bends(centre, radius, &parts, &mut whole);
@@ -127,10 +138,10 @@ fn a_fluid_at_rest_pushes_a_closed_surface_up_by_the_weight_that_it_displaces() 
         // The areas with their normals, the volume, and pressure that falls along z as if it stood at each centroid.
         let [mut areas, mut lift] = [Vector::zero(); 2];
         let [mut area, mut volume] = [0.0; 2];
-        for (triangle, face) in mesh.topology.triangles.iter().zip(&mesh.faces) {
+        for (number, triangle) in (0..).zip(&mesh.topology.triangles) {
             let [a, b, c] = mesh.topology.corners(triangle);
             let own = (b - a).cross(c - a).length() / 2.0;
-            let along = face.normal * own;
+            let along = mesh.faces.at(number).normal * own;
             areas += along;
             lift += along * ((a + b + c).z / 3.0);
             volume += along.dot(a) / 3.0;

@@ -9,6 +9,7 @@ mod feet_tests;
 mod files;
 mod keys;
 mod nodes;
+mod planes;
 mod side;
 mod topology;
 mod tree;
@@ -19,7 +20,7 @@ use super::{Shape, Surface};
 use crate::number::Vector;
 use crate::quantity::MaterialIndex;
 use edge::Edge;
-use face::Face;
+use face::Faces;
 pub(crate) use keys::Keys;
 pub use nodes::{Deforming, Grip};
 use topology::Topology;
@@ -42,7 +43,7 @@ struct Mesh {
     /// The simplices.
     topology: Topology,
     /// The triangles, as the search for feet wants them.
-    faces: Vec<Face>,
+    faces: Faces,
     /// The edges, likewise.
     edges: Vec<Edge>,
     /// Where triangles lie in one plane.
@@ -60,7 +61,7 @@ struct Mesh {
 impl Mesh {
     /// A surface.
     fn of(material: MaterialIndex, topology: Topology, sides: Option<u8>) -> Self {
-        let faces: Vec<Face> = topology.triangles.iter().map(|triangle| Face::of(topology.corners(triangle))).collect();
+        let faces = Faces::of(topology.triangles.iter().map(|triangle| topology.corners(triangle)));
         let [low, high] = topology::around(&topology.vertices);
         let closed = topology.is_closed();
         let front = sides.map_or(closed, |sides| sides == 1);
@@ -78,13 +79,13 @@ impl Mesh {
     }
 
     /// Height of a centre over a triangle \[m\].
-    fn height(&self, centre: Vector, triangle: usize) -> f64 {
-        self.faces[triangle].height(centre)
+    fn height(&self, centre: Vector, triangle: u32) -> f64 {
+        self.faces.at(triangle).height(centre)
     }
 
     /// Whether a triangle counts for a centre.
     fn counts(&self, centre: Vector, triangle: u32) -> bool {
-        self.sides == Sides::Both || self.height(centre, triangle as usize) > 0.0
+        self.sides == Sides::Both || self.height(centre, triangle) > 0.0
     }
 }
 
@@ -97,7 +98,7 @@ struct Flat {
     patch: Vec<u32>,
 }
 
-/// Nothing but the name, as for [`Face`].
+/// Nothing but the name, as for [`Faces`].
 impl std::fmt::Debug for Flat {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str("Flat")
@@ -106,11 +107,11 @@ impl std::fmt::Debug for Flat {
 
 impl Flat {
     /// What is flat of a surface.
-    fn of(topology: &Topology, faces: &[Face]) -> Self {
+    fn of(topology: &Topology, faces: &Faces) -> Self {
         let mut flat = Self::nowhere(faces.len());
         for (edge, at) in (0..).zip(&topology.at_edge) {
             let [one, other] = at[..] else { continue };
-            let [n, m] = [one, other].map(|triangle| faces[triangle as usize].normal);
+            let [n, m] = [one, other].map(|triangle| faces.at(triangle).normal);
             if n.dot(m) > 0.0 && n.cross(m).length() < face::FLAT {
                 for triangle in [one, other] {
                     let edges = topology.edges_of[triangle as usize];

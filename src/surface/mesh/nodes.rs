@@ -16,7 +16,6 @@
 //! special case.
 
 use super::edge::Edge;
-use super::face::Face;
 use super::{Features, Flat, Mesh, Surface};
 use crate::number::{Row, Vector};
 
@@ -88,14 +87,10 @@ impl Deforming {
         for ((vertex, first), way) in topology.vertices.iter_mut().zip(&self.first).zip(&self.displacement) {
             *vertex = *first + Vector::from(*way);
         }
-        self.collapsed = None;
-        for ((face, triangle), number) in faces.iter_mut().zip(&topology.triangles).zip(&topology.numbers) {
-            let places = topology.corners(triangle);
-            if topology.lacks_area(places) {
-                self.collapsed = self.collapsed.or(Some(*number));
-            }
-            *face = Face::of(places);
-        }
+        let corners = topology.triangles.iter().map(|triangle| topology.corners(triangle));
+        let mut numbered = corners.clone().zip(&topology.numbers);
+        self.collapsed = numbered.find(|(corners, _)| topology.lacks_area(*corners)).map(|(_, number)| *number);
+        faces.follow(corners);
         edges.clear();
         edges.extend(Edge::all(topology));
     }
@@ -138,7 +133,7 @@ impl Deforming {
     fn turn_face(&self, triangle: u32, share: f64, grips: &mut Vec<Grip>) {
         let nodes = self.mesh.topology.triangles[triangle as usize];
         let [a, b, c] = nodes.map(|node| self.at(node));
-        let (middle, normal) = ((a + b + c) * (1.0 / 3.0), self.mesh.faces[triangle as usize].normal);
+        let (middle, normal) = ((a + b + c) * (1.0 / 3.0), self.mesh.faces.at(triangle).normal);
         let area = (b - a).cross(c - a).length();
         let arms = [a - middle, b - middle, c - middle];
         let squares: f64 = arms.iter().map(|arm| arm.dot(*arm)).sum();

@@ -57,7 +57,7 @@ impl Mesh {
 
     /// The nearest point of a triangle.
     fn nearest_of(&self, centre: Vector, triangle: u32) -> Nearest {
-        let face = &self.faces[triangle as usize];
+        let face = self.faces.at(triangle);
         if face.is_over(centre) {
             let height = face.height(centre);
             let apart = face.normal * height;
@@ -73,9 +73,9 @@ impl Mesh {
         let topology = &self.topology;
         let (vertices, edges) = (topology.vertices.len(), topology.edges.len());
         let place = feature as usize;
-        let normal = |triangle: &u32| self.faces[*triangle as usize].normal;
+        let normal = |triangle: &u32| self.faces.at(*triangle).normal;
         if place >= vertices + edges {
-            self.faces[place - vertices - edges].normal
+            self.faces.at((place - vertices - edges) as u32).normal
         } else if place >= vertices {
             topology.at_edge[place - vertices].iter().map(normal).fold(Vector::zero(), |sum, one| sum + one)
         } else {

@@ -33,7 +33,7 @@ pub(super) struct AtFeet<'a> {
 
 impl Bodies for AtFeet<'_> {
     type Sum = Load;
-    const FOUND: usize = 5;
+    const FOUND: usize = 0;
 
     fn first(&self) -> &[u32] {
         self.particle
@@ -46,17 +46,13 @@ impl Bodies for AtFeet<'_> {
     #[inline(always)]
     unsafe fn touch<N: Lane>(
         &self,
-        first: *const u32,
-        second: *const u32,
+        _first: *const u32,
+        _second: *const u32,
         _beyond: Option<N>,
         _load: &mut Load,
     ) -> (u32, [N; FOUND]) {
-        // SAFETY: entries are slots of particles and numbers of feet.
-        let ([x, y, z, distance], position) = unsafe {
-            (N::load_rows(self.foot.as_ptr(), second), N::load_rows(self.particles.position.as_ptr(), first))
-        };
         // A foot is there because it is touched.
-        (u32::MAX, [distance, position[3], x, y, z])
+        (u32::MAX, [N::zero(); FOUND])
     }
 
     #[inline(always)]
@@ -69,15 +65,16 @@ impl Bodies for AtFeet<'_> {
         &self,
         first: *const u32,
         second: *const u32,
-        [distance, radius, x, y, z]: [N; FOUND],
+        _found: [N; FOUND],
         _roots: [N; 2],
     ) -> ContactGeometry<N> {
         // SAFETY: entries are slots of particles and numbers of feet.
-        let (position, motion, moving) = unsafe {
+        let (foot, position, motion, moving) = unsafe {
+            let foot = N::load_rows(self.foot.as_ptr(), second);
             let position = N::load_rows(self.particles.position.as_ptr(), first);
-            (position, self.particles.motion::<N, TORQUE>(first), self.held.map(|held| held.motion(second)))
+            (foot, position, self.particles.motion::<N, TORQUE>(first), self.held.map(|held| held.motion(second)))
         };
-        let sphere = SphereAt { normal: Vector::new(x, y, z), distance, radius };
+        let sphere = SphereAt { normal: Vector::of_row(foot), distance: foot[3], radius: position[3] };
         self.at.meet(&sphere, position, motion, moving, N::zero())
     }
 

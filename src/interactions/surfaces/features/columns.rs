@@ -1,5 +1,6 @@
 //! The contacts with features that an evaluation finds, each a column.
 
+use super::together::Together;
 use crate::interactions::surfaces::history::{Past, Present};
 use crate::interactions::surfaces::nodes::Held;
 use crate::number::Vector;
@@ -39,6 +40,8 @@ pub(in crate::interactions::surfaces) struct FeatureContacts {
     pub(super) held: Held,
     /// What the present particle touches.
     pub(super) feet: Feet,
+    /// Room for particles over planes, where there were any.
+    pub(super) together: Option<Box<Together>>,
 }
 
 impl FeatureContacts {
@@ -68,6 +71,17 @@ impl FeatureContacts {
         self.feature.push(foot.feature);
         self.foot.push(normal.row_with(foot.distance));
         self.side.push(if foot.behind { REVERSE } else { 0 });
+    }
+
+    /// Adds the first of the contacts that were found of particles together, but for what is remembered of them. Each counts once.
+    pub(super) fn push_together(&mut self, found: &Together, count: usize) {
+        if !self.weight.is_empty() {
+            self.weight.resize(self.particle.len() + count, [1.0; 2]);
+        }
+        self.particle.extend_from_slice(&found.slot[..count]);
+        self.feature.extend_from_slice(&found.spheres.feature[..count]);
+        self.foot.extend_from_slice(&found.spheres.foot[..count]);
+        self.side.extend_from_slice(&found.side[..count]);
     }
 
     /// Gives weights to the contact that is added next.

@@ -7,7 +7,9 @@
 
 mod at_feet;
 mod columns;
+mod on_planes;
 mod standing;
+mod together;
 mod told;
 
 use super::history::{Past, Present, source, taken};
@@ -15,10 +17,11 @@ use super::nodes::Held;
 use super::sphere::{Load, Loaded};
 use super::{AtSurface, Range, Work};
 use crate::batches::Entries;
+use crate::lanes::Width;
 use crate::number::Vector;
 use crate::state::WallContacts;
 use crate::state::contacts::REVERSE;
-use crate::surface::{Feet, Foot, OnPlane, Saddle};
+use crate::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
 use at_feet::AtFeet;
 use columns::finish;
 pub(super) use columns::{FeatureContacts, Spare, replace};
@@ -54,7 +57,7 @@ impl AtSurface {
         // Triangles lie all over the memory; those that were touched are most of what is looked at first.
         at.features.prefetch(past.feature);
         contacts.clear(self.kept_rows);
-        self.find(&at, list, &work.particles, slots, &past, contacts);
+        self.find(&at, list, &work.particles, (slots, work.context.width), &past, contacts);
         contacts.complete(&past, from..to, self.kept_rows);
         if contacts.kept.is_none() {
             self.remember(&at, &past, contacts);
@@ -82,40 +85,51 @@ impl AtSurface {
         at: &Standing,
         list: &WallContacts,
         particles: &Loaded,
-        slots: Range<usize>,
+        (slots, width): (Range<usize>, Width),
         past: &Past,
         contacts: &mut FeatureContacts,
     ) {
-        let sticks = self.law.law.holds_beyond_touch();
         // Where contacts have no more than a foot.
-        let is_plain = !sticks && !self.law.law.has_pair_constant() && at.moving.is_none();
+        let law = &self.law.law;
+        let is_plain = !law.holds_beyond_touch() && !law.has_pair_constant() && at.moving.is_none();
         let near = &list.near.particle;
-        let [first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
+        let [mut first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
         let (mut feet, mut entry) = (std::mem::take(&mut contacts.feet), 0);
-        for (place, &slot) in (first..last).zip(&near[first..last]) {
-            let position = particles.position[slot as usize];
-            let (centre, parts) = (at.frame.inside(Vector::from(position)), parts(list, place));
-            if is_plain && list.near.plane[place] != 0 {
-                match at.features.on_plane(centre, position[3], parts, past.last(slot, &mut entry)) {
-                    OnPlane::Away => continue,
-                    OnPlane::On(foot) => {
-                        contacts.push(slot, &foot, at.frame.outside(foot.normal), 1.0);
-                        continue;
-                    }
-                    OnPlane::Unknown => {}
-                }
+        while first < last {
+            let together = if is_plain { TOGETHER.min(last - first) } else { last - first };
+            let places = first..first + together;
+            let on_planes = list.near.plane[places.clone()].iter().fold(false, |any, &plane| any | (plane != NO_PLANE));
+            if is_plain && on_planes {
+                let found = (&mut *contacts, &mut feet);
+                entry = self.find_together(at, (list, places), (particles, width), (past, entry), found);
+            } else {
+                places.for_each(|place| self.find_at(at, (list, place), particles, past, (contacts, &mut feet)));
             }
-            let constant = constant(list, place);
-            feet.clear();
-            at.features.feet(centre, position[3] + if sticks { constant } else { 0.0 }, parts, &mut feet);
-            if sticks {
-                self.keep_touched(at, (slot, position[3]), past, &mut feet);
-            }
-            let here = Here { at, particles, slot, constant, feet: &feet };
-            feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
-            contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
+            first += together;
         }
         contacts.feet = feet;
+    }
+
+    /// Finds the contacts of one particle, whose place in the list is this one, from all parts that are near.
+    fn find_at(
+        &self,
+        at: &Standing,
+        (list, place): (&WallContacts, usize),
+        particles: &Loaded,
+        past: &Past,
+        (contacts, feet): (&mut FeatureContacts, &mut Feet),
+    ) {
+        let (slot, constant) = (list.near.particle[place], constant(list, place));
+        let (position, sticks) = (particles.position[slot as usize], self.law.law.holds_beyond_touch());
+        let centre = at.frame.inside(Vector::from(position));
+        feet.clear();
+        at.features.feet(centre, position[3] + if sticks { constant } else { 0.0 }, parts(list, place), feet);
+        if sticks {
+            self.keep_touched(at, (slot, position[3]), past, feet);
+        }
+        let here = Here { at, particles, slot, constant, feet };
+        feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
+        contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
     }
 
     /// Adds a contact.
@@ -198,6 +212,10 @@ fn went_through(past: &Past, contacts: &FeatureContacts) -> Option<u32> {
     let before = unsafe { past.entries.flags.part(0, past.particle.len()) };
     if contacts.kept.is_some() {
         let mut both = before.iter().zip(&contacts.side);
+        // All are looked at, many at a time: mostly there is none.
+        if both.clone().fold(0, |changed, (before, now)| changed | (before ^ now)) & REVERSE == 0 {
+            return None;
+        }
         return both.position(|(before, now)| (before ^ now) & REVERSE != 0).map(|contact| contacts.particle[contact]);
     }
     let (mut entries, mut last) = (0..0, None);
