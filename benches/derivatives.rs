@@ -74,7 +74,12 @@ fn tell(source: &Source, step: f64, boundary: &str) {
             black_box(it.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
         });
         let (count, steps) = (inputs.len(), cost / once);
-        println!("{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input", source.name, once * 1e3, steps / count as f64);
+        println!(
+            "{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input",
+            source.name,
+            once * 1e3,
+            steps / count as f64
+        );
     }
 }
 

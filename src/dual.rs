@@ -1,13 +1,15 @@
 //! A number and its slopes: how it changes with each of a few inputs.
 //!
 //! Laws are written over [`Number`]; over this one they give their values, bit for bit those of `f64`, and beside them
-//! the exact derivatives of what was computed. Decisions are made by values: which branch is taken does not change.
+//! the exact derivatives of what was computed. Decisions are made by values: which branch is taken does not change. Values
+//! are found one by one, the slopes of each side by side in vector registers.
 
+use crate::lanes::{self, Eightfold, Lane};
 use crate::number::{Number, Vector};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// How many inputs are followed at a time.
-pub const DIRECTIONS: usize = 4;
+/// How many inputs are followed at a time: as many as the widest registers hold.
+pub const DIRECTIONS: usize = 8;
 
 /// How one number changes with each input that is followed.
 pub type Slopes = [f64; DIRECTIONS];
@@ -15,119 +17,137 @@ pub type Slopes = [f64; DIRECTIONS];
 /// How a row of four numbers changes.
 pub type RowSlopes = [Slopes; 4];
 
-/// A number and its slopes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual {
+/// A number and its slopes, in registers of `N`.
+#[derive(Clone, Copy)]
+pub struct Dual<N: Lane = f64> {
     /// The number.
     pub value: f64,
     /// How it changes with each input.
-    pub slopes: Slopes,
+    pub slopes: N::Eight,
 }
 
-/// Slopes made number by number.
-#[inline(always)]
-fn each(make: impl Fn(usize) -> f64) -> Slopes {
-    std::array::from_fn(make)
-}
-
-impl Dual {
+impl<N: Lane> Dual<N> {
     /// A number with these slopes.
     #[inline(always)]
-    pub fn new(value: f64, slopes: Slopes) -> Self {
-        Self { value, slopes }
+    pub fn new(value: f64, slopes: &Slopes) -> Self {
+        Self { value, slopes: lanes::load_eight::<N>(slopes) }
+    }
+
+    /// A function of this number, from its value and its derivative there.
+    #[inline(always)]
+    pub fn chain(self, value: f64, derivative: f64) -> Self {
+        Self { value, slopes: self.slopes.times(N::splat(derivative)) }
+    }
+
+    /// Its slopes one by one.
+    #[inline(always)]
+    pub fn slopes(self) -> Slopes {
+        lanes::store_eight::<N>(self.slopes)
     }
 
     /// A row of numbers with their slopes.
     #[inline(always)]
     pub fn row(values: [f64; 4], slopes: &RowSlopes) -> [Self; 4] {
-        std::array::from_fn(|place| Self::new(values[place], slopes[place]))
+        std::array::from_fn(|place| Self::new(values[place], &slopes[place]))
     }
 
     /// Three numbers with their slopes.
     #[inline(always)]
     pub fn vector(values: Vector, slopes: &[Slopes; 3]) -> Vector<Self> {
-        let [x, y, z] = *slopes;
+        let [x, y, z] = slopes;
         Vector::new(Self::new(values.x, x), Self::new(values.y, y), Self::new(values.z, z))
     }
 
     /// The slopes of a row.
     #[inline(always)]
     pub fn slopes_of(row: [Self; 4]) -> RowSlopes {
-        row.map(|number| number.slopes)
+        row.map(Self::slopes)
     }
 }
 
-impl Vector<Dual> {
+impl<N: Lane> Vector<Dual<N>> {
     /// The slopes of the components.
     #[inline(always)]
     pub fn slopes(self) -> [Slopes; 3] {
-        [self.x.slopes, self.y.slopes, self.z.slopes]
+        [self.x.slopes(), self.y.slopes(), self.z.slopes()]
     }
 }
 
-impl Add for Dual {
+/// The value and the slopes, whatever the registers.
+impl<N: Lane> std::fmt::Debug for Dual<N> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{:?} with {:?}", self.value, self.slopes())
+    }
+}
+
+impl<N: Lane> PartialEq for Dual<N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value && self.slopes() == other.slopes()
+    }
+}
+
+impl<N: Lane> Add for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self::new(self.value + other.value, each(|k| self.slopes[k] + other.slopes[k]))
+        Self { value: self.value + other.value, slopes: self.slopes.plus(other.slopes) }
     }
 }
 
-impl Sub for Dual {
+impl<N: Lane> Sub for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self::new(self.value - other.value, each(|k| self.slopes[k] - other.slopes[k]))
+        Self { value: self.value - other.value, slopes: self.slopes.minus(other.slopes) }
     }
 }
 
-impl Mul for Dual {
+impl<N: Lane> Mul for Dual<N> {
     type Output = Self;
     #[inline(always)]
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the slope of a product is a sum")]
     fn mul(self, other: Self) -> Self {
-        let slopes = each(|k| self.slopes[k] * other.value + other.slopes[k] * self.value);
-        Self::new(self.value * other.value, slopes)
+        let slopes = self.slopes.mixed(N::splat(other.value), other.slopes, N::splat(self.value));
+        Self { value: self.value * other.value, slopes }
     }
 }
 
-impl Div for Dual {
+impl<N: Lane> Div for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let (value, per) = (self.value / other.value, 1.0 / other.value);
-        Self::new(value, each(|k| (self.slopes[k] - value * other.slopes[k]) * per))
+        Self { value, slopes: self.slopes.mixed(N::splat(per), other.slopes, N::splat(-value * per)) }
     }
 }
 
-impl Neg for Dual {
+impl<N: Lane> Neg for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self::new(-self.value, self.slopes.map(|slope| -slope))
+        Self { value: -self.value, slopes: self.slopes.times(N::splat(-1.0)) }
     }
 }
 
-impl Number for Dual {
+impl<N: Lane> Number for Dual<N> {
     type Mask = bool;
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Self::new(value, [0.0; DIRECTIONS])
+        Self { value, slopes: N::Eight::of(|_| N::zero()) }
     }
 
     /// The root of 0 has no slope; it is taken to stay.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let value = self.value.sqrt();
-        let per = if value > 0.0 { 0.5 / value } else { 0.0 };
-        Self::new(value, self.slopes.map(|slope| slope * per))
+        self.chain(value, if value > 0.0 { 0.5 / value } else { 0.0 })
     }
 
     #[inline(always)]
     fn abs(self) -> Self {
-        let slopes = if self.value < 0.0 { self.slopes.map(|slope| -slope) } else { self.slopes };
-        Self::new(self.value.abs(), slopes)
+        let slopes = if self.value < 0.0 { -self } else { self };
+        Self { value: self.value.abs(), ..slopes }
     }
 
     #[inline(always)]
@@ -173,8 +193,7 @@ impl Number for Dual {
     #[inline(always)]
     fn cube_root(self) -> Self {
         let value = Number::cube_root(self.value);
-        let per = if value > 0.0 { 1.0 / (3.0 * value * value) } else { 0.0 };
-        Self::new(value, self.slopes.map(|slope| slope * per))
+        self.chain(value, if value > 0.0 { 1.0 / (3.0 * value * value) } else { 0.0 })
     }
 }
 
@@ -184,7 +203,7 @@ mod tests {
 
     /// x with slope 1 along the first input.
     fn along(value: f64) -> Dual {
-        Dual::new(value, [1.0, 0.0, 0.0, 0.0])
+        Dual::new(value, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
     #[test]
@@ -196,7 +215,7 @@ mod tests {
         assert_eq!(Number::abs(-x).slopes[0], 1.0);
         assert!((along(8.0).cube_root().slopes[0] - 1.0 / 12.0).abs() < 1e-16);
         assert_eq!(Number::whole(x), Dual::splat(3.0));
-        assert_eq!((x - two + x).slopes, [2.0, 0.0, 0.0, 0.0]);
+        assert_eq!((x - two + x).slopes(), [2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use cograin::contact::normal::NormalChoice;
 use cograin::contact::rolling::RollingChoice;
 use cograin::contact::tangential::TangentialChoice;
 use cograin::interface::{Interface, Value};
+use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::state::BoundaryState;
@@ -289,6 +290,39 @@ fn bonds_of_every_formulation_have_the_derivatives_of_their_differences() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn derivatives_are_the_same_in_every_lane_width_and_beside_other_inputs() {
+    let damping = "damping.viscous = { normal_force = 0.1, tangential_force = 0.1, normal_torque = 0.1, tangential_torque = 0.1 }";
+    let mut bonded = start(&BONDED.replace("LAW", damping));
+    let grip = named(&bonded, "grip");
+    bonded.set_input(grip, 2, 1.0e-6);
+    bonded.advance_or_return(1.0e-5).unwrap_or_else(|error| panic!("{error}"));
+    let mut pressed = loaded(
+        "[contact.touch.normal.hertz]\n[contact.touch.tangential.history]\n[contact.touch.rolling.epsd]\n\
+         [contact.touch.cohesion.sjkr]",
+        "",
+    );
+    pressed.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
+    let lid = named(&pressed, "lid");
+    for (mut simulation, inputs) in [(bonded, [(grip, 0), (grip, 2)]), (pressed, [(lid, 0), (lid, 2)])] {
+        let mut follow = |inputs: &[(BoundaryIndex, usize)], width: Width| {
+            simulation.set_width(width);
+            simulation.derivatives(inputs).unwrap_or_else(|refusal| panic!("{refusal}"))
+        };
+        let whole = follow(&inputs, Width::Least);
+        assert!(whole.iter().any(|boundary| boundary.force[2][1] != 0.0), "nothing changes");
+        for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+            assert_eq!(follow(&inputs, width), whole, "{width:?}");
+        }
+        for (direction, input) in inputs.into_iter().enumerate() {
+            let alone = follow(&[input], Width::widest());
+            for (alone, whole) in alone.iter().zip(&whole) {
+                assert_eq!(alone.mean_force.map(|slopes| slopes[0]), whole.mean_force.map(|slopes| slopes[direction]));
+            }
+        }
+    }
 }
 
 #[test]

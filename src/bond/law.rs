@@ -6,7 +6,6 @@ use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
 use super::keys::{KeyError, Keys};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
-use crate::dual::Dual;
 use crate::number::Vector;
 use crate::quantity::Positive;
 
@@ -85,7 +84,7 @@ pub struct Carried {
 }
 
 /// What a formulation makes of the law at a step, the bodies and the rows of a bond.
-type Respond<N> = fn(&Coefficients<N>, &Pair<N>, &Rows<N>) -> (Motion<N>, Elastic<N>);
+pub(super) type Respond<N> = fn(&Coefficients<N>, &Pair<N>, &Rows<N>) -> (Motion<N>, Elastic<N>);
 
 /// A formulation for one bond at a time, its type forgotten.
 #[derive(Clone, Copy, Debug)]
@@ -100,8 +99,6 @@ pub struct OneBond {
     pub create: fn(&Coefficients, &Pair) -> Rows,
     /// [`Formulation::respond`]
     pub respond: Respond<f64>,
-    /// The same with slopes.
-    pub(super) respond_with_slopes: Respond<Dual>,
 }
 
 /// Takes the functions of a formulation.
@@ -116,7 +113,6 @@ impl TakeFormulation for TakeFunctions {
             needs_orientations: F::NEEDS_ORIENTATIONS,
             create: F::create::<f64>,
             respond: F::respond::<f64>,
-            respond_with_slopes: F::respond::<Dual>,
         }
     }
 }

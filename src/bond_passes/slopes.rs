@@ -4,12 +4,14 @@ use super::BondPass;
 use super::walls::WallBondPass;
 use crate::bond::{Body, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows, Sloped};
 use crate::dual::Dual;
+use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::{BondList, Particles, State};
 use crate::tangent::{ListSlopes, NONE, ParticleSlopes, Tangent};
 
 /// A particle as a body of a bond, with slopes.
-fn body(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> Body<Dual> {
+#[inline(always)]
+fn body<N: Lane>(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> Body<Dual<N>> {
     let [position, velocity, spin] = moved.body(particles, slot);
     let orientation = match (particles.orientation.get(slot), moved.orientation.get(slot)) {
         (Some(row), Some(slopes)) => Quaternion::from_row(Dual::row(*row, slopes)),
@@ -27,18 +29,20 @@ fn body(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> Body<Dual
 }
 
 /// The numbers of a law at a time step of this length \[s\].
-fn at_step(law: &Law, step: Dual) -> Coefficients<Dual> {
-    Coefficients { step, ..law.elasticity.at_step(step.value) }
+#[inline(always)]
+fn at_step<N: Lane>(law: &Law, step: Dual) -> Coefficients<Dual<N>> {
+    Coefficients { step: Dual::new(step.value, &step.slopes), ..law.elasticity.at_step(step.value) }
 }
 
 /// What a bond does, with slopes; those of its rows go on.
-fn react(
+#[inline(always)]
+fn react<N: Lane>(
     law: &Law,
-    coefficients: &Coefficients<Dual>,
-    pair: &Pair<Dual>,
+    coefficients: &Coefficients<Dual<N>>,
+    pair: &Pair<Dual<N>>,
     (list, slopes, bond): (&BondList, &mut ListSlopes, usize),
-) -> Option<Sloped> {
-    let mut rows: Rows<Dual> = [[Dual::zero(); 4]; MOST_ROWS];
+) -> Option<Sloped<N>> {
+    let mut rows: Rows<Dual<N>> = [[Dual::zero(); 4]; MOST_ROWS];
     for (row, (values, slopes)) in rows.iter_mut().zip(list.rows.iter().zip(&slopes.rows)) {
         *row = Dual::row(values[bond], &slopes[bond]);
     }
@@ -53,16 +57,43 @@ fn react(
 impl BondPass {
     /// Adds the slopes of its loads to those of the particles.
     pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        let (list, particles) = (&state.bonds[self.index], &state.particles);
-        let (slopes, moved) = (&mut tangent.bonds[self.index], &mut tangent.particles);
-        let coefficients = at_step(&self.law, step);
+        run(tangent.width, BondSlopes { pass: self, state, tangent, step });
+    }
+}
+
+impl WallBondPass {
+    /// Adds the slopes of its loads to those of the particles and the plane.
+    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        run(tangent.width, BondSlopes { pass: self, state, tangent, step });
+    }
+}
+
+/// The slopes of what the bonds of a pass do.
+struct BondSlopes<'a, P> {
+    /// The pass.
+    pass: &'a P,
+    /// The state.
+    state: &'a State,
+    /// How it changes.
+    tangent: &'a mut Tangent,
+    /// The time step.
+    step: Dual,
+}
+
+impl Kernel for BondSlopes<'_, BondPass> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { pass, state, tangent, step } = self;
+        let (list, particles) = (&state.bonds[pass.index], &state.particles);
+        let (slopes, moved) = (&mut tangent.bonds[pass.index], &mut tangent.particles);
+        let coefficients = at_step::<N>(&pass.law, step);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let (i, j) = (i as usize, j as usize);
             if !moved.reached[i] && !moved.reached[j] {
                 continue;
             }
             let pair = Pair::of_spheres(&body(moved, particles, i), &body(moved, particles, j));
-            if let Some(found) = react(&self.law, &coefficients, &pair, (list, slopes, bond)) {
+            if let Some(found) = react(&pass.law, &coefficients, &pair, (list, slopes, bond)) {
                 moved.load(i, found.force, found.torque_i);
                 moved.load(j, -found.force, found.torque_j);
             }
@@ -70,19 +101,20 @@ impl BondPass {
     }
 }
 
-impl WallBondPass {
-    /// Adds the slopes of its loads to those of the particles and the plane.
-    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        let (list, particles) = (&state.bonds[self.index], &state.particles);
+impl Kernel for BondSlopes<'_, WallBondPass> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { pass, state, tangent, step } = self;
+        let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let Tangent { particles: moved, bonds, boundaries, .. } = tangent;
-        let (slopes, boundary) = (&mut bonds[self.index], &mut boundaries[self.boundary.index()]);
-        let (coefficients, moves) = (at_step(&self.law, step), boundary.is_moved());
+        let (slopes, boundary) = (&mut bonds[pass.index], &mut boundaries[pass.boundary.index()]);
+        let (coefficients, moves) = (at_step::<N>(&pass.law, step), boundary.is_moved());
         for (bond, &slot) in list.first.iter().enumerate() {
             let slot = slot as usize;
             if !moves && !moved.reached[slot] {
                 continue;
             }
-            let at = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
+            let at = pass.foot(list.foot[bond], &state.boundaries[pass.boundary.index()]);
             let foot = Body {
                 position: Dual::vector(at.position, &boundary.displacement),
                 velocity: Dual::vector(at.velocity, &boundary.velocity),
@@ -93,10 +125,10 @@ impl WallBondPass {
                 inertia: Dual::splat(at.inertia),
             };
             let pair = Pair::at_wall(&body(moved, particles, slot), &foot);
-            if let Some(found) = react(&self.law, &coefficients, &pair, (list, slopes, bond)) {
+            if let Some(found) = react(&pass.law, &coefficients, &pair, (list, slopes, bond)) {
                 moved.load(slot, found.force, found.torque_i);
-                let arm = Vector::from(list.foot[bond]) - self.reference;
-                let arm = Dual::vector(arm, &[[0.0; 4]; 3]);
+                let arm = Vector::from(list.foot[bond]) - pass.reference;
+                let arm = Vector::new(Dual::splat(arm.x), Dual::splat(arm.y), Dual::splat(arm.z));
                 boundary.add_load(&(-found.force).slopes(), &(found.torque_j - arm.cross(found.force)).slopes());
             }
         }

@@ -103,7 +103,7 @@ fn carry(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, ta
     let (moved, slopes) = (&state.boundaries[index], &tangent.boundaries[index]);
     let particles = &mut tangent.particles;
     let orientation =
-        Quaternion::from_row(Dual::row(Quaternion::from(moved.orientation).to_row(), &slopes.orientation));
+        Quaternion::from_row(<Dual>::row(Quaternion::from(moved.orientation).to_row(), &slopes.orientation));
     let (pivot, velocity) = (Dual::vector(moved.pivot.into(), &slopes.displacement), &slopes.velocity);
     let velocity = Dual::vector(moved.velocity.into(), velocity);
     let spin = Dual::vector(moved.angular_velocity.into(), &slopes.angular_velocity);
@@ -111,9 +111,9 @@ fn carry(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, ta
         let slot = state.particles.slot[member as usize] as usize;
         let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
         let place = pivot + orientation.turn(Dual::vector(home, &[[0.0; DIRECTIONS]; 3]));
-        particles.position[slot][..3].copy_from_slice(&place.slopes());
-        particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(place - pivot)).slopes());
-        particles.spin[slot][..3].copy_from_slice(&slopes.angular_velocity);
+        particles.position[slot] = place.slopes();
+        particles.velocity[slot] = (velocity + spin.cross(place - pivot)).slopes();
+        particles.spin[slot] = slopes.angular_velocity;
         if let Some(row) = particles.orientation.get_mut(slot) {
             *row = slopes.orientation;
         }
@@ -126,18 +126,17 @@ fn carry(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, ta
 pub(crate) fn sum_groups(scene: &Scene, state: &State, tangent: &mut Tangent, weight: impl Fn(usize) -> [f64; 3]) {
     let particles = &tangent.particles;
     for ((boundary, moved), slopes) in scene.boundaries.iter().zip(&state.boundaries).zip(&mut tangent.boundaries) {
-        let pivot = Dual::vector(moved.pivot.into(), &slopes.displacement);
+        let pivot = <Dual>::vector(moved.pivot.into(), &slopes.displacement);
         for &member in boundary.shape.members() {
             let slot = state.particles.slot[member as usize] as usize;
             if !particles.reached[slot] {
                 continue;
             }
             let force = Vector::from(state.particles.force[slot]) - weight(slot).into();
-            let [[f, g, h, _], [a, b, c, _]] = [particles.force[slot], particles.torque[slot]];
-            let force = Dual::vector(force, &[f, g, h]);
-            let place = Dual::row(state.particles.position[slot], &particles.position[slot]);
-            let torque = Dual::vector(Vector::zero(), &[a, b, c]);
-            let moment = (Vector::of_row(place) - pivot).cross(force) + torque;
+            let force = Dual::vector(force, &particles.force[slot]);
+            let place = Dual::vector(state.particles.position[slot].into(), &particles.position[slot]);
+            let torque = Dual::vector(Vector::zero(), &particles.torque[slot]);
+            let moment = (place - pivot).cross(force) + torque;
             slopes.add_load(&force.slopes(), &moment.slopes());
         }
     }

@@ -8,23 +8,22 @@ use super::{
     Adhesion, Coefficients, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce,
     NormalForm, Onset, Response, Rolling, RollingStiffness, Switches, Tangential,
 };
-use crate::dual::Dual;
 use crate::number::{Number, Row, Vector};
 
 /// Coefficients that a sub-model has at most.
 const MOST: usize = 16;
 
 /// Normal force of coefficients, contact, history and step, and what is to be remembered.
-type NormalFunction<N> = fn(&[f64], &Contact<N>, [N; 4], N) -> (NormalForce<N>, [N; 4]);
+pub(super) type NormalFunction<N> = fn(&[f64], &Contact<N>, [N; 4], N) -> (NormalForce<N>, [N; 4]);
 
 /// Friction of coefficients, contact, normal force, history and step.
-type TangentialFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
+pub(super) type TangentialFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
 
 /// Rolling torque of coefficients, contact, normal force, history and step, and what is to be remembered.
-type RollingFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
+pub(super) type RollingFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
 
 /// Adds the attraction of coefficients and contact to a normal force.
-type CohesionFunction<N> = fn(&[f64], &Contact<N>, &mut NormalForce<N>);
+pub(super) type CohesionFunction<N> = fn(&[f64], &Contact<N>, &mut NormalForce<N>);
 
 /// What the sub-models of a law do to one contact, in one kind of number.
 #[derive(Clone, Copy)]
@@ -51,7 +50,8 @@ pub(super) fn numbers<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
 }
 
 /// [`NormalForm::force`] of one contact.
-fn normal<A: NormalForm, N: Number>(
+#[inline(always)]
+pub(super) fn normal<A: NormalForm, N: Number>(
     row: &[f64],
     contact: &Contact<N>,
     history: [N; 4],
@@ -63,7 +63,8 @@ fn normal<A: NormalForm, N: Number>(
 }
 
 /// [`Tangential::force`] of one contact.
-fn tangential<B: Tangential, N: Number>(
+#[inline(always)]
+pub(super) fn tangential<B: Tangential, N: Number>(
     row: &[f64],
     contact: &Contact<N>,
     normal: &NormalForce<N>,
@@ -74,7 +75,8 @@ fn tangential<B: Tangential, N: Number>(
 }
 
 /// [`Rolling::torque`] of one contact.
-fn rolling<C: Rolling, N: Number>(
+#[inline(always)]
+pub(super) fn rolling<C: Rolling, N: Number>(
     row: &[f64],
     contact: &Contact<N>,
     normal: &NormalForce<N>,
@@ -85,7 +87,8 @@ fn rolling<C: Rolling, N: Number>(
 }
 
 /// [`CohesionForm::force`] of one contact, added.
-fn cohesion<D: CohesionForm, N: Number>(row: &[f64], contact: &Contact<N>, normal: &mut NormalForce<N>) {
+#[inline(always)]
+pub(super) fn cohesion<D: CohesionForm, N: Number>(row: &[f64], contact: &Contact<N>, normal: &mut NormalForce<N>) {
     let law = numbers::<D, N>(row);
     D::add(law, D::force(law, contact), normal);
 }
@@ -107,8 +110,8 @@ pub(super) struct NormalModel {
     pub(super) onset: Onset,
     /// Whether it keeps a number of each pair.
     pub(super) has_pair_constant: bool,
-    /// [`NormalForm::force`], alone and with slopes.
-    pub(super) force: (NormalFunction<f64>, NormalFunction<Dual>),
+    /// [`NormalForm::force`].
+    pub(super) force: NormalFunction<f64>,
     /// [`NormalForm::response`].
     pub(super) response: fn(&[f64], &Contact) -> Response,
     /// [`NormalForm::pair_constant`].
@@ -132,7 +135,7 @@ impl NormalModel {
             undeformed_arms,
             onset,
             has_pair_constant: A::HAS_PAIR_CONSTANT,
-            force: (normal::<A, f64>, normal::<A, Dual>),
+            force: normal::<A, f64>,
             response: |row, contact| A::response(A::lanes(row), contact),
             pair_constant: |row, radius, mass| A::read(row).pair_constant(radius, mass),
             elastic_energy: |row, contact, offset, history| A::read(row).elastic_energy(contact, offset, history),
@@ -163,8 +166,8 @@ pub(super) struct TangentialModel {
     pub(super) projects: bool,
     /// [`Tangential::stiffness`].
     pub(super) stiffness: fn(&[f64], f64) -> f64,
-    /// [`Tangential::force`], alone and with slopes.
-    pub(super) force: (TangentialFunction<f64>, TangentialFunction<Dual>),
+    /// [`Tangential::force`].
+    pub(super) force: TangentialFunction<f64>,
 }
 
 impl TangentialModel {
@@ -180,7 +183,7 @@ impl TangentialModel {
             limits_dashpot: B::LIMITS_DASHPOT,
             projects: B::PROJECTS,
             stiffness: |row, from_normal_model| B::read(row).stiffness(from_normal_model),
-            force: (tangential::<B, f64>, tangential::<B, Dual>),
+            force: tangential::<B, f64>,
         }
     }
 }
@@ -200,8 +203,8 @@ pub(super) struct RollingModel {
     pub(super) stiffness: fn(&[f64], &Contact, &Response) -> RollingStiffness,
     /// [`Rolling::elastic_energy`].
     pub(super) elastic_energy: fn(&[f64], &Contact, &Response, Row) -> f64,
-    /// [`Rolling::torque`], alone and with slopes.
-    pub(super) torque: (RollingFunction<f64>, RollingFunction<Dual>),
+    /// [`Rolling::torque`].
+    pub(super) torque: RollingFunction<f64>,
 }
 
 impl RollingModel {
@@ -214,7 +217,7 @@ impl RollingModel {
             needs: C::NEEDS,
             stiffness: |row, contact, response| C::read(row).stiffness(contact, response),
             elastic_energy: |row, contact, response, history| C::read(row).elastic_energy(contact, response, history),
-            torque: (rolling::<C, f64>, rolling::<C, Dual>),
+            torque: rolling::<C, f64>,
         }
     }
 }
@@ -234,8 +237,8 @@ pub(super) struct CohesionModel {
     /// [`CohesionForm::add`].
     #[cfg(test)]
     pub(super) add: fn(&[f64], f64, &mut NormalForce),
-    /// Both, alone and with slopes.
-    pub(super) pull: (CohesionFunction<f64>, CohesionFunction<Dual>),
+    /// Both.
+    pub(super) pull: CohesionFunction<f64>,
 }
 
 impl CohesionModel {
@@ -249,7 +252,7 @@ impl CohesionModel {
             force: |row, contact| D::force(D::lanes(row), contact),
             #[cfg(test)]
             add: |row, pull, normal| D::add(D::lanes(row), pull, normal),
-            pull: (cohesion::<D, f64>, cohesion::<D, Dual>),
+            pull: cohesion::<D, f64>,
         }
     }
 }

@@ -8,6 +8,7 @@ use super::{
     Response, RollingStiffness, Scheme, Switches,
 };
 use crate::dual::Dual;
+use crate::lanes::Lane;
 use crate::number::{Number, Row, Vector};
 
 /// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
@@ -71,24 +72,21 @@ pub trait OneContact: Number<Mask = bool> {
 }
 
 impl OneContact for f64 {
+    #[inline(always)]
     fn acting(law: &Law) -> Acting<Self> {
         Acting {
-            normal: law.normal.force.0,
-            tangential: law.tangential.force.0,
-            rolling: law.rolling.torque.0,
-            cohesion: law.cohesion.pull.0,
+            normal: law.normal.force,
+            tangential: law.tangential.force,
+            rolling: law.rolling.torque,
+            cohesion: law.cohesion.pull,
         }
     }
 }
 
-impl OneContact for Dual {
+impl<N: Lane> OneContact for Dual<N> {
+    #[inline(always)]
     fn acting(law: &Law) -> Acting<Self> {
-        Acting {
-            normal: law.normal.force.1,
-            tangential: law.tangential.force.1,
-            rolling: law.rolling.torque.1,
-            cohesion: law.cohesion.pull.1,
-        }
+        Acting::with_slopes(&law.choice)
     }
 }
 
@@ -111,6 +109,8 @@ pub struct Law {
     places: CoefficientPlaces,
     /// How springs and dashpots go on in time.
     scheme: Scheme,
+    /// What the scene named.
+    choice: LawChoice,
 }
 
 impl Law {
@@ -176,7 +176,17 @@ impl Law {
             cohesion: after_normal + tangential.count + rolling.count,
             count: after_normal + tangential.count + rolling.count + cohesion.count,
         };
-        Self { normal, tangential, rolling, cohesion, history, history_places, places, scheme: choice.scheme }
+        Self {
+            normal,
+            tangential,
+            rolling,
+            cohesion,
+            history,
+            history_places,
+            places,
+            scheme: choice.scheme,
+            choice: *choice,
+        }
     }
 
     /// Where the coefficients of each sub-model stand in a row of them.
@@ -275,6 +285,7 @@ impl Law {
     }
 
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\].
+    #[inline(always)]
     pub fn react<N: OneContact>(
         &self,
         row: &[f64],
@@ -331,6 +342,7 @@ impl Law {
     }
 
     /// How a contact was carried, where the scheme asks for it; it gets the velocities that dashpots see.
+    #[inline(always)]
     fn carry<N: OneContact>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> Option<Carry<N>> {
         if !self.scheme.carries() {
             return None;
@@ -347,6 +359,7 @@ impl Law {
     }
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
+    #[inline(always)]
     fn friction<N: OneContact>(
         &self,
         row: &[f64],
@@ -373,6 +386,7 @@ impl Law {
     }
 
     /// Rolling torque from i to j.
+    #[inline(always)]
     fn roll<N: OneContact>(
         &self,
         row: &[f64],

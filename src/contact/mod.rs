@@ -20,6 +20,7 @@ mod material;
 pub mod normal;
 pub mod rolling;
 mod scheme;
+mod slopes;
 mod sub_model;
 pub mod tangential;
 

@@ -1,7 +1,7 @@
 //! How Cundall's damping changes what loads do to particles.
 
 use super::Fields;
-use crate::dual::RowSlopes;
+use crate::dual::Slopes;
 use crate::state::Particles;
 
 impl Fields {
@@ -12,7 +12,7 @@ impl Fields {
 
     /// Damps the slopes of forces and torques on free particles, whose loads are those behind the damping: a fraction of a load
     /// that works is taken away, of one that is worked against added.
-    pub(crate) fn damp_slopes(&self, particles: &Particles, force: &mut [RowSlopes], torque: &mut [RowSlopes]) {
+    pub(crate) fn damp_slopes(&self, particles: &Particles, force: &mut [[Slopes; 3]], torque: &mut [[Slopes; 3]]) {
         for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0 && self.damps()) {
             let (damped, id) = (self.damped(particles.id[slot]), particles.id[slot]);
             let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);

@@ -4,19 +4,21 @@ use super::contacts::ContactPass;
 use crate::batches::{ContactGeometry, SpherePair};
 use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};
 use crate::dual::Dual;
+use crate::lanes::{Kernel, Lane, run};
 use crate::number::Number;
 use crate::state::contacts::TOUCHING;
 use crate::state::{Row, State};
 use crate::tangent::{ListSlopes, NONE, Tangent};
 
 /// What a contact does, with slopes; those of what it remembers go on.
-pub(super) fn react(
+#[inline(always)]
+pub(super) fn react<N: Lane>(
     law: &Law,
     row: &[f64],
-    contact: &Contact<Dual>,
+    contact: &Contact<Dual<N>>,
     (history, slopes, entry): (&[Vec<Row>], &mut ListSlopes, usize),
-    step: Dual,
-) -> Reaction<Dual> {
+    step: Dual<N>,
+) -> Reaction<Dual<N>> {
     let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
     let count = law.history().len();
     for (row, (values, slopes)) in rows.iter_mut().zip(history.iter().zip(&slopes.rows)).take(count) {
@@ -44,10 +46,30 @@ pub(super) fn beyond(law: &Law, flags: u8, constant: f64) -> Option<f64> {
 impl ContactPass {
     /// Adds the slopes of its forces to those of the particles.
     pub(super) fn add_contact_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        let (list, particles, law) = (&state.contacts[self.index], &state.particles, &self.law.law);
-        let slopes = &mut tangent.contacts[self.index];
-        slopes.set_odd(law.history().iter().map(|row| row.odd));
-        let moved = &mut tangent.particles;
+        tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
+        run(tangent.width, ContactSlopes { pass: self, state, tangent, step });
+    }
+}
+
+/// The slopes of the forces of contacts.
+struct ContactSlopes<'a> {
+    /// The contacts.
+    pass: &'a ContactPass,
+    /// The state.
+    state: &'a State,
+    /// How it changes.
+    tangent: &'a mut Tangent,
+    /// The time step.
+    step: Dual,
+}
+
+impl Kernel for ContactSlopes<'_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { pass, state, tangent, step } = self;
+        let (list, particles, law) = (&state.contacts[pass.index], &state.particles, &pass.law.law);
+        let (moved, slopes) = (&mut tangent.particles, &mut tangent.contacts[pass.index]);
+        let step = Dual::<N>::new(step.value, &step.slopes);
         for (entry, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let (i, j) = (i as usize, j as usize);
             if !moved.reached[i] && !moved.reached[j] {
@@ -59,11 +81,11 @@ impl ContactPass {
                 part(slopes, entry);
                 continue;
             }
-            let ([p, v, w], [q, u, z]) = (moved.body(particles, i), moved.body(particles, j));
-            let [w, z] = [w, z].map(|spin| if self.law.needs.torque { spin } else { [Dual::zero(); 4] });
+            let ([p, v, w], [q, u, z]) = (moved.body::<N>(particles, i), moved.body::<N>(particles, j));
+            let [w, z] = [w, z].map(|spin| if pass.law.needs.torque { spin } else { [Dual::zero(); 4] });
             let geometry = SpherePair::of([p, q]).meet([v, u], [w, z], Dual::splat(constant));
             let ContactGeometry { contact, first_arm, second_arm } = geometry;
-            let row = self.table.row(particles.material[i], particles.material[j]);
+            let row = pass.table.row(particles.material[i], particles.material[j]);
             let Reaction { force, couple, rolling, .. } =
                 react(law, row, &contact, (&list.history, slopes, entry), step);
             moved.load(i, force, -(couple * first_arm) - rolling);

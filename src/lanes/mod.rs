@@ -3,7 +3,10 @@
 //! The width is chosen once, when a simulation is made, from what the processor offers. Every width gives
 //! the same bits: operations are exactly rounded and never fused, and results are added in the same order.
 
+mod eightfold;
 mod one;
+mod shared;
+mod table;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -13,10 +16,20 @@ use crate::number::{Number, Vector};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Eight, Four, Two};
 
+pub use eightfold::{Eightfold, add_eight, load_eight, store_eight};
+pub use shared::Shared;
+pub use table::{Table, columns_from, rows_from};
+
 /// A [`Number`] that knows how to be read from and written to rows of four.
 pub trait Lane: Number {
     /// Numbers side by side.
     const WIDTH: usize;
+
+    /// Eight numbers in registers of this kind.
+    type Eight: Eightfold<Self>;
+
+    /// Does something with the features of the processor that these registers come from.
+    fn within<W: Work>(work: W) -> W::Output;
 
     /// Reads [`Lane::WIDTH`] rows and transposes them: the first numbers of all rows, the second ones, ...
     ///
@@ -192,6 +205,15 @@ pub trait Kernel {
     fn run<N: Lane>(self);
 }
 
+/// Something that is done with registers of one kind, where a function of its own is called for it.
+pub trait Work {
+    /// What comes of it.
+    type Output;
+
+    /// Does it. Must be `#[inline(always)]` with all it calls, as for [`Kernel`].
+    fn run(self) -> Self::Output;
+}
+
 /// Runs a kernel in this width.
 pub fn run<K: Kernel>(width: Width, kernel: K) {
     debug_assert!(width.offered(), "{width:?} is not offered by this processor");
@@ -212,76 +234,4 @@ pub fn run_least<K: Kernel>(kernel: K) {
     kernel.run::<Two>();
     #[cfg(not(target_arch = "x86_64"))]
     kernel.run::<f64>();
-}
-
-/// A place that several threads write to, each to its own part.
-///
-/// The passes divide particles and pairs by geometry such that no two parts worked on at the same time touch the
-/// same rows; the compiler cannot see that.
-pub struct Shared<T> {
-    /// Where the slice begins.
-    start: *mut T,
-    /// How many there are, for debug assertions.
-    length: usize,
-}
-
-impl<T> Clone for Shared<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Shared<T> {}
-
-// SAFETY: what is behind it is plain data; who writes where is the passes' promise, stated at each use.
-unsafe impl<T: Send> Send for Shared<T> {}
-// SAFETY: as above.
-unsafe impl<T: Send> Sync for Shared<T> {}
-
-impl<T> Shared<T> {
-    /// The whole slice, for as long as the pass holds it.
-    pub fn new(slice: &mut [T]) -> Self {
-        Self { start: slice.as_mut_ptr(), length: slice.len() }
-    }
-
-    /// Where the slice begins.
-    #[inline(always)]
-    pub fn pointer(self) -> *mut T {
-        self.start
-    }
-
-    /// How many there are.
-    #[inline(always)]
-    pub fn length(self) -> usize {
-        self.length
-    }
-
-    /// The slice without its first elements, of which there are at least as many.
-    pub fn from(self, first: usize) -> Self {
-        assert!(first <= self.length, "{first} is above {}", self.length);
-        Self { start: self.start.wrapping_add(first), length: self.length - first }
-    }
-
-    /// One element, to be changed.
-    ///
-    /// # Safety
-    /// `index` is below the length, and no other thread reads or writes this element meanwhile.
-    #[inline(always)]
-    #[allow(clippy::mut_from_ref, reason = "disjoint use is the caller's promise")]
-    pub unsafe fn at<'a>(self, index: usize) -> &'a mut T {
-        debug_assert!(index < self.length, "{index} is not below {}", self.length);
-        // SAFETY: the caller's promise.
-        unsafe { &mut *self.start.add(index) }
-    }
-
-    /// A part, to be changed.
-    ///
-    /// # Safety
-    /// The part is inside, and no other thread reads or writes it meanwhile.
-    #[inline(always)]
-    pub unsafe fn part<'a>(self, from: usize, to: usize) -> &'a mut [T] {
-        debug_assert!(from <= to && to <= self.length);
-        // SAFETY: the caller's promise.
-        unsafe { std::slice::from_raw_parts_mut(self.start.add(from), to - from) }
-    }
 }

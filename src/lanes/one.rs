@@ -1,10 +1,17 @@
 //! One number at a time.
 
-use super::{Lane, compact_one_by_one};
+use super::{Lane, Work, compact_one_by_one};
 use crate::number::Row;
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
+
+    type Eight = [Self; 8];
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        work.run()
+    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

@@ -13,7 +13,7 @@ use crate::motion::Progress;
 use crate::number::Number;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::tangent::{BoundarySlopes, Tangent};
+use crate::tangent::{BoundarySlopes, Tangent, passing};
 
 /// How a boundary changes with each of some inputs: at the end of the last communication step, per unit of the input at that
 /// end.
@@ -63,7 +63,7 @@ impl Simulation {
         let length = self.return_to_last();
         let mut found = Err(NoDerivative::NoStep);
         if let Some(length) = length {
-            let mut tangent = Tangent::of(&self.state);
+            let mut tangent = Tangent::of(&self.state, self.width);
             for (direction, &(boundary, axis)) in inputs.iter().enumerate().take(DIRECTIONS) {
                 let place = boundary.index();
                 let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
@@ -101,11 +101,10 @@ impl Simulation {
     /// positions, velocities and springs go on. The state stays as it is.
     pub fn rates(&self) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
         Self::has_rates(&self.scene)?;
-        let mut tangent = Tangent::of(&self.state);
+        let mut tangent = Tangent::of(&self.state, self.width);
         tangent.go_on(&self.state);
-        let passing = Dual::new(0.0, std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }));
         for pass in &self.passes {
-            pass.add_slopes(&self.state, &mut tangent, passing);
+            pass.add_slopes(&self.state, &mut tangent, passing());
         }
         let particles = &self.state.particles;
         slopes::sum_groups(&self.scene, &self.state, &mut tangent, |slot| self.fields.weight_of(particles, slot));

@@ -62,17 +62,18 @@ fn reversed(row: &RowSlopes, odd: &[bool; 4]) -> RowSlopes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dual::DIRECTIONS;
 
     #[test]
     fn slopes_go_with_their_bodies_and_change_sign_with_their_order() {
         let mut list = ListSlopes::of(1);
         list.set_odd([[true, true, true, false]].into_iter());
         list.follow([[0, 1], [2, 3]].into_iter());
-        list.rows[0][0] = [[1.0; 4]; 4];
-        list.rows[0][1] = [[2.0; 4]; 4];
+        list.rows[0][0] = [[1.0; DIRECTIONS]; 4];
+        list.rows[0][1] = [[2.0; DIRECTIONS]; 4];
         list.follow([[3, 2], [0, 4], [0, 1]].into_iter());
-        assert_eq!(list.rows[0][0], [[-2.0; 4], [-2.0; 4], [-2.0; 4], [2.0; 4]]);
+        assert_eq!(list.rows[0][0], [-2.0, -2.0, -2.0, 2.0].map(|slope| [slope; DIRECTIONS]));
         assert_eq!(list.rows[0][1], NONE);
-        assert_eq!(list.rows[0][2], [[1.0; 4]; 4]);
+        assert_eq!(list.rows[0][2], [[1.0; DIRECTIONS]; 4]);
     }
 }

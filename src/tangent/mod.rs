@@ -9,13 +9,20 @@ pub(crate) mod rotation;
 pub(crate) use boundary::BoundarySlopes;
 pub(crate) use list::ListSlopes;
 
-use crate::dual::{Dual, RowSlopes, Slopes};
+use crate::dual::{DIRECTIONS, Dual, RowSlopes, Slopes};
 use crate::geometry::Quaternion;
+use crate::lanes::{Kernel, Lane, Width, add_eight, run};
 use crate::number::{Number, Vector};
 use crate::state::{Particles, State};
 
 /// No change.
-pub(crate) const NONE: RowSlopes = [[0.0; 4]; 4];
+pub(crate) const NONE: RowSlopes = [[0.0; DIRECTIONS]; 4];
+
+/// How a vector changes that does not.
+const NO_VECTOR: VectorSlopes = [[0.0; DIRECTIONS]; 3];
+
+/// How a vector changes.
+type VectorSlopes = [Slopes; 3];
 
 /// How everything that changes does so with a few inputs.
 pub(crate) struct Tangent {
@@ -29,22 +36,24 @@ pub(crate) struct Tangent {
     pub bonds: Vec<ListSlopes>,
     /// Of boundaries.
     pub boundaries: Vec<BoundarySlopes>,
+    /// Registers that slopes are worked on in.
+    pub width: Width,
     /// The time step in which the lists had been made whose order this follows.
     made_at: u64,
 }
 
-/// How the rows of particles change.
+/// How the vectors of particles change.
 pub(crate) struct ParticleSlopes {
     /// Of positions.
-    pub position: Vec<RowSlopes>,
+    pub position: Vec<VectorSlopes>,
     /// Of velocities.
-    pub velocity: Vec<RowSlopes>,
+    pub velocity: Vec<VectorSlopes>,
     /// Of angular velocities.
-    pub spin: Vec<RowSlopes>,
+    pub spin: Vec<VectorSlopes>,
     /// Of forces.
-    pub force: Vec<RowSlopes>,
+    pub force: Vec<VectorSlopes>,
     /// Of torques.
-    pub torque: Vec<RowSlopes>,
+    pub torque: Vec<VectorSlopes>,
     /// Of orientations; empty where there are none.
     pub orientation: Vec<RowSlopes>,
     /// Whether an input has reached the particle.
@@ -55,15 +64,15 @@ pub(crate) struct ParticleSlopes {
 
 impl Tangent {
     /// Nothing changes yet.
-    pub(crate) fn of(state: &State) -> Self {
+    pub(crate) fn of(state: &State, width: Width) -> Self {
         let count = state.particles.len();
-        let rows = || vec![NONE; count];
+        let vectors = || vec![NO_VECTOR; count];
         let particles = ParticleSlopes {
-            position: rows(),
-            velocity: rows(),
-            spin: rows(),
-            force: rows(),
-            torque: rows(),
+            position: vectors(),
+            velocity: vectors(),
+            spin: vectors(),
+            force: vectors(),
+            torque: vectors(),
             orientation: vec![NONE; state.particles.orientation.len()],
             reached: vec![false; count],
             id: state.particles.id.clone(),
@@ -74,6 +83,7 @@ impl Tangent {
             walls: state.walls.iter().map(|list| ListSlopes::of(list.history.len())).collect(),
             bonds: state.bonds.iter().map(|list| ListSlopes::of(list.rows.len())).collect(),
             boundaries: state.boundaries.iter().map(|_| BoundarySlopes::default()).collect(),
+            width,
             made_at: state.neighbours.made_at,
         };
         tangent.follow_lists(state);
@@ -124,8 +134,8 @@ impl Tangent {
                 }
             }
             if let Some(row) = slopes.orientation.get_mut(slot) {
-                let passing = Dual::new(0.0, std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }));
-                let orientation = Quaternion::from_row(Dual::row(particles.orientation[slot], &NONE));
+                let passing = passing();
+                let orientation = Quaternion::from_row(<Dual>::row(particles.orientation[slot], &NONE));
                 *row = Dual::slopes_of(orientation.turned(Vector::of_row(spin.map(Dual::splat)), passing).to_row());
             }
         }
@@ -147,9 +157,11 @@ impl Tangent {
                 add(&mut slopes.position[slot], &velocity, step);
             }
         }
-        slopes.turn(particles, step);
-        slopes.force.fill(NONE);
-        slopes.torque.fill(NONE);
+        if !slopes.orientation.is_empty() {
+            run(self.width, Turn { slopes, particles, step });
+        }
+        slopes.force.fill(NO_VECTOR);
+        slopes.torque.fill(NO_VECTOR);
     }
 
     /// The second half of the kick of free particles.
@@ -171,22 +183,6 @@ impl ParticleSlopes {
         add(&mut self.spin[slot], &self.torque[slot], half / inertia);
     }
 
-    /// Turns orientations as the drift does; angular velocities have had their half kick, those of the state not yet.
-    fn turn(&mut self, particles: &Particles, step: f64) {
-        for (slot, slopes) in self.orientation.iter_mut().enumerate().filter(|(slot, _)| self.reached[*slot]) {
-            let (mut spin, torque) = (particles.angular_velocity[slot], particles.torque[slot]);
-            if particles.owner[slot] == 0 {
-                let factor = 0.5 * step / spin[3];
-                for axis in 0..3 {
-                    spin[axis] += factor * torque[axis];
-                }
-            }
-            let spin = Vector::of_row(Dual::row(spin, &self.spin[slot]));
-            let orientation = Quaternion::from_row(Dual::row(particles.orientation[slot], slopes));
-            *slopes = Dual::slopes_of(orientation.turned(spin, Dual::splat(step)).to_row());
-        }
-    }
-
     /// Takes over the order of the particles.
     fn follow(&mut self, particles: &Particles) {
         let mut before = vec![0_u32; self.id.len()];
@@ -194,35 +190,85 @@ impl ParticleSlopes {
             before[id as usize] = slot as u32;
         }
         let came_from: Vec<usize> = particles.id.iter().map(|&id| before[id as usize] as usize).collect();
-        let columns = [&mut self.position, &mut self.velocity, &mut self.spin, &mut self.orientation];
-        for column in columns.into_iter().chain([&mut self.force, &mut self.torque]) {
-            if !column.is_empty() {
-                *column = came_from.iter().map(|&slot| column[slot]).collect();
-            }
+        let columns = [&mut self.position, &mut self.velocity, &mut self.spin, &mut self.force, &mut self.torque];
+        for column in columns {
+            *column = came_from.iter().map(|&slot| column[slot]).collect();
+        }
+        if !self.orientation.is_empty() {
+            self.orientation = came_from.iter().map(|&slot| self.orientation[slot]).collect();
         }
         self.reached = came_from.iter().map(|&slot| self.reached[slot]).collect();
         self.id.clone_from(&particles.id);
     }
 
     /// Position with radius, velocity with mass, angular velocity with inertia of a particle, with their slopes.
-    pub(crate) fn body(&self, particles: &Particles, slot: usize) -> [[Dual; 4]; 3] {
+    #[inline(always)]
+    pub(crate) fn body<N: Lane>(&self, particles: &Particles, slot: usize) -> [[Dual<N>; 4]; 3] {
+        let with = |[x, y, z, rest]: [f64; 4], slopes: &VectorSlopes| {
+            let [dx, dy, dz] = slopes;
+            [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::splat(rest)]
+        };
         [
-            Dual::row(particles.position[slot], &self.position[slot]),
-            Dual::row(particles.velocity[slot], &self.velocity[slot]),
-            Dual::row(particles.angular_velocity[slot], &self.spin[slot]),
+            with(particles.position[slot], &self.position[slot]),
+            with(particles.velocity[slot], &self.velocity[slot]),
+            with(particles.angular_velocity[slot], &self.spin[slot]),
         ]
     }
 
     /// Adds to the slopes of force and torque on a particle, which is reached then.
-    pub(crate) fn load(&mut self, slot: usize, force: Vector<Dual>, torque: Vector<Dual>) {
-        add_vector(&mut self.force[slot], &force.slopes());
-        add_vector(&mut self.torque[slot], &torque.slopes());
+    #[inline(always)]
+    pub(crate) fn load<N: Lane>(&mut self, slot: usize, force: Vector<Dual<N>>, torque: Vector<Dual<N>>) {
+        raise(&mut self.force[slot], force);
+        raise(&mut self.torque[slot], torque);
         self.reached[slot] = true;
     }
 }
 
+/// Adds the slopes of a vector.
+#[inline(always)]
+fn raise<N: Lane>(sums: &mut VectorSlopes, vector: Vector<Dual<N>>) {
+    let [x, y, z] = sums;
+    add_eight::<N>(x, vector.x.slopes);
+    add_eight::<N>(y, vector.y.slopes);
+    add_eight::<N>(z, vector.z.slopes);
+}
+
+/// Time as the first of the directions.
+pub(crate) fn passing() -> Dual {
+    Dual::new(0.0, &std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }))
+}
+
+/// Turns orientations as the drift does; angular velocities have had their half kick, those of the state not yet.
+struct Turn<'a> {
+    /// What changes.
+    slopes: &'a mut ParticleSlopes,
+    /// The particles.
+    particles: &'a Particles,
+    /// Length of the time step \[s\].
+    step: f64,
+}
+
+impl Kernel for Turn<'_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { slopes, particles, step } = self;
+        for slot in (0..slopes.orientation.len()).filter(|&slot| slopes.reached[slot]) {
+            let (mut spin, torque) = (particles.angular_velocity[slot], particles.torque[slot]);
+            if particles.owner[slot] == 0 {
+                let factor = 0.5 * step / spin[3];
+                for axis in 0..3 {
+                    spin[axis] += factor * torque[axis];
+                }
+            }
+            let spin = Dual::<N>::vector(Vector::from(spin), &slopes.spin[slot]);
+            let orientation = Quaternion::from_row(Dual::row(particles.orientation[slot], &slopes.orientation[slot]));
+            slopes.orientation[slot] = Dual::slopes_of(orientation.turned(spin, Dual::splat(step)).to_row());
+        }
+    }
+}
+
 /// Adds a multiple of slopes.
-pub(crate) fn add(row: &mut RowSlopes, other: &RowSlopes, factor: f64) {
+pub(crate) fn add(row: &mut [Slopes], other: &[Slopes], factor: f64) {
     for (sum, part) in row.iter_mut().zip(other) {
         for (sum, part) in sum.iter_mut().zip(part) {
             *sum += factor * part;

@@ -7,11 +7,6 @@ use crate::number::{Number, Vector};
 /// Below this length a vector has no direction worth following.
 const NOTHING: f64 = 1e-150;
 
-/// A function of a number, from its value and its derivative there.
-fn chain(of: Dual, value: f64, derivative: f64) -> Dual {
-    Dual::new(value, of.slopes.map(|slope| slope * derivative))
-}
-
 /// The orientation that a rotation vector turns to.
 pub(crate) fn orientation(rotation: Vector<Dual>) -> Quaternion<Dual> {
     let angle = rotation.length();
@@ -20,7 +15,7 @@ pub(crate) fn orientation(rotation: Vector<Dual>) -> Quaternion<Dual> {
     if angle.value < NOTHING {
         return Quaternion { scalar: Dual::splat(1.0), vector: rotation * Dual::splat(0.5) };
     }
-    Quaternion { scalar: chain(half, cosine, -sine), vector: rotation * (chain(half, sine, cosine) / angle) }
+    Quaternion { scalar: half.chain(cosine, -sine), vector: rotation * (half.chain(sine, cosine) / angle) }
 }
 
 /// The rotation vector from one orientation to another, by less than half a turn.
@@ -33,7 +28,7 @@ pub(crate) fn between(from: Quaternion<Dual>, to: Quaternion<Dual>) -> Vector<Du
     let square = sine.value * sine.value + turn.scalar.value * turn.scalar.value;
     let slopes =
         std::array::from_fn(|k| (turn.scalar.value * sine.slopes[k] - sine.value * turn.scalar.slopes[k]) / square);
-    let angle = Dual::new(libm::atan2(sine.value, turn.scalar.value), slopes);
+    let angle = Dual::new(libm::atan2(sine.value, turn.scalar.value), &slopes);
     turn.vector * (Dual::splat(2.0) * angle / sine)
 }
 
@@ -43,7 +38,8 @@ mod tests {
 
     #[test]
     fn a_rotation_vector_comes_back_with_its_slopes() {
-        let slopes = [[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, -0.25], [0.0, 0.0, 1.0, 2.0]];
+        let slopes = [[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, -0.25], [0.0, 0.0, 1.0, 2.0]]
+            .map(|[a, b, c, d]| [a, b, c, d, 0.0, 0.0, -d, 1.0]);
         for values in [Vector::new(0.3, -0.4, 0.2), Vector::new(0.0, 0.0, 0.0)] {
             let found = between(Quaternion::identity(), orientation(Dual::vector(values, &slopes)));
             for (found, expected) in found.slopes().iter().flatten().zip(slopes.iter().flatten()) {

@@ -6,14 +6,16 @@ use crate::batches::ContactGeometry;
 use crate::contact::Reaction;
 use crate::dual::{Dual, Slopes};
 use crate::interactions::slopes::{beyond, part, react};
+use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::State;
 use crate::tangent::Tangent;
 
 /// A row of a particle as a boundary sees it whose own part has these slopes.
-fn seen(mut row: [Dual; 4], own: &[Slopes; 3]) -> [Dual; 4] {
+#[inline(always)]
+fn seen<N: Lane>(mut row: [Dual<N>; 4], own: &[Slopes; 3]) -> [Dual<N>; 4] {
     for (number, own) in row.iter_mut().zip(own) {
-        *number = *number - Dual::new(0.0, *own);
+        *number = *number - Dual::new(0.0, own);
     }
     row
 }
@@ -24,19 +26,37 @@ impl AtSurface {
         match &self.touched {
             Touched::Plane(plane) => {
                 let boundary = &state.boundaries[self.list(state).boundary as usize];
-                self.add_slopes_at(&plane.at(boundary), state, tangent, step);
+                run(tangent.width, PlaneSlopes { surface: self, plane: plane.at(boundary), state, tangent, step });
             }
             // Scenes with others are refused before.
             Touched::Features(_) | Touched::Nodes(_) => {}
         }
     }
+}
 
-    /// The same of a plane that stands here.
-    fn add_slopes_at(&self, plane: &Plane, state: &State, tangent: &mut Tangent, step: Dual) {
-        let (list, particles, law) = (self.list(state), &state.particles, &self.law.law);
+/// The slopes of the forces at a plane.
+struct PlaneSlopes<'a> {
+    /// The surface.
+    surface: &'a AtSurface,
+    /// The plane where it stands.
+    plane: Plane,
+    /// The state.
+    state: &'a State,
+    /// How it changes.
+    tangent: &'a mut Tangent,
+    /// The time step.
+    step: Dual,
+}
+
+impl Kernel for PlaneSlopes<'_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { surface, plane, state, tangent, step } = self;
+        let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
+        let step = Dual::<N>::new(step.value, &step.slopes);
         let Tangent { particles: moved, walls, boundaries, .. } = tangent;
-        let (slopes, boundary) = (&mut walls[self.index], &mut boundaries[list.boundary as usize]);
-        let pivot = self.reference + state.boundaries[list.boundary as usize].displacement.into();
+        let (slopes, boundary) = (&mut walls[surface.index], &mut boundaries[list.boundary as usize]);
+        let pivot = surface.reference + state.boundaries[list.boundary as usize].displacement.into();
         let moves = boundary.is_moved();
         for (entry, &slot) in list.particle.iter().enumerate() {
             let slot = slot as usize;
@@ -49,18 +69,22 @@ impl AtSurface {
                 part(slopes, entry);
                 continue;
             }
-            let [position, velocity, spin] = moved.body(particles, slot);
-            let spin = if self.law.needs.torque { spin } else { [Dual::zero(); 4] };
+            let [position, velocity, spin] = moved.body::<N>(particles, slot);
+            let spin = if surface.law.needs.torque { spin } else { [Dual::zero(); 4] };
             let (position, velocity) = (seen(position, &boundary.displacement), seen(velocity, &boundary.velocity));
             let at = [plane.distance(position), position[3]];
             let ContactGeometry { contact, first_arm, .. } = plane.meet(at, [velocity, spin], Dual::splat(constant));
-            let row = self.row(state, slot as u32);
+            let row = surface.row(state, slot as u32);
             let Reaction { force, couple, rolling, .. } =
                 react(law, row, &contact, (&list.history, slopes, entry), step);
             moved.load(slot, force, -(couple * first_arm) - rolling);
             let away = Vector::from(particles.position[slot]) - pivot;
             let [x, y, z, _] = position;
-            let away = Dual::vector(away, &[x.slopes, y.slopes, z.slopes]);
+            let away = Vector {
+                x: Dual { value: away.x, ..x },
+                y: Dual { value: away.y, ..y },
+                z: Dual { value: away.z, ..z },
+            };
             let moment = (away - contact.normal * first_arm).cross(force) - rolling;
             boundary.add_load(&(-force).slopes(), &(-moment).slopes());
         }

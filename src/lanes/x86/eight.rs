@@ -1,9 +1,8 @@
 //! Eight numbers in an AVX-512 register.
 
-use super::{negation, operator};
-use crate::lanes::Lane;
-use crate::number::Number;
-use crate::number::Row;
+use super::{negation, operators};
+use crate::lanes::{Lane, Work};
+use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,10 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 #[derive(Clone, Copy)]
 pub struct Eight(__m512d);
 
-operator!(Eight, Add, add, _mm512_add_pd);
-operator!(Eight, Sub, sub, _mm512_sub_pd);
-operator!(Eight, Mul, mul, _mm512_mul_pd);
-operator!(Eight, Div, div, _mm512_div_pd);
+operators!(Eight, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd);
 negation!(Eight, _mm512_xor_pd, _mm512_set1_pd);
 
 impl Number for Eight {
@@ -158,6 +154,14 @@ unsafe fn row_pair(rows: *const Row, low: u32, high: u32) -> __m512d {
 
 impl Lane for Eight {
     const WIDTH: usize = 8;
+
+    type Eight = [Self; 1];
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        // SAFETY: see `splat`.
+        unsafe { super::within_eight(work) }
+    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

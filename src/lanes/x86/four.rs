@@ -1,9 +1,8 @@
 //! Four numbers in an AVX register.
 
-use super::{negation, operator};
-use crate::lanes::Lane;
-use crate::number::Number;
-use crate::number::Row;
+use super::{negation, operators};
+use crate::lanes::{Lane, Work};
+use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,10 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 #[derive(Clone, Copy)]
 pub struct Four(__m256d);
 
-operator!(Four, Add, add, _mm256_add_pd);
-operator!(Four, Sub, sub, _mm256_sub_pd);
-operator!(Four, Mul, mul, _mm256_mul_pd);
-operator!(Four, Div, div, _mm256_div_pd);
+operators!(Four, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd);
 negation!(Four, _mm256_xor_pd, _mm256_set1_pd);
 
 impl Number for Four {
@@ -125,6 +121,14 @@ const fn halves_of_four() -> [[u32; 8]; 16] {
 
 impl Lane for Four {
     const WIDTH: usize = 4;
+
+    type Eight = [Self; 2];
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        // SAFETY: see `splat`.
+        unsafe { super::within_four(work) }
+    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

@@ -8,7 +8,7 @@ pub use eight::Eight;
 pub use four::Four;
 pub use two::Two;
 
-use super::Kernel;
+use super::{Kernel, Work};
 use std::arch::x86_64::*;
 
 /// Runs a kernel with AVX2.
@@ -29,6 +29,24 @@ pub(super) unsafe fn run_eight<K: Kernel>(kernel: K) {
     kernel.run::<Eight>();
 }
 
+/// Does something with AVX2.
+///
+/// # Safety
+/// As for [`run_four`].
+#[target_feature(enable = "avx2,popcnt")]
+unsafe fn within_four<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+/// Does something with AVX-512.
+///
+/// # Safety
+/// As for [`run_eight`].
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,popcnt")]
+unsafe fn within_eight<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
 /// Which of eight numbers are equal to another, a bit for each, the first one lowest.
 #[inline(always)]
 pub(super) fn equal(numbers: &[u32; 8], wanted: u32) -> u32 {
@@ -41,9 +59,15 @@ pub(super) fn equal(numbers: &[u32; 8], wanted: u32) -> u32 {
     }
 }
 
-/// An operator of one register type by its intrinsic.
-macro_rules! operator {
-    ($name:ident, $operator:ident, $method:ident, $intrinsic:ident) => {
+/// The operators of one register type by their intrinsics.
+macro_rules! operators {
+    ($name:ident, $add:ident, $sub:ident, $mul:ident, $div:ident) => {
+        operators!(@ $name, Add, add, $add);
+        operators!(@ $name, Sub, sub, $sub);
+        operators!(@ $name, Mul, mul, $mul);
+        operators!(@ $name, Div, div, $div);
+    };
+    (@ $name:ident, $operator:ident, $method:ident, $intrinsic:ident) => {
         impl $operator for $name {
             type Output = Self;
             #[inline(always)]
@@ -69,4 +93,4 @@ macro_rules! negation {
     };
 }
 
-use {negation, operator};
+use {negation, operators};

@@ -1,9 +1,8 @@
 //! Two numbers in an SSE2 register, which every x86-64 processor has.
 
-use super::{negation, operator};
-use crate::lanes::{Lane, compact_one_by_one};
-use crate::number::Number;
-use crate::number::Row;
+use super::{negation, operators};
+use crate::lanes::{Lane, Work, compact_one_by_one};
+use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,10 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 #[derive(Clone, Copy)]
 pub struct Two(__m128d);
 
-operator!(Two, Add, add, _mm_add_pd);
-operator!(Two, Sub, sub, _mm_sub_pd);
-operator!(Two, Mul, mul, _mm_mul_pd);
-operator!(Two, Div, div, _mm_div_pd);
+operators!(Two, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd);
 negation!(Two, _mm_xor_pd, _mm_set1_pd);
 
 impl Number for Two {
@@ -72,6 +68,13 @@ impl Number for Two {
 
 impl Lane for Two {
     const WIDTH: usize = 2;
+
+    type Eight = [Self; 4];
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        work.run()
+    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {
