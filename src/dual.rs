@@ -105,7 +105,6 @@ impl<N: Lane> Sub for Dual<N> {
 impl<N: Lane> Mul for Dual<N> {
     type Output = Self;
     #[inline(always)]
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the slope of a product is a sum")]
     fn mul(self, other: Self) -> Self {
         let slopes = self.slopes.mixed(N::splat(other.value), other.slopes, N::splat(self.value));
         Self { value: self.value * other.value, slopes }

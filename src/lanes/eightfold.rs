@@ -57,21 +57,25 @@ fn mixed<N: Lane, const COUNT: usize>(one: [N; COUNT], factor: N, other: [N; COU
 mod called {
     use super::Lane;
 
+    /// [`Eightfold::plus`](super::Eightfold::plus)
     #[inline(never)]
     pub(super) fn plus<N: Lane, const COUNT: usize>(one: [N; COUNT], other: [N; COUNT]) -> [N; COUNT] {
         super::plus(one, other)
     }
 
+    /// [`Eightfold::minus`](super::Eightfold::minus)
     #[inline(never)]
     pub(super) fn minus<N: Lane, const COUNT: usize>(one: [N; COUNT], other: [N; COUNT]) -> [N; COUNT] {
         super::minus(one, other)
     }
 
+    /// [`Eightfold::times`](super::Eightfold::times)
     #[inline(never)]
     pub(super) fn times<N: Lane, const COUNT: usize>(one: [N; COUNT], factor: N) -> [N; COUNT] {
         super::times(one, factor)
     }
 
+    /// [`Eightfold::mixed`](super::Eightfold::mixed)
     #[inline(never)]
     pub(super) fn mixed<N: Lane, const COUNT: usize>(
         one: [N; COUNT],
