@@ -147,9 +147,10 @@ int main(int count, char **arguments) {
         fmi2FreeInstance(unit);
         if (number + 1 == many / 10) early = memory("VmRSS:");
     }
+    if (many) printf("memory_after_tenth %ld\nmemory_after_all %ld\nthreads %ld\n", early, memory("VmRSS:"), memory("Threads:"));
 
     /* as many side by side */
-    void **units = calloc(many ? many : 1, sizeof *units);
+    void **units = calloc(many > 0 ? many : 1, sizeof *units);
     for (int number = 0; number < many; number++) {
         units[number] = fmi2Instantiate("unit", 1, arguments[3], location, &callbacks, 0, 0);
         if (!units[number]) return 1;
@@ -161,6 +162,5 @@ int main(int count, char **arguments) {
     if (many) printf("memory_together %ld\nthreads_together %ld\n", memory("VmRSS:"), memory("Threads:"));
     for (int number = 0; number < many; number++) fmi2FreeInstance(units[number]);
     free(units);
-    if (many) printf("memory_after_tenth %ld\nmemory_after_all %ld\nthreads %ld\n", early, memory("VmRSS:"), memory("Threads:"));
     return 0;
 }

@@ -136,7 +136,7 @@ def report(title, found):
 def beside_run(host, folder):
     """Instructions of a time step of 20,000 spheres: `cograin run`, and the unit with 10 time steps in each call."""
     scene, length = peer_scenes.Scene("s1_20k", COUNTS), 10
-    runs = {steps: [str(PROGRAM), *peer_scenes.cograin(scene, steps, 1, folder)] for steps in COUNTS}
+    runs = {steps: [str(PROGRAM), *peer_scenes.cograin(scene, steps, 1, folder), "--overwrite"] for steps in COUNTS}
     *unit, output = unpack(folder, folder / f"{COUNTS[0]}.toml")
     calls = {steps: [str(host), *map(str, unit), str(steps), output, "0", str(length)] for steps in COUNTS}
     short, long = COUNTS

@@ -9,7 +9,7 @@ in all the digits that the tool writes; fmusim also writes the unit's state at t
 byte. Ends with 1 where a tool finds something or a digit differs.
 
 The tools: FMUComplianceChecker with FMI Library 2.0.3, which also judges `modelDescription.xml`; fmusim as it was in
-the last revision of Reference-FMUs that held it; fmi-sim 0.7.0, a package of crates.io.
+the last revision of Reference-FMUs that held it; fmi-sim 0.7.0, a package of the registry of Rust.
 """
 
 import argparse
