@@ -30,9 +30,13 @@ impl Kernel for Look<'_> {
             for (triangle, feature) in triangles.iter_mut().zip(&spheres.feature[from..from + N::WIDTH]) {
                 *triangle = feature.wrapping_sub(faces);
             }
-            for (lane, triangle) in triangles.iter_mut().enumerate() {
-                known |= u32::from(*triangle < count) << lane;
-                *triangle = (*triangle).min(count - 1);
+            if triangles.iter().fold(true, |all, &triangle| all & (triangle < count)) {
+                known = u32::MAX;
+            } else {
+                for (lane, triangle) in triangles.iter_mut().enumerate() {
+                    known |= u32::from(*triangle < count) << lane;
+                    *triangle = (*triangle).min(count - 1);
+                }
             }
             known &= u32::MAX >> (u32::BITS as usize - N::WIDTH);
             let (face, sphere) = (mesh.faces.in_lanes::<N>(&triangles), columns_from::<N>(&spheres.sphere, from));
