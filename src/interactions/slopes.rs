@@ -2,10 +2,10 @@
 
 use super::contacts::ContactPass;
 use crate::batches::{ContactGeometry, SpherePair};
-use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};
+use crate::contact::{Contact, Law, MOST_HISTORY, Needs, Reaction};
 use crate::dual::Dual;
 use crate::lanes::{Kernel, Lane, run};
-use crate::number::Number;
+use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
 use crate::state::{Row, State};
 use crate::tangent::{ListSlopes, NONE, Tangent};
@@ -29,6 +29,32 @@ pub(super) fn react<N: Lane>(
         slopes[entry] = Dual::slopes_of(row);
     }
     reaction
+}
+
+/// A contact with what its law looks at, and no slopes of what follows from radii and masses, which do not change: of the rest
+/// nothing is computed. `values` are those of the same contact.
+#[inline(always)]
+pub(super) fn needed<N: Lane>(
+    geometry: ContactGeometry<Dual<N>>,
+    values: &Contact,
+    needs: Needs,
+) -> ContactGeometry<Dual<N>> {
+    let contact = geometry.contact;
+    let vector = |needed: bool, vector: Vector<Dual<N>>| if needed { vector } else { Vector::zero() };
+    let contact = Contact {
+        radius: Dual::splat(values.radius),
+        mass: Dual::splat(values.mass),
+        section_area: if needs.section { contact.section_area } else { Dual::zero() },
+        section_radius: Dual::splat(values.section_radius),
+        slip: vector(needs.torque || needs.carry, contact.slip),
+        relative_spin: vector(needs.spin, contact.relative_spin),
+        spin_sum: vector(needs.spin_sum || needs.carry, contact.spin_sum),
+        turning: vector(needs.carry, contact.turning),
+        per_reach: Dual::splat(values.per_reach),
+        rolling_inertia: Dual::splat(values.rolling_inertia),
+        ..contact
+    };
+    ContactGeometry { contact, ..geometry }
 }
 
 /// Nothing is remembered of a contact whose bodies are apart.
@@ -84,7 +110,8 @@ impl Kernel for ContactSlopes<'_> {
             let ([p, v, w], [q, u, z]) = (moved.body::<N>(particles, i), moved.body::<N>(particles, j));
             let [w, z] = [w, z].map(|spin| if pass.law.needs.torque { spin } else { [Dual::zero(); 4] });
             let geometry = SpherePair::of([p, q]).meet([v, u], [w, z], Dual::splat(constant));
-            let ContactGeometry { contact, first_arm, second_arm } = geometry;
+            let values = near.meet([particles.velocity[i], particles.velocity[j]], [[0.0; 4]; 2], constant).contact;
+            let ContactGeometry { contact, first_arm, second_arm } = needed(geometry, &values, pass.law.needs);
             let row = pass.table.row(particles.material[i], particles.material[j]);
             let Reaction { force, couple, rolling, .. } =
                 react(law, row, &contact, (&list.history, slopes, entry), step);

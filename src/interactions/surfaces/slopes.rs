@@ -5,7 +5,7 @@ use super::{AtSurface, Touched};
 use crate::batches::ContactGeometry;
 use crate::contact::Reaction;
 use crate::dual::{Dual, Slopes};
-use crate::interactions::slopes::{beyond, part, react};
+use crate::interactions::slopes::{beyond, needed, part, react};
 use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::State;
@@ -73,7 +73,11 @@ impl Kernel for PlaneSlopes<'_> {
             let spin = if surface.law.needs.torque { spin } else { [Dual::zero(); 4] };
             let (position, velocity) = (seen(position, &boundary.displacement), seen(velocity, &boundary.velocity));
             let at = [plane.distance(position), position[3]];
-            let ContactGeometry { contact, first_arm, .. } = plane.meet(at, [velocity, spin], Dual::splat(constant));
+            let geometry = plane.meet(at, [velocity, spin], Dual::splat(constant));
+            let body = [particles.position[slot], particles.velocity[slot]];
+            let at = [plane.distance(body[0]), body[0][3]];
+            let values = plane.meet(at, [body[1], [0.0; 4]], constant).contact;
+            let ContactGeometry { contact, first_arm, .. } = needed(geometry, &values, surface.law.needs);
             let row = surface.row(state, slot as u32);
             let Reaction { force, couple, rolling, .. } =
                 react(law, row, &contact, (&list.history, slopes, entry), step);
