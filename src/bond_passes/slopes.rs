@@ -7,7 +7,7 @@ use crate::dual::Dual;
 use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::{BondList, Particles, State};
-use crate::tangent::{ListSlopes, NONE, ParticleSlopes, Tangent};
+use crate::tangent::{AddSlopes, ListSlopes, NONE, ParticleSlopes, Tangent};
 
 /// A particle as a body of a bond, with slopes.
 #[inline(always)]
@@ -57,30 +57,18 @@ fn react<N: Lane>(
 impl BondPass {
     /// Adds the slopes of its loads to those of the particles.
     pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        run(tangent.width, BondSlopes { pass: self, state, tangent, step });
+        run(tangent.width, AddSlopes { pass: self, state, tangent, step });
     }
 }
 
 impl WallBondPass {
     /// Adds the slopes of its loads to those of the particles and the plane.
     pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        run(tangent.width, BondSlopes { pass: self, state, tangent, step });
+        run(tangent.width, AddSlopes { pass: self, state, tangent, step });
     }
 }
 
-/// The slopes of what the bonds of a pass do.
-struct BondSlopes<'a, P> {
-    /// The pass.
-    pass: &'a P,
-    /// The state.
-    state: &'a State,
-    /// How it changes.
-    tangent: &'a mut Tangent,
-    /// The time step.
-    step: Dual,
-}
-
-impl Kernel for BondSlopes<'_, BondPass> {
+impl Kernel for AddSlopes<'_, &BondPass> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass, state, tangent, step } = self;
@@ -101,7 +89,7 @@ impl Kernel for BondSlopes<'_, BondPass> {
     }
 }
 
-impl Kernel for BondSlopes<'_, WallBondPass> {
+impl Kernel for AddSlopes<'_, &WallBondPass> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass, state, tangent, step } = self;

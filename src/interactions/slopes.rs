@@ -8,7 +8,7 @@ use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
 use crate::state::{Row, State};
-use crate::tangent::{ListSlopes, NONE, Tangent};
+use crate::tangent::{AddSlopes, ListSlopes, NONE, Tangent};
 
 /// What a contact does, with slopes; those of what it remembers go on.
 #[inline(always)]
@@ -73,23 +73,11 @@ impl ContactPass {
     /// Adds the slopes of its forces to those of the particles.
     pub(super) fn add_contact_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
         tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
-        run(tangent.width, ContactSlopes { pass: self, state, tangent, step });
+        run(tangent.width, AddSlopes { pass: self, state, tangent, step });
     }
 }
 
-/// The slopes of the forces of contacts.
-struct ContactSlopes<'a> {
-    /// The contacts.
-    pass: &'a ContactPass,
-    /// The state.
-    state: &'a State,
-    /// How it changes.
-    tangent: &'a mut Tangent,
-    /// The time step.
-    step: Dual,
-}
-
-impl Kernel for ContactSlopes<'_> {
+impl Kernel for AddSlopes<'_, &ContactPass> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass, state, tangent, step } = self;

@@ -42,6 +42,18 @@ pub(crate) struct Tangent {
     made_at: u64,
 }
 
+/// A pass whose slopes are added to those of the particles and boundaries: the work of a kernel.
+pub(crate) struct AddSlopes<'a, P> {
+    /// The pass.
+    pub pass: P,
+    /// The state.
+    pub state: &'a State,
+    /// How it changes.
+    pub tangent: &'a mut Tangent,
+    /// The time step, or time itself.
+    pub step: Dual,
+}
+
 /// How the vectors of particles change.
 pub(crate) struct ParticleSlopes {
     /// Of positions.

@@ -9,7 +9,7 @@ use crate::interactions::slopes::{beyond, needed, part, react};
 use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::State;
-use crate::tangent::Tangent;
+use crate::tangent::{AddSlopes, Tangent};
 
 /// A row of a particle as a boundary sees it whose own part has these slopes.
 #[inline(always)]
@@ -26,7 +26,7 @@ impl AtSurface {
         match &self.touched {
             Touched::Plane(plane) => {
                 let boundary = &state.boundaries[self.list(state).boundary as usize];
-                run(tangent.width, PlaneSlopes { surface: self, plane: plane.at(boundary), state, tangent, step });
+                run(tangent.width, AddSlopes { pass: (self, plane.at(boundary)), state, tangent, step });
             }
             // Scenes with others are refused before.
             Touched::Features(_) | Touched::Nodes(_) => {}
@@ -34,24 +34,11 @@ impl AtSurface {
     }
 }
 
-/// The slopes of the forces at a plane.
-struct PlaneSlopes<'a> {
-    /// The surface.
-    surface: &'a AtSurface,
-    /// The plane where it stands.
-    plane: Plane,
-    /// The state.
-    state: &'a State,
-    /// How it changes.
-    tangent: &'a mut Tangent,
-    /// The time step.
-    step: Dual,
-}
-
-impl Kernel for PlaneSlopes<'_> {
+/// A plane where it stands.
+impl Kernel for AddSlopes<'_, (&AtSurface, Plane)> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { surface, plane, state, tangent, step } = self;
+        let Self { pass: (surface, plane), state, tangent, step } = self;
         let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
         let step = Dual::<N>::new(step.value, &step.slopes);
         let Tangent { particles: moved, walls, boundaries, .. } = tangent;
