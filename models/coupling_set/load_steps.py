@@ -40,7 +40,7 @@ EXCHANGES = {
 STIFFNESS = 10.0  # of the particles over that of the spring
 MASSES = (10.0, 1000.0)  # of the particles over that of the other side
 SHARE = 0.1  # of the carried load in each load step
-LOADS, STEPS = 4, 10  # load steps, and communication steps in each
+LOADS = 4  # load steps
 
 
 @dataclass
@@ -66,17 +66,19 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("--program", default="cograin", help="the cograin command")
     parser.add_argument("--output", type=Path, default=Path("out/coupling_set"), help="folder of all results")
+    parser.add_argument("--steps", type=int, default=10, help="communication steps in each load step")
+    parser.add_argument("--exchanges", nargs="*", choices=list(EXCHANGES), help="all of them if not given")
     return parser.parse_args()
 
 
-def course(unit, case, make, ratio, spring):
+def course(unit, case, make, ratio, spring, count):
     """Evaluations of each step, steps that did not converge, interface energy, processor time [s]; or why it ended."""
     unit.reset()
     interface = Interface(unit, case.displacement)
     start = float(interface.force("end")[0])
 
     def load(now):
-        steps = np.floor((now - 1e-9) / (STEPS * case.length))
+        steps = np.floor((now - 1e-9) / (count * case.length))
         return -start + SHARE * case.carried * max(steps, 0.0)
 
     partner = Oscillator(case.mass / ratio, spring, load=load)
@@ -85,7 +87,7 @@ def course(unit, case, make, ratio, spring):
     coupling = Coupling(interface, partner, exchange, case.length, control=control)
     began = time.process_time()
     try:
-        coupling.run(LOADS * STEPS * case.length, progress=False)
+        coupling.run(LOADS * count * case.length, progress=False)
     except CouplingStopped as refusal:
         return str(refusal)
     record, taken = coupling.record, time.process_time() - began
@@ -103,14 +105,14 @@ def main():
             stiff = float(stiffness(Interface(unit, case.displacement), case.slow, 1e-7)[0])
             print(f"{case.name}: {stiff:.4g} N/m in {case.slow} s", flush=True)
             for ratio in MASSES:
-                for name, make in EXCHANGES.items():
-                    found = course(unit, case, make, ratio, stiff / STIFFNESS)
+                for name in options.exchanges or EXCHANGES:
+                    found = course(unit, case, EXCHANGES[name], ratio, stiff / STIFFNESS, options.steps)
                     if isinstance(found, str):
                         rows.append([case.name, ratio, name, *[""] * 8, found])
                         print(f"{name:14} masses {ratio:6g}: {found[:120]}", flush=True)
                         continue
                     counts, left, share, taken, asked = found
-                    late = counts.reshape(LOADS, STEPS)[:, STEPS // 2 :]
+                    late = counts.reshape(LOADS, options.steps)[:, options.steps // 2 :]
                     rows.append([case.name, ratio, name, np.median(counts), counts.mean(), counts.max()])
                     rows[-1] += [np.median(late), left, share, asked, taken]
                     print(
