@@ -11,7 +11,7 @@ const ROOM: usize = 3000;
 const FILE: usize = 300;
 
 /// Files above that, each with its reason.
-const LONG: [(&str, &str); 24] = [
+const LONG: [(&str, &str); 23] = [
     ("command/src/main.rs", "one command after another; each is a few lines"),
     ("fmu/src/instance/mod.rs", "the life of an instance: every call that FMI allows in each of its states"),
     ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
@@ -26,7 +26,6 @@ const LONG: [(&str, &str); 24] = [
     ("src/export/tests.rs", "tests"),
     ("src/interactions/suppression.rs", "the life of a suppressed contact: entered, carried, released"),
     ("src/interactions/surfaces/mod.rs", "the pass over surfaces: what it begins with, asks for and leaves"),
-    ("src/interface/mod.rs", "to be divided: variables, how they are read and how they are written"),
     ("src/neighbours/mod.rs", "when lists are made, and what they are made of"),
     ("src/region/solid_tests.rs", "tests"),
     ("src/results/boundaries.rs", "one cloud, with the tests that its sums are held to"),

@@ -4,6 +4,7 @@
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
 mod derivatives;
+mod error;
 mod findings;
 mod losses;
 mod parameters;
@@ -11,20 +12,20 @@ mod quantity;
 mod reader;
 mod rows;
 mod texts;
+mod writing;
 
 pub use derivatives::Derivatives;
+pub use error::InterfaceError;
 pub use findings::Findings;
 pub use quantity::{Quantity, Type};
 pub use texts::FRAMES;
 
-use crate::quantity::BoundaryIndex;
-use crate::scene::{self, InputCourse, Scene, SceneErrors};
+use crate::scene::Scene;
 use crate::state::State;
-use crate::step::{NoDerivative, Simulation, TuneError};
+use crate::step::Simulation;
 use parameters::Parameter;
 use reader::Reader;
 use rows::Present;
-use std::collections::BTreeMap;
 use texts::Text;
 
 /// Whether the host sets a variable or the program computes it.
@@ -64,6 +65,7 @@ pub enum Value {
 
 impl Value {
     /// The value as a real number.
+    #[inline]
     pub fn number(self) -> f64 {
         match self {
             Self::Real(value) => value,
@@ -73,9 +75,10 @@ impl Value {
 }
 
 impl std::fmt::Display for Value {
-    /// The shortest text that reads back as the same number.
+    /// The shortest text that reads back as the same number; none where there is no number.
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            Self::Real(value) if !value.is_finite() => Ok(()),
             Self::Real(value) => write!(formatter, "{value:?}"),
             Self::Integer(value) => write!(formatter, "{value}"),
         }
@@ -134,98 +137,6 @@ enum Source {
     Parameter(Parameter),
     /// A row of the table of texts.
     Text(&'static Text),
-}
-
-/// Why a variable was not set.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum InterfaceError {
-    /// There is no such variable.
-    #[error("{index} is not a variable; the variables are 0 to {last}")]
-    Unknown {
-        /// The index asked for.
-        index: usize,
-        /// The last index there is.
-        last: usize,
-    },
-    /// It is neither input nor parameter.
-    #[error("{index} is an output ({name}); only inputs and parameters may be set")]
-    Output {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// A parameter does not take the value.
-    #[error("{index} ({name}): {refusal}")]
-    Range {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-        /// What was found and what would be right, as the scene says it.
-        refusal: String,
-    },
-    /// A parameter is not an input.
-    #[error("{index} is a parameter ({name}); only inputs have rates")]
-    NoRate {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// An input that has no second derivative.
-    #[error(
-        "order 2 for {index} ({name}); order 1, or the displacement along an axis of a boundary with input = \"quadratic\", is \
-         right"
-    )]
-    NoAcceleration {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// A parameter that can no longer be changed.
-    #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
-    Fixed {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// An output whose derivatives are not followed.
-    #[error(
-        "{index} ({name}): no derivative; displacement, velocity, force and moment of a boundary, and mean loads, have some by inputs; displacement, force and moment in time"
-    )]
-    NoSlope {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// A derivative with respect to what is not an input.
-    #[error("{index} ({name}) is not an input; derivatives are with respect to inputs")]
-    NoInput {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-    },
-    /// The scene or the moment has no derivatives.
-    #[error(transparent)]
-    NoDerivative(#[from] NoDerivative),
-    /// Values of tunable parameters that contradict each other.
-    #[error(transparent)]
-    Tune(#[from] TuneError),
-    /// The value is not a finite number.
-    #[error("{value} for {index} ({name}); a finite number is right")]
-    NotFinite {
-        /// Its index.
-        index: usize,
-        /// Its name.
-        name: String,
-        /// The value given.
-        value: f64,
-    },
 }
 
 /// All variables of a scene. The index of a variable is its place in the table.
@@ -299,6 +210,7 @@ impl Interface {
     }
 
     /// The same for several values: results found for one value are used again for the others.
+    #[inline]
     pub fn value_with(&self, simulation: &Simulation, findings: &Findings, index: usize) -> Value {
         if let Reader { read: Some(read), at, .. } = self.readers[index] {
             return read(Present { simulation, findings }, at);
@@ -312,111 +224,10 @@ impl Interface {
     }
 
     /// The type of the variable at an index; nothing where there is no such variable.
+    #[inline]
     pub fn type_of(&self, index: usize) -> Option<Type> {
         self.readers.get(index).map(|reader| reader.of_type)
     }
-
-    /// Whether the variable at an index may be set to a value.
-    pub fn check(&self, index: usize, value: f64) -> Result<(), InterfaceError> {
-        let variable = self.variable(index)?;
-        if variable.causality == Causality::Output {
-            return Err(InterfaceError::Output { index, name: variable.name.clone() });
-        }
-        if let Source::Parameter(parameter) = &variable.source
-            && let Err(refusal) = parameter.range.check(value)
-        {
-            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
-        }
-        is_finite(variable, index, value)?;
-        if variable.minimum.is_some_and(|minimum| value < minimum) {
-            let refusal =
-                format!("{value:?} found; a number of {:?} or above is right", variable.minimum.unwrap_or(0.0));
-            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
-        }
-        Ok(())
-    }
-
-    /// Sets an input; it takes effect in the next communication step.
-    pub fn set(&self, simulation: &mut Simulation, index: usize, value: Value) -> Result<(), InterfaceError> {
-        self.check(index, value.number())?;
-        if let Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) =
-            self.variables[index].source
-        {
-            (write.set)(simulation, at, value.number());
-        }
-        Ok(())
-    }
-
-    /// Sets tunable parameters between communication steps, all or none. Parameters that are not tunable are ignored.
-    pub fn tune(&self, simulation: &mut Simulation, values: &[(usize, f64)]) -> Result<(), InterfaceError> {
-        let mut changes = Vec::new();
-        for &(index, value) in values {
-            self.check(index, value)?;
-            if let Source::Parameter(parameter) = &self.variables[index].source {
-                let name = || self.variables[index].name.clone();
-                let place = parameter.tunable.ok_or_else(|| InterfaceError::Fixed { index, name: name() })?;
-                changes.push((place, value));
-            }
-        }
-        if changes.is_empty() { Ok(()) } else { Ok(simulation.tune(&changes)?) }
-    }
-
-    /// The scene of this source with these values of parameters, by index.
-    pub fn scene_with(&self, source: &scene::Source, values: &BTreeMap<usize, f64>) -> Result<Scene, SceneErrors> {
-        let named = values.iter().map(|(&index, &value)| (self.variables[index].name.as_str(), value));
-        Scene::with_parameters(source, named)
-    }
-
-    /// Whether the variable at an index may be given a rate.
-    pub fn check_rate(&self, index: usize, rate: f64) -> Result<(), InterfaceError> {
-        let variable = self.variable(index)?;
-        match variable.causality {
-            Causality::Parameter => Err(InterfaceError::NoRate { index, name: variable.name.clone() }),
-            Causality::Output => self.check(index, rate),
-            Causality::Input => is_finite(variable, index, rate),
-        }
-    }
-
-    /// Sets the rate of an input: in the next communication step it goes on from its value at this rate
-    /// \[unit of the input/s\].
-    pub fn set_rate(&self, simulation: &mut Simulation, index: usize, rate: f64) -> Result<(), InterfaceError> {
-        self.check_rate(index, rate)?;
-        if let Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) =
-            self.variables[index].source
-        {
-            (write.set_rate)(simulation, at, rate);
-        }
-        Ok(())
-    }
-}
-
-impl Interface {
-    /// The axis along which the variable at an index takes a second derivative: only quadratic motion has one.
-    pub fn check_acceleration(
-        &self,
-        scene: &Scene,
-        index: usize,
-        acceleration: f64,
-    ) -> Result<(BoundaryIndex, usize), InterfaceError> {
-        self.check_rate(index, acceleration)?;
-        let variable = self.variable(index)?;
-        let axis = match &variable.source {
-            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => (write.axis)(*at),
-            _ => None,
-        };
-        let quadratic = |&(boundary, axis): &(BoundaryIndex, usize)| {
-            let boundary = &scene.boundaries[boundary.index()];
-            boundary.input == InputCourse::Quadratic && axis < 3 && boundary.axes[axis].takes_place()
-        };
-        let refused = || InterfaceError::NoAcceleration { index, name: variable.name.clone() };
-        axis.filter(quadratic).ok_or_else(refused)
-    }
-}
-
-/// Whether a value for a variable is a finite number.
-fn is_finite(variable: &Variable, index: usize, value: f64) -> Result<(), InterfaceError> {
-    let refused = || InterfaceError::NotFinite { index, name: variable.name.clone(), value };
-    if value.is_finite() { Ok(()) } else { Err(refused()) }
 }
 
 #[cfg(test)]

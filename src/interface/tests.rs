@@ -45,6 +45,12 @@ fn scene() -> Scene {
 }
 
 #[test]
+fn what_is_no_number_is_an_empty_field() {
+    let told = [Value::Real(f64::NAN), Value::Real(f64::INFINITY), Value::Real(0.5), Value::Integer(3)];
+    assert_eq!(told.map(|value| value.to_string()), ["", "", "0.5", "3"]);
+}
+
+#[test]
 fn inputs_are_the_driven_axes_and_nothing_else() {
     let interface = Interface::of(&scene());
     let inputs: Vec<&str> = interface.inputs().map(|(_, variable)| variable.name.as_str()).collect();

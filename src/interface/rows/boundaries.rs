@@ -8,17 +8,17 @@ use crate::scene::{InputCourse, Scene};
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
     Some(Write {
-        set: |simulation, at, value| simulation.set_input(at.boundary, FIRST + at.axis, value),
-        set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis, rate),
-        held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis],
-        start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis].first_input(),
-        axis: |at| Some((at.boundary, FIRST + at.axis)),
+        set: |simulation, at, value| simulation.set_input(at.boundary, FIRST + at.axis(), value),
+        set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis(), rate),
+        held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis()],
+        start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis()].first_input(),
+        axis: |at| Some((at.boundary, FIRST + at.axis())),
     })
 }
 
 /// What the outside sees of an axis: 0 to 2 along x, y, z, 3 to 5 about them.
 fn seen(scene: &Scene, at: At, first: usize) -> Seen {
-    scene.boundaries[at.boundary.index()].axes[first + at.axis].seen()
+    scene.boundaries[at.boundary.index()].axes[first + at.axis()].seen()
 }
 
 /// Whether the outside moves it.
@@ -73,7 +73,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Length,
         exists: |scene, at| is_driven(scene, at, 0),
         write: given::<0>(),
-        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -83,7 +83,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Angle,
         exists: |scene, at| is_driven(scene, at, 3),
         write: given::<3>(),
-        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -92,7 +92,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Velocity,
         exists: |scene, at| is_steered(scene, at, 0),
         write: given::<0>(),
-        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -102,7 +102,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::AngularVelocity,
         exists: |scene, at| is_steered(scene, at, 3),
         write: given::<3>(),
-        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -112,7 +112,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Force,
         exists: |scene, at| is_served(scene, at),
         write: given::<0>(),
-        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -122,7 +122,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Force,
         exists: |scene, at| is_loaded(scene, at, 0),
         write: given::<0>(),
-        read: |now, at| Value::Real(now.boundary(at).target[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -132,7 +132,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Torque,
         exists: |scene, at| is_loaded(scene, at, 3),
         write: given::<3>(),
-        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[3 + at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -141,8 +141,8 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Length,
         follows_inputs_at_start: false,
         exists: |scene, at| moves_by_itself(scene, at, 0),
-        read: |now, at| Value::Real(now.boundary(at).displacement[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).displacement[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis()]),
         has_rate: true,
         ..OF_AXIS
     },
@@ -152,7 +152,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Angle,
         follows_inputs_at_start: false,
         exists: |scene, at| moves_by_itself(scene, at, 3),
-        read: |now, at| Value::Real(now.boundary(at).rotation[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).rotation[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -161,8 +161,8 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::Velocity,
         follows_inputs_at_start: false,
         exists: |scene, at| is_free(scene, at, 0),
-        read: |now, at| Value::Real(now.boundary(at).velocity[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).velocity[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -171,15 +171,15 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         quantity: Quantity::AngularVelocity,
         follows_inputs_at_start: false,
         exists: |scene, at| is_free(scene, at, 3),
-        read: |now, at| Value::Real(now.boundary(at).angular_velocity[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).angular_velocity[at.axis()]),
         ..OF_AXIS
     },
     Row {
         name: "force",
         description: "force of the particles on {boundary} along {axis}",
         quantity: Quantity::Force,
-        read: |now, at| Value::Real(now.boundary(at).force[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).force[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis()]),
         has_rate: true,
         ..OF_AXIS
     },
@@ -187,8 +187,8 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         name: "moment",
         description: "moment of the particles on {boundary} about {axis} through its moved reference point",
         quantity: Quantity::Torque,
-        read: |now, at| Value::Real(now.boundary(at).moment[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).moment[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis()]),
         has_rate: true,
         ..OF_AXIS
     },
@@ -197,15 +197,15 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "what the force of the particles on {boundary} along {axis} lacks of its target",
         quantity: Quantity::Force,
         exists: |scene, at| is_served(scene, at),
-        read: |now, at| Value::Real(now.boundary(at).target[at.axis] - now.boundary(at).force[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).target[at.axis()] - now.boundary(at).force[at.axis()]),
         ..OF_AXIS
     },
     Row {
         name: "mean_force",
         description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
         quantity: Quantity::Force,
-        read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -215,15 +215,15 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
                       its length",
         quantity: Quantity::ForceRate,
         exists: |scene, at| is_driven(scene, at, 0) && bends(scene, at),
-        read: |now, at| Value::Real(now.boundary(at).force_slope[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).force_slope[at.axis()]),
         ..OF_AXIS
     },
     Row {
         name: "mean_moment",
         description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
         quantity: Quantity::Torque,
-        read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis]),
+        read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis()]),
+        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -244,7 +244,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         exists: |scene, at| scene.output.stiffness && !is_free(scene, at, 0),
         read: |now, at| {
             let found = now.findings.stiffness(now.simulation, at.boundary);
-            Value::Real(found.map_or(f64::NAN, |stiffness| stiffness[at.axis]))
+            Value::Real(found.map_or(f64::NAN, |stiffness| stiffness[at.axis()]))
         },
         ..OF_AXIS
     },
@@ -274,9 +274,9 @@ pub(super) static OF_NODES: [Row; 3] = [
                       the communication step; at initialisation taken without motion",
         quantity: Quantity::Length,
         write: Some(Write {
-            set: |simulation, at, value| simulation.set_node(at.boundary, (at.node, at.axis), value),
-            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node, at.axis), rate),
-            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |nodes| nodes.target[at.node][at.axis]),
+            set: |simulation, at, value| simulation.set_node(at.boundary, (at.node(), at.axis()), value),
+            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node(), at.axis()), rate),
+            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |it| it.target[at.node()][at.axis()]),
             start: |_, _| 0.0,
             axis: |_| None,
         }),

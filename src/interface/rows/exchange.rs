@@ -11,13 +11,13 @@ pub(super) const RATE: Row = Row {
     quantity: Quantity::MassFlow,
     minimum: Some(0.0),
     write: Some(Write {
-        set: |simulation, at, value| simulation.set_insertion_rate(at.place, value),
-        set_rate: |simulation, at, rate| simulation.set_insertion_rate_of_rate(at.place, rate),
-        held: |state, at| state.exchange.as_ref().map_or(0.0, |exchange| exchange.feeds[at.place].rate),
-        start: |scene, at| scene.insertions[at.place].rate().unwrap_or(0.0),
+        set: |simulation, at, value| simulation.set_insertion_rate(at.place(), value),
+        set_rate: |simulation, at, rate| simulation.set_insertion_rate_of_rate(at.place(), rate),
+        held: |state, at| state.exchange.as_ref().map_or(0.0, |exchange| exchange.feeds[at.place()].rate),
+        start: |scene, at| scene.insertions[at.place()].rate().unwrap_or(0.0),
         axis: |_| None,
     }),
-    read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place].rate)),
+    read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place()].rate)),
     ..OUTPUT
 };
 
@@ -32,27 +32,27 @@ pub(super) const EXCHANGED_MASS: Row =
 pub(super) static OF_INSERTIONS: [Row; 4] = [
     Row {
         description: "mass that comes by {owner} in each second, held in a communication step, or the mean of what changes at its rate",
-        exists: |scene, at| matches!(scene.insertions[at.place].amount, Amount::MassRate(_)),
+        exists: |scene, at| matches!(scene.insertions[at.place()].amount, Amount::MassRate(_)),
         ..RATE
     },
     Row {
         description: "number of particles that come by {owner} in each second, held in a communication step, or the mean of what \
                       changes at its rate",
         quantity: Quantity::CountRate,
-        exists: |scene, at| matches!(scene.insertions[at.place].amount, Amount::CountRate(_)),
+        exists: |scene, at| matches!(scene.insertions[at.place()].amount, Amount::CountRate(_)),
         ..RATE
     },
     Row {
         each: Each::Insertion,
         description: "number of particles that came by {owner} since the start",
-        read: |now, at| count(now.exchanged(|exchange| exchange.feeds[at.place].came.count)),
+        read: |now, at| count(now.exchanged(|exchange| exchange.feeds[at.place()].came.count)),
         ..EXCHANGED
     },
     Row {
         each: Each::Insertion,
         description: "mass of the particles that came by {owner} since the start",
         minimum: Some(0.0),
-        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place].came.mass)),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place()].came.mass)),
         ..EXCHANGED_MASS
     },
 ];
@@ -62,14 +62,14 @@ pub(super) static OF_OUTLETS: [Row; 2] = [
     Row {
         each: Each::Outlet,
         description: "number of particles that {owner} took away since the start",
-        read: |now, at| count(now.exchanged(|exchange| exchange.outlets[at.place].count)),
+        read: |now, at| count(now.exchanged(|exchange| exchange.outlets[at.place()].count)),
         ..EXCHANGED
     },
     Row {
         each: Each::Outlet,
         description: "mass of the particles that {owner} took away since the start",
         minimum: Some(0.0),
-        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.outlets[at.place].mass)),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.outlets[at.place()].mass)),
         ..EXCHANGED_MASS
     },
 ];
@@ -82,20 +82,20 @@ pub(super) static OF_METERS: [Row; 3] = [
         description: "mass that passed {owner} towards its front in a second, less what went back: mean over the last communication step",
         quantity: Quantity::MassFlow,
         follows_inputs_at_start: false,
-        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place].mass_flow)),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place()].mass_flow)),
         ..OUTPUT
     },
     Row {
         each: Each::Meter,
         description: "mass that passed {owner} towards its front since the start, less what went back",
-        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place].mass)),
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.meters[at.place()].mass)),
         ..EXCHANGED_MASS
     },
     Row {
         each: Each::Meter,
         description: "number of particles that passed {owner} towards its front since the start, less those that went back",
         minimum: None,
-        read: |now, at| Value::Integer(now.exchanged(|exchange| exchange.meters[at.place].net_count())),
+        read: |now, at| Value::Integer(now.exchanged(|exchange| exchange.meters[at.place()].net_count())),
         ..EXCHANGED
     },
 ];

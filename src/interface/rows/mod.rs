@@ -46,12 +46,13 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let none = At::NOWHERE;
     let of_boundaries = boundaries.flat_map(|boundary| {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
-        let of_nodes =
-            OF_NODES.iter().flat_map(move |row| nodes.clone().map(move |node| (row, At { boundary, node, ..none })));
-        OF_BOUNDARIES.iter().map(move |row| (row, At { boundary, ..none })).chain(of_nodes)
+        let of_nodes = OF_NODES
+            .iter()
+            .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_node(node))));
+        OF_BOUNDARIES.iter().map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
     let each = |rows: &'static [Row], count: usize| {
-        (0..count).flat_map(move |place| rows.iter().map(move |row| (row, At { place, ..none })))
+        (0..count).flat_map(move |place| rows.iter().map(move |row| (row, none.at_place(place))))
     };
     let exchange = each(&OF_INSERTIONS, scene.insertions.len())
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
@@ -61,7 +62,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(exchange)
         .chain(of_scene)
-        .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: At { axis, ..at } }));
+        .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: at.along(axis) }));
     places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
 }
 
@@ -76,7 +77,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
 impl Source {
     /// The node that it is of, from 0.
     pub(super) fn node(&self) -> Option<usize> {
-        (self.row.each == Each::Node).then_some(self.at.node)
+        (self.row.each == Each::Node).then_some(self.at.node())
     }
 
     /// The variable.
@@ -85,13 +86,13 @@ impl Source {
         let owner = match row.each {
             Each::Scene => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place].name,
-            Each::Insertion => &scene.insertions[at.place].name,
-            Each::Outlet => &scene.outlets[at.place].name,
-            Each::Meter => &scene.meters[at.place].name,
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
+            Each::Insertion => &scene.insertions[at.place()].name,
+            Each::Outlet => &scene.outlets[at.place()].name,
+            Each::Meter => &scene.meters[at.place()].name,
         };
-        let own = row.each.names()[at.axis];
-        let number = (at.node + 1).to_string();
+        let own = row.each.names()[at.axis()];
+        let number = (at.node() + 1).to_string();
         let node = if row.each == Each::Node { format!("node[{number}]") } else { String::new() };
         let parts = [owner, &node, row.name, own].into_iter().filter(|part| !part.is_empty());
         let described = row.description.replace("{axis}", own).replace("{node}", &number);

@@ -14,14 +14,14 @@ pub(super) static OF_REGIONS: [Row; 6] = [
         description: "mean stress in {region}, component {axis}, tension positive: of contacts and bonds by the part of their \
                       branch inside, and of the velocities less their mean",
         quantity: Quantity::Pressure,
-        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place, COMPONENT_PLACES[at.axis])),
+        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place(), COMPONENT_PLACES[at.axis()])),
         ..OF_REGION
     },
     Row {
         name: "porosity",
         description: "part of the volume of {region} that no particle fills; overlaps of particles count twice",
         read: |now, at| {
-            let volume = now.simulation.scene().regions[at.place].shape.volume();
+            let volume = now.simulation.scene().regions[at.place()].shape.volume();
             Value::Real(1.0 - now.content(at).solid / volume)
         },
         ..OF_REGION
@@ -30,7 +30,7 @@ pub(super) static OF_REGIONS: [Row; 6] = [
         name: "coordination",
         description: "contacts of a particle whose centre is in {region}, in the mean; those at boundaries count",
         minimum: Some(0.0),
-        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.place)),
+        read: |now, at| Value::Real(now.findings.coordination(now.simulation, at.place())),
         ..OF_REGION
     },
     Row {
@@ -54,7 +54,7 @@ pub(super) static OF_REGIONS: [Row; 6] = [
         each: Each::RegionAxis,
         description: "mean velocity of the mass in {region} along {axis}; 0 where there is none",
         quantity: Quantity::Velocity,
-        read: |now, at| Value::Real(now.content(at).velocity[at.axis]),
+        read: |now, at| Value::Real(now.content(at).velocity[at.axis()]),
         ..OF_REGION
     },
 ];

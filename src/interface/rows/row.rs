@@ -59,16 +59,51 @@ pub(in crate::interface) struct At {
     /// The boundary.
     pub(super) boundary: BoundaryIndex,
     /// The node, from 0.
-    pub(super) node: usize,
+    node: u32,
     /// The region, insertion, outlet or flow meter.
-    pub(super) place: usize,
+    place: u32,
     /// The axis or component.
-    pub(super) axis: usize,
+    axis: u32,
 }
 
 impl At {
     /// That of a variable that is of no row, or of the whole scene.
     pub(in crate::interface) const NOWHERE: Self = Self { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
+
+    /// At this boundary.
+    pub(super) fn at_boundary(self, boundary: BoundaryIndex) -> Self {
+        Self { boundary, ..self }
+    }
+
+    /// At this node.
+    pub(super) fn at_node(self, node: usize) -> Self {
+        Self { node: node as u32, ..self }
+    }
+
+    /// At this region, insertion, outlet or flow meter.
+    pub(super) fn at_place(self, place: usize) -> Self {
+        Self { place: place as u32, ..self }
+    }
+
+    /// Along this axis.
+    pub(super) fn along(self, axis: usize) -> Self {
+        Self { axis: axis as u32, ..self }
+    }
+
+    /// The node, from 0.
+    pub(in crate::interface) fn node(self) -> usize {
+        self.node as usize
+    }
+
+    /// The region, insertion, outlet or flow meter.
+    pub(in crate::interface) fn place(self) -> usize {
+        self.place as usize
+    }
+
+    /// The axis or component.
+    pub(in crate::interface) fn axis(self) -> usize {
+        self.axis as usize
+    }
 }
 
 /// A simulation, and what has been found of it.
@@ -89,12 +124,12 @@ impl Present<'_> {
     /// A component of a row of a node.
     pub(super) fn node(&self, at: At, rows: fn(&Nodes) -> &[[f64; 4]]) -> Value {
         let nodes = self.simulation.state().nodes_of(at.boundary.index());
-        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.node][at.axis]))
+        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.node()][at.axis()]))
     }
 
     /// The particles in a region.
     pub(super) fn content(&self, at: At) -> Content {
-        self.findings.content(self.simulation, at.place)
+        self.findings.content(self.simulation, at.place())
     }
 
     /// What is known of particles that come and go, in a scene that has any.

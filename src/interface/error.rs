@@ -1,0 +1,95 @@
+//! Why a variable was not set.
+
+use crate::step::{NoDerivative, TuneError};
+
+/// Why a variable was not set.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InterfaceError {
+    /// There is no such variable.
+    #[error("{index} is not a variable; the variables are 0 to {last}")]
+    Unknown {
+        /// The index asked for.
+        index: usize,
+        /// The last index there is.
+        last: usize,
+    },
+    /// It is neither input nor parameter.
+    #[error("{index} is an output ({name}); only inputs and parameters may be set")]
+    Output {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A parameter does not take the value.
+    #[error("{index} ({name}): {refusal}")]
+    Range {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// What was found and what would be right, as the scene says it.
+        refusal: String,
+    },
+    /// A parameter is not an input.
+    #[error("{index} is a parameter ({name}); only inputs have rates")]
+    NoRate {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// An input that has no second derivative.
+    #[error(
+        "order 2 for {index} ({name}); order 1, or the displacement along an axis of a boundary with input = \"quadratic\", is \
+         right"
+    )]
+    NoAcceleration {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A parameter that can no longer be changed.
+    #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
+    Fixed {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// An output whose derivatives are not followed.
+    #[error(
+        "{index} ({name}): no derivative; displacement, velocity, force and moment of a boundary, and mean loads, have some by inputs; displacement, force and moment in time"
+    )]
+    NoSlope {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A derivative with respect to what is not an input.
+    #[error("{index} ({name}) is not an input; derivatives are with respect to inputs")]
+    NoInput {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// The scene or the moment has no derivatives.
+    #[error(transparent)]
+    NoDerivative(#[from] NoDerivative),
+    /// Values of tunable parameters that contradict each other.
+    #[error(transparent)]
+    Tune(#[from] TuneError),
+    /// The value is not a finite number.
+    #[error("{value} for {index} ({name}); a finite number is right")]
+    NotFinite {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The value given.
+        value: f64,
+    },
+}
