@@ -1,7 +1,7 @@
 //! What directional derivatives cost, in communication steps of the same length: a bonded block, the bed of the coupling set, and
 //! spheres with Hertz contacts and friction that press each other.
 //!
-//! `cargo bench --bench derivatives`
+//! `cargo bench --bench derivatives`, with the names of scenes behind it to have these alone
 
 use cograin::dual::DIRECTIONS;
 use cograin::quantity::BoundaryIndex;
@@ -84,8 +84,11 @@ fn tell(source: &Source, step: f64, boundary: &str) {
 }
 
 fn main() {
-    tell(&model("block"), 1e-6, "top");
-    tell(&model("bed"), 5e-5, "floor");
+    // Cargo adds an option of its own.
+    let names: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     let pressed = Source { name: "pressed".into(), text: PRESSED.into(), files: BTreeMap::new() };
-    tell(&pressed, 1e-5, "top");
+    let all = [(model("block"), 1e-6, "top"), (model("bed"), 5e-5, "floor"), (pressed, 1e-5, "top")];
+    for (source, step, boundary) in all.iter().filter(|it| names.is_empty() || names.contains(&it.0.name)) {
+        tell(source, *step, boundary);
+    }
 }

@@ -190,6 +190,22 @@ impl<N: Lane> Number for Dual<N> {
     }
 
     #[inline(always)]
+    fn scaled(self, factor: Self) -> Self {
+        self.chain(self.value * factor.value, factor.value)
+    }
+
+    /// Value and derivative one by one, and so one product with the slopes for all powers.
+    #[inline(always)]
+    fn polynomial<const COUNT: usize>(self, coefficients: &[f64; COUNT]) -> Self {
+        let (mut value, mut derivative) = (coefficients[COUNT - 1], 0.0);
+        for index in (0..COUNT - 1).rev() {
+            derivative = derivative * self.value + value;
+            value = value * self.value + coefficients[index];
+        }
+        self.chain(value, derivative)
+    }
+
+    #[inline(always)]
     fn cube_root(self) -> Self {
         let value = Number::cube_root(self.value);
         self.chain(value, if value > 0.0 { 1.0 / (3.0 * value * value) } else { 0.0 })
@@ -212,6 +228,8 @@ mod tests {
         assert_eq!((two / x).slopes[0], -2.0 / 9.0);
         assert_eq!(along(4.0).sqrt().slopes[0], 0.25);
         assert_eq!(Number::abs(-x).slopes[0], 1.0);
+        assert_eq!(x.scaled(two).slopes[0], 2.0);
+        assert_eq!(x.polynomial(&[5.0, -1.0, 2.0]), Dual::new(20.0, &[11.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
         assert!((along(8.0).cube_root().slopes[0] - 1.0 / 12.0).abs() < 1e-16);
         assert_eq!(Number::whole(x), Dual::splat(3.0));
         assert_eq!((x - two + x).slopes(), [2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

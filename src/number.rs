@@ -53,6 +53,21 @@ pub trait Number:
     fn zero() -> Self {
         Self::splat(0.0)
     }
+    /// Times a factor that does not change with anything that slopes are followed of: over numbers with slopes those of the factor
+    /// are not looked at.
+    #[inline(always)]
+    fn scaled(self, factor: Self) -> Self {
+        self * factor
+    }
+    /// A polynomial with these coefficients, from that of the zeroth power up.
+    #[inline(always)]
+    fn polynomial<const COUNT: usize>(self, coefficients: &[f64; COUNT]) -> Self {
+        let mut sum = Self::splat(coefficients[COUNT - 1]);
+        for index in (0..COUNT - 1).rev() {
+            sum = sum * self + Self::splat(coefficients[index]);
+        }
+        sum
+    }
     /// Cube root of a number of 0 or above, to some units in the last place. Square roots give x^(85/256), from which
     /// four of Halley's steps, y ← y (y³ + 2x)/(2y³ + x), go to x^(1/3) whatever the size of x.
     #[inline(always)]
@@ -133,6 +148,11 @@ impl<N: Number> Vector<N> {
     #[inline(always)]
     pub fn new(x: N, y: N, z: N) -> Self {
         Self { x, y, z }
+    }
+    /// [`Number::scaled`]
+    #[inline(always)]
+    pub fn scaled(self, factor: N) -> Self {
+        Self::new(self.x.scaled(factor), self.y.scaled(factor), self.z.scaled(factor))
     }
     /// The zero vector.
     #[inline(always)]

@@ -35,7 +35,7 @@ pub fn arctangent_ratio<N: Number>(square: N) -> N {
 pub fn arctangent_series<N: Number>(square: N) -> [N; 2] {
     let one = N::splat(1.0);
     let far = square.greater(N::splat(NEAR));
-    let mut sum = series(square);
+    let mut sum = square.polynomial(&SERIES);
     let mut ratio = one + square * sum;
     // Seldom: a bond bent by more than 28 degrees. Lanes that are near keep their values whether or not it is taken.
     if N::any(far) {
@@ -45,20 +45,10 @@ pub fn arctangent_series<N: Number>(square: N) -> [N; 2] {
             reduced = reduced / (below * below);
             shrunk = shrunk * (N::splat(2.0) / below);
         }
-        ratio = N::select(far, (one + reduced * series(reduced)) * shrunk, ratio);
+        ratio = N::select(far, (one + reduced * reduced.polynomial(&SERIES)) * shrunk, ratio);
         sum = N::select(far, (ratio - one) / square, sum);
     }
     [ratio, sum]
-}
-
-/// The polynomial of [`arctangent_series`].
-#[inline(always)]
-fn series<N: Number>(square: N) -> N {
-    let mut sum = N::splat(SERIES[8]);
-    for index in (0..8).rev() {
-        sum = sum * square + N::splat(SERIES[index]);
-    }
-    sum
 }
 
 /// tan(√x)/√x from x: the Padé fraction of [`super::Quaternion::turned`].
@@ -81,7 +71,7 @@ pub fn is_flat<N: Number>(x: N, y: N) -> N::Mask {
 #[inline(always)]
 pub fn twice_angle<N: Number>(x: N, y: N, flat: N::Mask, tangent: N) -> N {
     let zero = N::zero();
-    let near = N::splat(2.0) * tangent * (N::splat(1.0) + tangent * tangent * series(tangent * tangent));
+    let near = N::splat(2.0) * tangent * (N::splat(1.0) + tangent * tangent * (tangent * tangent).polynomial(&SERIES));
     let steep = N::select(flat, zero, N::splat(1.0)).greater(zero);
     // Seldom: a bond twisted by more than 28 degrees. By the half angle, which needs a root.
     if !N::any(steep) {

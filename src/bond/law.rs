@@ -84,7 +84,7 @@ pub struct Carried {
 }
 
 /// What a formulation makes of the law at a step, the bodies and the rows of a bond.
-pub(super) type Respond<N> = fn(&Coefficients<N>, &Pair<N>, &Rows<N>) -> (Motion<N>, Elastic<N>);
+type Respond = fn(&Coefficients, &Pair, &Rows) -> (Motion, Elastic<f64>);
 
 /// A formulation for one bond at a time, its type forgotten.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +98,7 @@ pub struct OneBond {
     /// [`Formulation::create`]
     pub create: fn(&Coefficients, &Pair) -> Rows,
     /// [`Formulation::respond`]
-    pub respond: Respond<f64>,
+    pub respond: Respond,
 }
 
 /// Takes the functions of a formulation.

@@ -13,8 +13,8 @@ use crate::number::{Number, Row, Vector};
 /// Coefficients that a sub-model has at most.
 const MOST: usize = 16;
 
-/// Normal force of coefficients, contact, history and step, and what is to be remembered.
-pub(super) type NormalFunction<N> = fn(&[f64], &Contact<N>, [N; 4], N) -> (NormalForce<N>, [N; 4]);
+/// Normal force of coefficients, contact, history and step; the history goes on, where there is one.
+pub(super) type NormalFunction<N> = fn(&[f64], &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
 
 /// Friction of coefficients, contact, normal force, history and step.
 pub(super) type TangentialFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
@@ -54,12 +54,17 @@ pub(super) fn numbers<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
 pub(super) fn normal<A: NormalForm, N: Number>(
     row: &[f64],
     contact: &Contact<N>,
-    history: [N; 4],
+    history: &mut [N; 4],
     step: N,
-) -> (NormalForce<N>, [N; 4]) {
+) -> NormalForce<N> {
     let roots = A::roots(contact.overlap, contact.radius, contact.mass);
     let switches = numbers::<Switches, N>(&row[A::COUNT..]);
-    A::force(numbers::<A, N>(row), switches, contact, roots, history, step)
+    let before = if A::HISTORY.is_some() { *history } else { [N::zero(); 4] };
+    let (force, after) = A::force(numbers::<A, N>(row), switches, contact, roots, before, step);
+    if A::HISTORY.is_some() {
+        *history = after;
+    }
+    force
 }
 
 /// [`Tangential::force`] of one contact.

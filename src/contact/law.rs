@@ -289,25 +289,40 @@ impl Law {
     pub fn react<N: OneContact>(
         &self,
         row: &[f64],
-        contact: &Contact<N>,
+        contact: Contact<N>,
         history: &mut [[N; 4]],
         step: N,
     ) -> Reaction<N> {
-        let mut contact = if self.undeformed_arms() { contact.with_undeformed_arms() } else { *contact };
-        let carry = self.carry(&mut contact, history, step);
-        let (contact, acting) = (&contact, N::acting(self));
-        let place = self.history_places.normal;
-        let before = place.map_or([N::zero(); 4], |place| history[place]);
-        let (mut normal, remembered) = (acting.normal)(row, contact, before, step);
-        if let Some(place) = place {
-            history[place] = remembered;
-        }
-        if self.cohesion.active {
-            (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
-        }
-        let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, (step, carry));
-        let rolling = self.roll(row, contact, &normal, history, (step, carry));
+        let (contact, carry, normal) = self.press(row, contact, history, step);
+        let (force, couple, sliding) = self.friction(row, &contact, &normal, normal.force, history, (step, carry));
+        let rolling = self.roll(row, &contact, &normal, history, (step, carry));
         Reaction { force, couple, rolling, sliding }
+    }
+
+    /// The normal force of one contact, with the velocities that dashpots see, and how it was carried: all of [`Law::react`] where
+    /// bodies feel no torque.
+    #[inline(always)]
+    pub(crate) fn press<N: OneContact>(
+        &self,
+        row: &[f64],
+        mut contact: Contact<N>,
+        history: &mut [[N; 4]],
+        step: N,
+    ) -> (Contact<N>, Option<Carry<N>>, NormalForce<N>) {
+        if self.undeformed_arms() {
+            contact = contact.with_undeformed_arms();
+        }
+        let carry = self.carry(&mut contact, history, step);
+        let (acting, mut none) = (N::acting(self), [N::zero(); 4]);
+        let remembered = match self.history_places.normal {
+            Some(place) => &mut history[place],
+            None => &mut none,
+        };
+        let mut normal = (acting.normal)(row, &contact, remembered, step);
+        if self.cohesion.active {
+            (acting.cohesion)(&row[self.places.cohesion..], &contact, &mut normal);
+        }
+        (contact, carry, normal)
     }
 
     /// The same of a contact that a bond suppresses, or has suppressed. The elastic force is taken from the overlap beyond the

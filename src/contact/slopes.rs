@@ -30,15 +30,14 @@ struct Given<'a, M, N: Lane> {
     model: PhantomData<M>,
 }
 
-/// A normal model at work.
-struct Press<'a, M, N: Lane>(Given<'a, M, N>);
+/// A normal model at work: coefficients, contact, what it remembers, time step.
+struct Press<'a, M, N: Lane>(&'a [f64], &'a Contact<Dual<N>>, &'a mut [Dual<N>; 4], Dual<N>, PhantomData<M>);
 
 impl<M: NormalForm, N: Lane> Work for Press<'_, M, N> {
-    type Output = (NormalForce<Dual<N>>, [Dual<N>; 4]);
+    type Output = NormalForce<Dual<N>>;
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Given { row, contact, history, step, .. } = self.0;
-        normal::<M, _>(row, contact, history, step)
+        normal::<M, _>(self.0, self.1, self.2, self.3)
     }
 }
 
@@ -84,9 +83,7 @@ struct Sloped<N>(PhantomData<N>);
 impl<N: Lane> TakeNormal for Sloped<N> {
     type Output = NormalFunction<Dual<N>>;
     fn take<M: Normal>(self, _keys: &M::Keys) -> Self::Output {
-        |row, contact, history, step| {
-            N::within(Press::<M::Form, N>(Given { row, contact, history, step, model: PhantomData }))
-        }
+        |row, contact, history, step| N::within(Press::<M::Form, N>(row, contact, history, step, PhantomData))
     }
 }
 

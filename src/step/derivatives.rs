@@ -63,7 +63,7 @@ impl Simulation {
         let length = self.return_to_last();
         let mut found = Err(NoDerivative::NoStep);
         if let Some(length) = length {
-            let mut tangent = Tangent::of(&self.state, self.width);
+            let mut tangent = Tangent::of(&self.state, self.width, self.turning);
             for (direction, &(boundary, axis)) in inputs.iter().enumerate().take(DIRECTIONS) {
                 let place = boundary.index();
                 let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
@@ -101,7 +101,7 @@ impl Simulation {
     /// positions, velocities and springs go on. The state stays as it is.
     pub fn rates(&self) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
         Self::has_rates(&self.scene)?;
-        let mut tangent = Tangent::of(&self.state, self.width);
+        let mut tangent = Tangent::of(&self.state, self.width, self.turning);
         tangent.go_on(&self.state);
         for pass in &self.passes {
             pass.add_slopes(&self.state, &mut tangent, passing());

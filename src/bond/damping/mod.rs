@@ -37,6 +37,7 @@ macro_rules! damping_models {
             }
 
             /// Goes from the row of the list to the type of what it computes.
+            #[inline(always)]
             pub fn visit<V: TakeDamping>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$row(keys) => visitor.take(<$file::$model as Model>::of(keys)),)+ }
             }
@@ -128,8 +129,8 @@ impl<N: Number> Damped<N> {
         let twist = self.torsion + self.bending;
         DampingLoad {
             force: self.normal + self.shear,
-            torque_i: couple * pair.share_i + twist,
-            torque_j: couple * pair.share_j - twist,
+            torque_i: couple.scaled(pair.share_i) + twist,
+            torque_j: couple.scaled(pair.share_j) - twist,
         }
     }
 }

@@ -46,7 +46,7 @@ impl Model for Viscous {
 fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
     let moves = inverse_mass.greater(N::zero());
     let square = stiffness / N::select(moves, inverse_mass, N::splat(1.0));
-    N::splat(2.0) * ratio * N::select(moves, square, N::zero()).sqrt()
+    N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0) * ratio)
 }
 
 /// 1/M of the parts that a bond of this length has between two bodies.
@@ -54,9 +54,9 @@ fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
 fn inverse_masses<N: Number>(pair: &Pair<N>, distance: N) -> Parts<N> {
     let one = N::splat(1.0);
     let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
-    let (arm_i, arm_j) = (pair.share_i * distance, pair.share_j * distance);
+    let (arm_i, arm_j) = (distance.scaled(pair.share_i), distance.scaled(pair.share_j));
     let along = one / pair.mass_i + one / pair.mass_j;
-    let across = along + arm_i * arm_i * lighter_i + arm_j * arm_j * lighter_j;
+    let across = along + (arm_i * arm_i).scaled(lighter_i) + (arm_j * arm_j).scaled(lighter_j);
     let turning = lighter_i + lighter_j;
     [along, across, turning, turning]
 }
@@ -77,11 +77,11 @@ impl Damping for Viscous {
         let [normal, shear, torsion, bending] = self.ratios.map(N::splat);
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
-            normal: motion.axis * -(dashpot(normal, axial, along) * motion.normal_velocity),
+            normal: motion.axis * -motion.normal_velocity.scaled(dashpot(normal, axial, along)),
             shear: motion.slip * -dashpot(shear, law.elastic.shear * section.area, across),
             torsion: motion.axis
-                * -(dashpot(torsion, law.elastic.torsion * section.polar, turning) * motion.twist_rate),
-            bending: motion.bending_rate * -dashpot(bending, law.elastic.bending * section.axial, turning),
+                * -motion.twist_rate.scaled(dashpot(torsion, law.elastic.torsion * section.polar, turning)),
+            bending: motion.bending_rate.scaled(-dashpot(bending, law.elastic.bending * section.axial, turning)),
         }
     }
 

@@ -3,9 +3,9 @@
 use super::plane::Plane;
 use super::{AtSurface, Touched};
 use crate::batches::ContactGeometry;
-use crate::contact::Reaction;
+use crate::contact::{MOST_HISTORY, Reaction};
 use crate::dual::{Dual, Slopes};
-use crate::interactions::slopes::{beyond, needed, part, react};
+use crate::interactions::slopes::{Touching, beyond, needed, part, react};
 use crate::lanes::{Kernel, Lane, run};
 use crate::number::{Number, Vector};
 use crate::state::State;
@@ -26,7 +26,12 @@ impl AtSurface {
         match &self.touched {
             Touched::Plane(plane) => {
                 let boundary = &state.boundaries[self.list(state).boundary as usize];
-                run(tangent.width, AddSlopes { pass: (self, plane.at(boundary)), state, tangent, step });
+                let plane = plane.at(boundary);
+                if self.law.needs.torque {
+                    run(tangent.width, AddSlopes { pass: Touching::<_, true>((self, plane)), state, tangent, step });
+                } else {
+                    run(tangent.width, AddSlopes { pass: Touching::<_, false>((self, plane)), state, tangent, step });
+                }
             }
             // Scenes with others are refused before.
             Touched::Features(_) | Touched::Nodes(_) => {}
@@ -35,12 +40,12 @@ impl AtSurface {
 }
 
 /// A plane where it stands.
-impl Kernel for AddSlopes<'_, (&AtSurface, Plane)> {
+impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<(&AtSurface, Plane), TURNING>> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { pass: (surface, plane), state, tangent, step } = self;
+        let Self { pass: Touching((surface, plane)), state, tangent, step } = self;
         let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
-        let step = Dual::<N>::new(step.value, &step.slopes);
+        let (step, mut rows) = (Dual::<N>::new(step.value, &step.slopes), [[Dual::zero(); 4]; MOST_HISTORY]);
         let Tangent { particles: moved, walls, boundaries, .. } = tangent;
         let (slopes, boundary) = (&mut walls[surface.index], &mut boundaries[list.boundary as usize]);
         let pivot = surface.reference + state.boundaries[list.boundary as usize].displacement.into();
@@ -56,19 +61,23 @@ impl Kernel for AddSlopes<'_, (&AtSurface, Plane)> {
                 part(slopes, entry);
                 continue;
             }
-            let [position, velocity, spin] = moved.body::<N>(particles, slot);
-            let spin = if surface.law.needs.torque { spin } else { [Dual::zero(); 4] };
+            let [position, velocity] = moved.body::<N>(particles, slot);
+            let spin = if TURNING { moved.spin(particles, slot) } else { [Dual::zero(); 4] };
             let (position, velocity) = (seen(position, &boundary.displacement), seen(velocity, &boundary.velocity));
             let at = [plane.distance(position), position[3]];
             let geometry = plane.meet(at, [velocity, spin], Dual::splat(constant));
             let body = [particles.position[slot], particles.velocity[slot]];
             let at = [plane.distance(body[0]), body[0][3]];
             let values = plane.meet(at, [body[1], [0.0; 4]], constant).contact;
-            let ContactGeometry { contact, first_arm, .. } = needed(geometry, &values, surface.law.needs);
+            let ContactGeometry { contact, first_arm, .. } = needed::<N, TURNING>(geometry, &values, surface.law.needs);
             let row = surface.row(state, slot as u32);
             let Reaction { force, couple, rolling, .. } =
-                react(law, row, &contact, (&list.history, slopes, entry), step);
-            moved.load(slot, force, -(couple * first_arm) - rolling);
+                react::<N, TURNING>(law, row, contact, (&list.history, slopes, entry), (&mut rows, step));
+            if TURNING {
+                moved.load(slot, force, -(couple * first_arm) - rolling);
+            } else {
+                moved.press(slot, force);
+            }
             let away = Vector::from(particles.position[slot]) - pivot;
             let [x, y, z, _] = position;
             let away = Vector {

@@ -134,7 +134,7 @@ impl Stand<'_> {
             relative_spin: Vector::zero(),
             ..self.meet_moving(foot, None).contact
         };
-        law.react(self.row, &resting, &mut [[0.0; 4]; MOST_HISTORY], 0.0).force.dot(resting.normal)
+        law.react(self.row, resting, &mut [[0.0; 4]; MOST_HISTORY], 0.0).force.dot(resting.normal)
     }
 
     /// The share of friction that a foot has: none at a saddle, less than all at its faces.
