@@ -6,17 +6,12 @@ on the machine changes least.
 
 import argparse
 import csv
-import json
-import subprocess
-import sys
-import time
 from importlib import import_module
 from pathlib import Path
 
 from cograin import (
     Aitken,
     Coupling,
-    CouplingStopped,
     FixedPoint,
     GaussSeidel,
     Interface,
@@ -32,7 +27,7 @@ from cograin import (
     Verlet,
 )
 from beam_problem import LoadedBeam
-from peers import NAMES
+from peers import NAMES, REFUSALS, apart, hand_over, taken_by
 from problems import Drop, FiniteRod, Rod, TwoMasses
 
 HERE = Path(__file__).resolve().parent
@@ -68,16 +63,6 @@ def arguments():
     return parser.parse_args()
 
 
-def interface_name(problem):
-    """The displacement that is coupled."""
-    return "right.displacement.x" if problem.scene == "oscillator.toml" else "floor.displacement.z"
-
-
-def taken_by(side):
-    """Processor time so far, of this process and of the one that a side may have beside it [s]."""
-    return time.process_time() + getattr(side, "processor", 0.0)
-
-
 def run(problem, side, sphere, exchange, step):
     """A course of a problem: its measure, and what it took; `sphere` says the watched values of the particles."""
     partner = problem.partner()
@@ -88,7 +73,7 @@ def run(problem, side, sphere, exchange, step):
     try:
         coupling = Coupling(side, partner, exchange, step, control=control, watch=watch)
         coupling.run(round(problem.end / step) * step, progress=False)
-    except (CouplingStopped, ValueError, ChildProcessError) as refusal:
+    except REFUSALS as refusal:
         return None, 0.0, str(refusal)
     taken = taken_by(side) - began
     record = coupling.record
@@ -102,23 +87,15 @@ def run(problem, side, sphere, exchange, step):
 def ours(problem, unit, name, step):
     """One course by the unit."""
     unit.reset()
-    side = Interface(unit, interface_name(problem))
+    side = Interface(unit, getattr(problem, "interface", "floor.displacement.z"))
     return run(problem, side, lambda: unit.get(problem.watch), EXCHANGES[name](), step)
 
 
 def theirs(problem, open_side, name, step):
     """One course by another program."""
-    height = getattr(problem, "height", 0.0)
-    velocity = -getattr(problem, "speed", 0.0)
-    time_step = 1e-5 if problem.name == "drop" else 1e-6
-    side = open_side(problem, time_step, height, velocity, problem.name == "drop")
-
-    def sphere():
-        place, speed = side.sphere()
-        return place - height, speed
-
+    side = open_side(problem)
     try:
-        return run(problem, side, sphere, EXCHANGES[name](), step)
+        return run(problem, side, side.sphere, EXCHANGES[name](), step)
     finally:
         side.close()
 
@@ -146,10 +123,7 @@ def of_peer(options):
     module = import_module(f"peers.{options.peer}_side")
     own = import_module(f"peers.{module.OWN}") if hasattr(module, "OWN") else None
     for problem in chosen(options):
-        # A dashpot has no mass for velocity Verlet, and nothing bonded is compared here.
-        names = {"drop": ("Gauss–Seidel", "Verlet"), "rod": ("Gauss–Seidel",)}.get(problem.name, ())
-        repeated = ("secant",) if names and module.Side.can_restore else ()
-        for name in (*names, *repeated):
+        for name in exchanges_of(module.Side, problem):
             for step in problem.steps:
                 course = lambda n=name, s=step, p=problem: theirs(p, module.Side, n, s)  # noqa: E731
                 yield row(problem, options.peer, name, step, course, options.repeats)
@@ -159,16 +133,20 @@ def of_peer(options):
                 yield row(problem, options.peer, name, step, course, options.repeats)
 
 
+def exchanges_of(side, problem):
+    """Names of the exchanges that another program can be had in."""
+    if not hasattr(problem, "world") or not isinstance(problem.world(), side.worlds):
+        return ()
+    # A dashpot has no mass for velocity Verlet.
+    explicit = ("Gauss–Seidel",) if problem.name == "rod" else ("Gauss–Seidel", "Verlet")
+    return (*explicit, "secant") if side.can_restore else explicit
+
+
 def of_peers(options):
-    """Rows of all other programs, each from a process of its own."""
+    """Rows of all other programs."""
+    words = ["--repeats", options.repeats, "--problems", *[one.name for one in chosen(options)]]
     for name in NAMES:
-        command = [sys.executable, __file__, "--peer", name, "--repeats", str(options.repeats)]
-        command += ["--problems", *[one.name for one in chosen(options)]]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        found = [json.loads(line[2:]) for line in done.stdout.splitlines() if line.startswith("##")]
-        if done.returncode:
-            print(f"\n{name} is left out: {(done.stderr.strip().splitlines() or ['it gives no reason'])[-1]}")
-        yield from found
+        yield from apart(__file__, name, *words)
 
 
 def opened(problem, command, folder):
@@ -208,8 +186,7 @@ def told(one):
 def main():
     options = arguments()
     if options.peer:
-        for one in of_peer(options):
-            print("##" + json.dumps(one), flush=True)
+        hand_over(of_peer(options))
         return
     options.output.mkdir(parents=True, exist_ok=True)
     table = []

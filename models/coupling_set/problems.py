@@ -1,15 +1,18 @@
 """Coupled problems with closed forms: what they are made of, what is exact, and what a course is off by."""
 
+import gzip
 import math
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from cograin import Oscillator, Structure
 from scipy.optimize import brentq
+from worlds import DENSITY, GRAVITY, OverFloor, Row
 
-GRAVITY = 9.81  # [m/s²], as in the scenes
+HERE = Path(__file__).resolve().parent
 RADIUS = 0.05  # of the sphere that falls [m]
-MASS = 4.0 / 3.0 * math.pi * RADIUS**3 * 2500.0  # of it [kg]
+MASS = 4.0 / 3.0 * math.pi * RADIUS**3 * DENSITY  # of it [kg]
 
 
 @dataclass
@@ -35,6 +38,10 @@ class Drop:
 
     def partner(self):
         return Oscillator(self.plate, self.spring)
+
+    def world(self):
+        """For other programs."""
+        return OverFloor([(0.0, 0.0, self.height + RADIUS, RADIUS)], 1e-5, self.contact)
 
     def exact(self, times):
         """Height and velocity of the sphere's lowest point, displacement and velocity of the plate; times of events."""
@@ -92,8 +99,9 @@ class Drop:
                 return brentq(gap, low, count * step, xtol=1e-16)
         return math.inf
 
-    def sphere_energy(self, height, velocity, plate):
+    def particle_energy(self, fallen, velocity, plate):
         """Of the sphere and its contact [J]."""
+        height = self.height + fallen
         overlap = np.maximum(plate - height, 0.0)
         return 0.5 * MASS * velocity**2 + MASS * GRAVITY * height + 0.5 * self.contact * overlap**2
 
@@ -107,7 +115,7 @@ class Drop:
         for ours, theirs in ((height, exact[:, 0]), (plate, exact[:, 2])):
             error = max(error, np.abs(ours - theirs)[first].max() / np.abs(theirs).max())
         start = MASS * GRAVITY * self.height
-        energy = self.sphere_energy(height, velocity, plate)
+        energy = self.particle_energy(record[names[1]], velocity, plate)
         total = energy + 0.5 * self.plate * speeds**2 + 0.5 * self.spring * plate**2
         return Measure(error, np.abs(total - start).max() / start, share(record))
 
@@ -136,7 +144,12 @@ class Rod:
     def partner(self):
         return Oscillator(0.0, 0.0, self.impedance)
 
-    def sphere_energy(self, height, velocity, end):
+    def world(self):
+        """For other programs."""
+        sphere = (0.0, 0.0, RADIUS, RADIUS)
+        return OverFloor([sphere], 1e-6, self.contact, gravity=0.0, velocity=-self.speed)
+
+    def particle_energy(self, height, velocity, end):
         """Of the sphere and its contact [J]."""
         return 0.5 * MASS * velocity**2 + 0.5 * self.contact * np.maximum(end - height, 0.0) ** 2
 
@@ -173,11 +186,19 @@ class TwoMasses:
     name, scene, end = "two masses", "oscillator.toml", 1.0
     steps = (5e-3, 1e-2, 2e-2, 4e-2)
     outer, middle, speed = 4.0 * math.pi**2, 16.0 * math.pi**2, 0.01
-    watch = ("mass.displacement.x", "mass.velocity.x")
+    interface, watch = "right.displacement.x", ("mass.displacement.x", "mass.velocity.x")
     exact_error = "largest error of both displacements"
 
     def partner(self):
         return Oscillator(1.0, self.outer)
+
+    def world(self):
+        """For other programs."""
+        return Row(5e-4, self.outer, self.middle, self.speed)
+
+    def particle_energy(self, place, velocity, right):
+        """Of the left mass and the springs on both of its sides [J]."""
+        return 0.5 * (velocity**2 + self.outer * place**2 + self.middle * (right - place) ** 2)
 
     def measure(self, record, names, speeds):
         """What the course is off by."""
@@ -196,7 +217,14 @@ class Bed:
     name, scene, end = "bed", "bed.toml", 0.3
     spring = 1.0e4
     masses, steps = (0.1, 0.01, 0.001, 0.0), (5e-5, 2e-4, 1e-3)
-    weight = 1000 * 4.0 / 3.0 * math.pi * 0.005**3 * 2500.0 * GRAVITY
+    weight = 1000 * 4.0 / 3.0 * math.pi * 0.005**3 * DENSITY * GRAVITY
+    watch = ()
+
+    def world(self):
+        """For other programs."""
+        with gzip.open(HERE / "bed.csv.gz", "rt") as text:
+            spheres = np.loadtxt(text, delimiter=",", skiprows=1).tolist()
+        return OverFloor(spheres, 5e-5, 1.0e4, damping=1685.0, width=0.105)
 
     @property
     def sag(self):

@@ -5,7 +5,7 @@ Writes bed.csv, border.csv and stability.png.
 
 import argparse
 import csv
-import time
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +26,7 @@ from cograin import (
     Unit,
     Verlet,
 )
+from peers import NAMES, REFUSALS, apart, hand_over, taken_by
 from problems import Bed, TwoMasses
 from theory import FixedPointGain, Linear
 
@@ -40,19 +41,11 @@ BED = {
     "Newton, differences": lambda: Newton("differences"),
 }
 BORDER = {"Gauss–Seidel": GaussSeidel, "Jacobi": Jacobi, "Verlet": Verlet, "fixed point": FixedPoint, "secant": Secant}
-BED_COLUMNS = [
-    "exchange",
-    "mass",
-    "step",
-    "reached",
-    "largest",
-    "mean",
-    "evaluations",
-    "most",
-    "unconverged",
-    "residual",
-]
-BED_COLUMNS += ["refused", "interface", "processor", "said"]
+EXPLICIT = ("Gauss–Seidel", "Verlet")
+PEERS = (*EXPLICIT, "secant")  # of other programs, the last where it can be had
+LONG = (2e-4, 1e-3)  # steps of the secant there: to save and to restore takes tens of milliseconds [s]
+BED_COLUMNS = ["program", "exchange", "mass", "step", "reached", "largest", "mean", "evaluations", "most"]
+BED_COLUMNS += ["unconverged", "residual", "refused", "interface", "processor", "said"]
 RATIOS = np.logspace(-2, 3, 11)  # mass of the particles over that of the partner
 DAMPING = 0.05  # damping ratio of the partner on its own spring
 STEPS = 400  # that a course has to bear without growing
@@ -64,28 +57,27 @@ def arguments():
     parser.add_argument("--program", default="cograin", help="the cograin command")
     parser.add_argument("--output", type=Path, default=Path("out/coupling_set"), help="folder of all results")
     parser.add_argument("--exchanges", nargs="*", choices=BED, help="of the bed; all of them if not given")
+    parser.add_argument("--no-peers", action="store_true", help="leave the other programs out")
+    parser.add_argument("--peer", choices=NAMES, help=argparse.SUPPRESS)
     parser.add_argument("--no-bed", action="store_true", help="leave the bed out")
     parser.add_argument("--no-border", action="store_true", help="leave the two masses out")
     return parser.parse_args()
 
 
-def cell(unit, problem, make, mass, step):
+def cell(side, problem, make, mass, step):
     """One run of the bed, as figures of BED_COLUMNS."""
-    unit.reset()
     control = StepControl(unconverged="accept", halvings=0)
-    began, said = time.process_time(), ""
+    began, said = taken_by(side), ""
     coupling = None
     try:
-        coupling = Coupling(
-            Interface(unit, "floor.displacement.z"), Oscillator(mass, problem.spring), make(), step, control=control
-        )
+        coupling = Coupling(side, Oscillator(mass, problem.spring), make(), step, control=control)
         for row in coupling.steps(round(problem.end / step) * step):
             if not abs(row.displacement[0]) < 1000 * problem.sag:
                 said = "it grows without bound"
                 break
-    except (CouplingStopped, ValueError) as refusal:
+    except REFUSALS as refusal:
         said = str(refusal)
-    taken = time.process_time() - began
+    taken = taken_by(side) - began
     if coupling is None or not len(coupling.record):
         return [*[""] * 10, said]
     record = coupling.record
@@ -105,22 +97,35 @@ def bed(options):
         for name in options.exchanges or BED:
             for mass in problem.masses:
                 for step in problem.steps:
-                    found = [name, mass, step, *cell(unit, problem, BED[name], mass, step)]
-                    yield found
-                    print(told(found), flush=True)
+                    unit.reset()
+                    side = Interface(unit, "floor.displacement.z")
+                    yield ["cograin", name, mass, step, *cell(side, problem, BED[name], mass, step)]
+    for name in () if options.no_peers else NAMES:
+        yield from apart(__file__, name, *(["--exchanges", *options.exchanges] if options.exchanges else []))
+
+
+def bed_of_peer(options):
+    """Rows of BED_COLUMNS by another program."""
+    problem, module = Bed(), import_module(f"peers.{options.peer}_side")
+    for name in PEERS if module.Side.can_restore else EXPLICIT:
+        for mass in problem.masses if name in (options.exchanges or BED) else ():
+            for step in problem.steps if name in EXPLICIT else LONG:
+                side = module.Side(problem)
+                yield [options.peer, name, mass, step, *cell(side, problem, BED[name], mass, step)]
+                side.close()
 
 
 def told(found):
     """A cell in words."""
-    name, mass, step, reached, largest, mean, evaluations, most, unconverged, residual, _, share, taken, said = found
-    head = f"{name:20} M = {mass:5g} kg, H = {step:7.0e} s"
-    if reached == "":
-        return f"{head}: {said[:90]}"
-    course = (
-        f"to {reached:.3f} s, largest {largest:8.3g}, mean {mean if mean == '' else f'{mean:.4f}'} of the static sag"
-    )
-    counts = f"{evaluations:.2f} evaluations, at most {most:.0f}, {unconverged} not converged (up to {residual:.0e} m)"
-    return f"{head}: {course}; {counts}; interface {share:+.0e}; {taken:.1f} s {said[:60]}"
+    one = dict(zip(BED_COLUMNS, found, strict=True))
+    head = f"{one['program']:9} {one['exchange']:20} M = {one['mass']:5g} kg, H = {one['step']:7.0e} s"
+    if one["reached"] == "":
+        return f"{head}: {one['said'][:90]}"
+    mean = one["mean"] if one["mean"] == "" else f"{one['mean']:.4f}"
+    course = f"to {one['reached']:.3f} s, largest {one['largest']:8.3g}, mean {mean} of the static sag"
+    left = f"{one['unconverged']} not converged (up to {one['residual']:.0e} m)"
+    counts = f"{one['evaluations']:.2f} evaluations, at most {one['most']:.0f}, {left}"
+    return f"{head}: {course}; {counts}; interface {one['interface']:+.0e}; {one['processor']:.1f} s {one['said'][:60]}"
 
 
 def grows(unit, make, mass, step):
@@ -180,10 +185,15 @@ def border(options):
 
 def main():
     options = arguments()
+    if options.peer:
+        hand_over(bed_of_peer(options))
+        return
     options.output.mkdir(parents=True, exist_ok=True)
     cells, lines = [], []
     if not options.no_bed:
-        cells = list(bed(options))
+        for found in bed(options):
+            cells.append(found)
+            print(told(found), flush=True)
         with (options.output / "bed.csv").open("w", newline="") as text:
             csv.writer(text).writerows([BED_COLUMNS, *cells])
     if not options.no_border:

@@ -1,34 +1,82 @@
 """Other particle programs as sides of the same exchanges, each where it is installed.
 
-They have no unit, and most have no saved state, so only explicit exchanges can be had of them; a sphere falls on a
-driven floor. Each runs in a process of its own: their libraries do not bear each other. Those that have an interpreter
-of their own are spoken to line by line (`process.py`, `serving.py`).
+They have no unit, and most have no saved state, so only explicit exchanges can be had of them. Each runs in a process
+of its own: their libraries do not bear each other. Those that have an interpreter of their own are spoken to line by
+line (`process.py`, `serving.py`).
 """
 
+import json
+import subprocess
+import sys
+import time
+
+from cograin import CouplingStopped
+from worlds import OverFloor, Row
+
+REFUSALS = (CouplingStopped, ValueError, ChildProcessError)  # which end a course with their words
+FAR = 1.0  # no interface of the set goes as far [m]
 NAMES = ("lammps", "liggghts", "yade", "kratos")
 
 
-class FallingSphere:
-    """What the sides have in common: one sphere over a floor that goes at constant velocity through a step.
+class ParticleSide:
+    """What the sides have in common: their interface goes at constant velocity through a step.
 
-    A side keeps `time_step` \\[s\\] and says height and velocity of the sphere's lowest point.
+    A side says how far the sphere that is watched has come, and its velocity.
     """
 
-    names = ("floor.displacement.z",)
     can_restore = has_derivatives = False
     keeps_itself = True
+    worlds = (OverFloor, Row)  # that it can be driven in
 
-    def __init__(self, problem, time_step):
-        self.problem, self.time_step = problem, time_step
+    def __init__(self, problem):
+        self.problem, self.world = problem, problem.world()
+        self.names = (self.world.interface,)
         self.steps, self.displacement = 0, [0.0]
+        #: Whether its energy says what work was done on it.
+        self.keeps_account = hasattr(problem, "particle_energy")
 
     @property
     def time(self):
         """Where it stands [s]."""
-        return self.steps * self.time_step
+        return self.steps * self.world.time_step
 
     @property
     def work(self):
-        """Work of the floor on the sphere: what the sphere and its contact have, as nothing is lost [J]."""
-        height, velocity = self.sphere()
-        return float(self.problem.sphere_energy(height, velocity, float(self.displacement[0])))
+        """Work of the interface on the particles, which is what they have where nothing is lost [J]."""
+        if not self.keeps_account:
+            return None
+        return float(self.problem.particle_energy(*self.sphere(), float(self.displacement[0])))
+
+    def bounded(self, displacement, step):
+        """The displacement as a number; refused where the interface has left the problem behind."""
+        place = float(displacement[0])
+        if not abs(place) < FAR:
+            raise ValueError(f"the interface is to be at {place:.3g} m at {step.end:g} s")
+        return place
+
+    def count(self, step):
+        """How many time steps of its own make a step."""
+        return round(step.length / self.world.time_step)
+
+
+def taken_by(side):
+    """Processor time so far, of this process and of the one that a side may have beside it [s]."""
+    return time.process_time() + getattr(side, "processor", 0.0)
+
+
+def apart(script, name, *words):
+    """Rows that a script prints of one other program, from a process of its own; it is told its name by ``--peer``."""
+    command = [sys.executable, script, "--peer", name, *map(str, words)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+        for line in child.stdout:
+            if line.startswith("##"):
+                yield json.loads(line[2:])
+        said = child.stderr.read().strip().splitlines()
+    if child.returncode:
+        print(f"\n{name} is left out: {(said or ['it gives no reason'])[-1]}")
+
+
+def hand_over(rows):
+    """Prints rows for `apart`."""
+    for one in rows:
+        print("##" + json.dumps(one, default=float), flush=True)

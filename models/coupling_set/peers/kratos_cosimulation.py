@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from problems import GRAVITY, MASS, RADIUS
+from problems import GRAVITY, MASS
 
 from peers.kratos_side import PYTHON
 from peers.process import HERE
@@ -36,7 +36,7 @@ class Record(dict):
 
     def __init__(self, problem, step, rows):
         height, velocity, place, speed, evaluations = np.array(rows)[:, :5].T
-        sphere = problem.sphere_energy(height, velocity, place)
+        sphere = problem.particle_energy(height - problem.height, velocity, place)
         plate = 0.5 * problem.plate * speed**2 + 0.5 * problem.spring * place**2
         start = MASS * GRAVITY * problem.height
         whole = np.concatenate([[start], sphere + plate])
@@ -49,9 +49,8 @@ class Record(dict):
 def course(problem, name, step):
     """One course: its measure, evaluations in all and in contact, steps left; processor time; or why there is none."""
     strong, accelerator = EXCHANGES[name]
-    settings = {"radius": RADIUS, "mass": MASS, "height": problem.height, "velocity": 0.0, "gravity": GRAVITY}
-    settings |= {"stiffness": problem.contact, "plate": problem.plate, "spring": problem.spring, "end": problem.end}
-    settings |= {"time_step": step, "strong": strong, "accelerator": accelerator}
+    settings = problem.world().told() | {"time_step": step, "strong": strong, "accelerator": accelerator}
+    settings |= {"plate": problem.plate, "spring": problem.spring, "end": problem.end}
     command = [PYTHON, str(HERE / "kratos_cosimulation_program.py"), json.dumps(settings)]
     with tempfile.TemporaryDirectory(prefix="cograin-") as folder:
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=Path(folder))

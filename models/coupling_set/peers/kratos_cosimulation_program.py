@@ -139,7 +139,7 @@ class Analysis(CoSimulationAnalysis):
 
 def main():
     settings = json.loads(sys.argv[1])
-    falling.write_sphere(settings)
+    falling.write_spheres(settings)
     falling.write_materials(settings)
     write_plate(settings)
     end = settings["end"] - 0.5 * settings["time_step"]
@@ -150,7 +150,7 @@ def main():
     Path("FEM.json").write_text(json.dumps(plate))
     data = {"start_time": 0.0, "end_time": end, "echo_level": 0, "print_colors": False, "parallel_type": "OpenMP"}
     whole = {"problem_data": data, "solver_settings": coupling(settings)}
-    Analysis.radius = settings["radius"]
+    Analysis.radius = settings["spheres"][0][3]
     Analysis(Kratos.Parameters(json.dumps(whole))).Run()
 
 

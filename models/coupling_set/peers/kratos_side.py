@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+from worlds import OverFloor
+
 from peers.process import HERE, Process
 
 OWN = "kratos_cosimulation"  # its own exchanges, beside ours
@@ -24,7 +26,9 @@ if not has_it():
 
 
 class Side(Process):
-    """One sphere in Kratos, which has no state that it could restore."""
+    """Spheres in Kratos: no state that could be restored, and no springs between spheres without a law of breaking."""
 
-    def __init__(self, *problem):
-        super().__init__([PYTHON, HERE / "kratos_program.py"], *problem)
+    worlds = (OverFloor,)
+
+    def __init__(self, problem):
+        super().__init__([PYTHON, HERE / "kratos_program.py"], problem)

@@ -1,95 +1,102 @@
-"""LIGGGHTS by its C library: the floor is a mesh that moves at constant velocity; its force is the sphere's."""
+"""LIGGGHTS by its C library: the floor is a mesh that moves at constant velocity; its force is the spheres'."""
 
 import ctypes
 import tempfile
 from pathlib import Path
 
 import numpy as np
-from problems import GRAVITY, MASS, RADIUS
 
-from peers import FallingSphere
+from peers.input_side import InputSide
 
 library = ctypes.CDLL("libliggghts.so.3", mode=ctypes.RTLD_GLOBAL)
 library.lammps_extract_atom.restype = ctypes.c_void_p
 
 
-class Side(FallingSphere):
-    """One sphere in LIGGGHTS."""
+class Side(InputSide):
+    """Spheres in LIGGGHTS."""
 
-    def __init__(self, problem, time_step, height, velocity, gravity):
-        super().__init__(problem, time_step)
-        self.weight = MASS * GRAVITY if gravity else 0.0
+    space = "region space block -1 1 -1 1 -0.3 0.5 units box"
+
+    def __init__(self, problem):
         words = (ctypes.c_char_p * 5)(b"liggghts", b"-log", b"none", b"-screen", b"/dev/null")
         self.handle = ctypes.c_void_p()
         library.lammps_open_no_mpi(5, words, ctypes.byref(self.handle))
         self.folder = tempfile.TemporaryDirectory()
-        floor = Path(self.folder.name) / "floor.stl"
-        corners = "".join(f"vertex {x} {y} 0\n" for x, y in ((-0.3, -0.3), (0.9, -0.3), (-0.3, 0.9)))
-        floor.write_text(f"solid f\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid f\n")
-        setup = f"""
+        super().__init__(problem)
+
+    def _open_floor(self):
+        world = self.world
+        contact = "model hooke/stiffness tangential off"
+        self.say(f"""
             units si
             atom_style granular
             atom_modify map array
             boundary f f f
             newton off
             communicate single vel yes
-            region space block -1 1 -1 1 -0.3 0.5 units box
+            {self.space}
             create_box 1 space
             neighbor 0.002 bin
             neigh_modify delay 0 every 1 check yes
             hard_particles yes
-            fix stiffness all property/global kn peratomtypepair 1 {problem.contact}
+            fix stiffness all property/global kn peratomtypepair 1 {world.stiffness}
             fix sideways all property/global kt peratomtypepair 1 0.0
-            fix damping all property/global gamman peratomtypepair 1 0.0
+            fix damping all property/global gamman peratomtypepair 1 {world.damping}
             fix friction all property/global gammat peratomtypepair 1 0.0
             fix slip all property/global coefficientFriction peratomtypepair 1 0.0
-            pair_style gran model hooke/stiffness tangential off
+            pair_style gran {contact}
             pair_coeff * *
-            create_atoms 1 single 0 0 {height + RADIUS!r} units box
-            set atom 1 diameter {2 * RADIUS} density 2500
-            velocity all set 0 0 {velocity!r} units box
-            fix floor all mesh/surface/stress file {floor} type 1
-            fix wall all wall/gran model hooke/stiffness tangential off mesh n_meshes 1 meshes floor
+        """)
+        self._add_spheres()
+        self.say(f"""
+            fix floor all mesh/surface/stress file {self._mesh()} type 1
+            fix wall all wall/gran {contact} mesh n_meshes 1 meshes floor
+            variable none equal 0.0
+            variable speed equal 0.0
+            fix move all move/mesh mesh floor linear/variable v_none v_none v_speed
             fix motion all nve/sphere
-            timestep {time_step!r}
-            thermo 1000000
-        """
-        for line in setup.strip().splitlines():
-            self.command(line.strip())
-        if gravity:
-            self.command(f"fix weight all gravity {GRAVITY} vector 0 0 -1")
-        self.command("run 0 post no")
+        """)
+        for axis in ("x", "y") if world.width else ():
+            for place in (0.0, world.width):
+                name = f"{axis}{place:g}".replace(".", "_")
+                self.command(f"fix {name} all wall/gran {contact} primitive type 1 {axis}plane {place!r}")
+        if world.gravity:
+            self.command(f"fix weight all gravity {world.gravity} vector 0 0 -1")
+
+    def _mesh(self):
+        """A file with the floor, a triangle."""
+        path = Path(self.folder.name) / "floor.stl"
+        corners = "".join(f"vertex {x} {y} 0\n" for x, y in ((-0.3, -0.3), (0.9, -0.3), (-0.3, 0.9)))
+        path.write_text(f"solid f\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid f\n")
+        return path
+
+    def _add_spheres(self):
+        """Those of the problem, all of one size."""
+        for x, y, z, _ in self.world.spheres:
+            self.command(f"create_atoms 1 single {x!r} {y!r} {z!r} units box")
+        self.command(f"set group all diameter {2.0 * self.world.spheres[0][3]!r} density {self.world.density!r}")
+        self.command(f"velocity all set 0 0 {self.world.velocity!r} units box")
 
     def command(self, text):
         """One line of its input."""
         library.lammps_command(self.handle, text.encode())
 
-    def _vector(self, name):
-        """Three numbers of the sphere."""
+    def atoms(self, name):
+        """What it knows of its spheres, a line for each."""
         rows = ctypes.cast(
-            library.lammps_extract_atom(self.handle, name), ctypes.POINTER(ctypes.POINTER(ctypes.c_double))
+            library.lammps_extract_atom(self.handle, name.encode()), ctypes.POINTER(ctypes.POINTER(ctypes.c_double))
         )
-        return rows[0][:3]
+        count = 3 if self.row else len(self.world.spheres)
+        return np.ctypeslib.as_array(rows[0], (count, 3))
 
-    def force(self, kind):
-        """Force of the sphere on the floor [N]."""
-        return np.array([-(self._vector(b"f")[2] + self.weight)])
-
-    def advance(self, displacement, step, kind):
-        """Moves the floor there during a step."""
-        count = round(step.length / self.time_step)
-        rate = (float(displacement[0]) - float(self.displacement[0])) / step.length
-        self.command(f"fix move all move/mesh mesh floor linear 0. 0. {rate!r}")
-        # Without "pre yes" a sphere falls through the mesh.
+    def go(self, place, count, length):
+        """So many time steps."""
+        if self.row:
+            self.place_by_variables(place, count)
+        else:
+            self.command(f"variable speed equal {(place - float(self.displacement[0])) / length!r}")
+        # With "pre no" a sphere falls through the mesh, and variables that were given anew are taken for others.
         self.command(f"run {count} pre yes post no")
-        self.command("unfix move")
-        self.steps += count
-        self.displacement = displacement
-        return self.force(kind)
-
-    def sphere(self):
-        """Height and velocity of the sphere's lowest point [m, m/s]."""
-        return self._vector(b"x")[2] - RADIUS, self._vector(b"v")[2]
 
     def close(self):
         """Ends it."""

@@ -7,18 +7,17 @@ import time
 from pathlib import Path
 
 import numpy as np
-from problems import GRAVITY, MASS, RADIUS
 
-from peers import FallingSphere
+from peers import ParticleSide
 
 HERE = Path(__file__).resolve().parent
 
 
-class Process(FallingSphere):
-    """One sphere in a process that runs `serving.serve`; a saved state where it says that it has some."""
+class Process(ParticleSide):
+    """Spheres in a process that runs `serving.serve`; a saved state where it says that it has some."""
 
-    def __init__(self, command, problem, time_step, height, velocity, gravity):
-        super().__init__(problem, time_step)
+    def __init__(self, command, problem):
+        super().__init__(problem)
         self.folder = tempfile.TemporaryDirectory(prefix="cograin-")
         with (Path(self.folder.name) / "said").open("w") as said:
             self.child = subprocess.Popen(
@@ -31,12 +30,10 @@ class Process(FallingSphere):
             )
         #: Processor time of that process, less that of the words on this side: a program is not to pay for them [s].
         self.values, self.processor, self.there = [], 0.0, 0.0
-        sphere = {"radius": RADIUS, "mass": MASS, "height": height, "velocity": velocity}
-        settings = {"stiffness": problem.contact, "gravity": GRAVITY if gravity else 0.0, "time_step": time_step}
-        self._ask(**sphere, **settings)
+        self._ask(**self.world.told())
 
     def _ask(self, **words):
-        """One line to it, and its answer: forces, height and velocity, and the processor time it has had [s]."""
+        """One line to it, and its answer: forces, way and velocity, and the processor time it has had [s]."""
         begin, before = time.process_time(), self.there
         self._say(words)
         *self.values, self.there = self._hear()
@@ -59,13 +56,13 @@ class Process(FallingSphere):
         raise ChildProcessError(said[-1] if said else "it ended without a word")
 
     def force(self, kind):
-        """Force of the sphere on the floor [N]: at the end of the last step, or its mean."""
+        """Force of the spheres on the interface [N]: at the end of the last step, or its mean."""
         return np.array([self.values[1 if kind == "mean" else 0]])
 
     def advance(self, displacement, step, kind):
-        """Moves the floor there during a step."""
-        count = round(step.length / self.time_step)
-        self._ask(place=float(displacement[0]), count=count)
+        """Moves the interface there during a step."""
+        count = self.count(step)
+        self._ask(place=self.bounded(displacement, step), count=count)
         if not np.isfinite(self.values).all():
             raise ValueError(f"the sphere is at {self.values[2]} m after {step.end:g} s")
         self.steps += count
@@ -73,7 +70,7 @@ class Process(FallingSphere):
         return self.force(kind)
 
     def sphere(self):
-        """Height and velocity of the sphere's lowest point [m, m/s]."""
+        """How far the sphere that is watched has come, and its velocity [m, m/s]."""
         return tuple(self.values[2:4])
 
     def save(self):

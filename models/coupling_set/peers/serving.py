@@ -1,4 +1,4 @@
-"""What a program says of one sphere over a driven floor, line by line; it runs in that program's own interpreter."""
+"""What a program says of its spheres and what it drives, line by line; it runs in that program's own interpreter."""
 
 import json
 import sys
@@ -6,11 +6,12 @@ import time
 
 
 def serve(open_world):
-    """Answers every line of the standard input with force, mean force, height, velocity and processor time so far.
+    """Answers every line of the standard input with numbers.
 
-    That time is the program's own: words are not counted. The first line opens the world with the numbers of the
-    problem; the next ones move the floor to `place` \\[m\\] within `count` time steps, or save and restore. A world has
-    the methods `step(speed)`, `force()`, `sphere()`, and `save()` and `restore()` if it can.
+    They are force and mean force, way and velocity of the watched sphere, and the processor time so far, which is the
+    program's own: words are not counted. The first line opens the world with the numbers of the problem; the next ones
+    move the interface to `place` \\[m\\] within `count` time steps, or save and restore. A world has the methods
+    `step(speed)`, `force()`, `sphere()`, and `save()` and `restore()` if it can.
     """
     settings = json.loads(sys.stdin.readline())
     world, place, saved = open_world(settings), 0.0, 0.0

@@ -1,6 +1,7 @@
-"""One sphere in YADE; run by its own interpreter: ``yade -j1 -n -x yade_program.py FOLDER``."""
+"""Spheres in YADE; run by its own interpreter: ``yade -j1 -n -x yade_program.py FOLDER``."""
 
 import sys
+from math import pi
 
 sys.path.insert(0, sys.argv[-1])
 
@@ -9,56 +10,53 @@ from yade import O, Vector3, utils
 from yade.wrapper import (
     Bo1_Sphere_Aabb,
     Bo1_Wall_Aabb,
+    CohFrictMat,
     ForceResetter,
-    FrictMat,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom6D,
     Ig2_Wall_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
-    Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack,
-    MatchMaker,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_ViscElMat_ViscElMat_ViscElPhys,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_ViscElPhys_Basic,
     NewtonIntegrator,
+    ViscElMat,
 )
 
 
 class World:
-    """A sphere that falls, and a wall that goes at a given velocity."""
+    """What both worlds have: a body that is driven and one that is watched, along one axis."""
 
-    def __init__(self, settings):
-        self.settings = settings
-        radius, mass = settings["radius"], settings["mass"]
-        density = mass / (4.0 / 3.0 * 3.141592653589793 * radius**3)
-        material = O.materials.append(FrictMat(young=1e6, poisson=0.3, frictionAngle=0.0, density=density))
-        place = Vector3(0, 0, settings["height"] + radius)
-        self.ball = O.bodies.append(utils.sphere(place, radius, material=material))
-        self.floor = O.bodies.append(utils.wall(0.0, axis=2, sense=1, material=material))
-        stiffness = MatchMaker(algo="val", val=settings["stiffness"])
-        contact = Ip2_FrictMat_FrictMat_FrictPhys(kn=stiffness, ks=MatchMaker(algo="val", val=0.0))
-        # Motion first: after a step the forces are those of where the sphere is then.
+    def run(self, settings, collider, loop, gravity=0.0):
+        """Puts its engines together."""
+        # Motion first: after a step the forces are those of where the spheres are then.
         O.engines = [
-            NewtonIntegrator(damping=0.0, gravity=(0, 0, -settings["gravity"]), warnNoForceReset=False),
+            NewtonIntegrator(damping=0.0, gravity=(0, 0, -gravity), warnNoForceReset=False),
             ForceResetter(),
-            InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
-            InteractionLoop([Ig2_Wall_Sphere_ScGeom()], [contact], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+            collider,
+            loop,
         ]
         O.dt = settings["time_step"]
-        # Its velocities are those of half a step earlier.
-        O.bodies[self.ball].state.vel = Vector3(0, 0, settings["velocity"] + 0.5 * O.dt * settings["gravity"])
+        self.gravity = gravity
+        self.start = O.bodies[self.watched].state.pos[self.axis]
 
     def step(self, speed):
-        """One time step with the floor at this velocity [m/s]."""
-        O.bodies[self.floor].state.vel = Vector3(0, 0, speed)
+        """One time step with the driven body at this velocity [m/s]."""
+        O.bodies[self.driven].state.vel = speed * self.along
         O.step()
 
     def force(self):
-        """Of the sphere on the floor [N]."""
-        return O.forces.f(self.floor)[2]
+        """Of the spheres on the driven body [N]."""
+        return O.forces.f(self.driven)[self.axis]
 
     def sphere(self):
-        """Height and velocity of its lowest point [m, m/s]."""
-        state = O.bodies[self.ball].state
-        rate = -self.force() / self.settings["mass"] - self.settings["gravity"]
-        return state.pos[2] - self.settings["radius"], state.vel[2] + 0.5 * O.dt * rate
+        """How far the sphere that is watched has come, and its velocity [m, m/s]."""
+        state = O.bodies[self.watched].state
+        rate = O.forces.f(self.watched)[self.axis] / state.mass - self.gravity
+        # Its velocities are those of half a step earlier.
+        return state.pos[self.axis] - self.start, state.vel[self.axis] + 0.5 * O.dt * rate
 
     def save(self):
         """Saves all that it can."""
@@ -71,4 +69,61 @@ class World:
             engine()
 
 
-serve(World)
+class OverFloor(World):
+    """Spheres over a wall that goes along z."""
+
+    axis, along = 2, Vector3(0, 0, 1)
+
+    def __init__(self, settings):
+        density, gravity, width = (settings[name] for name in ("density", "gravity", "width"))
+        spheres = settings["spheres"]
+        mass = 4.0 / 3.0 * pi * spheres[0][3] ** 3 * density
+        # Two of these in a row give a contact its stiffness, and its damping for its effective mass; a wall has no end
+        # of the latter.
+        touching = {"kn": 2.0 * settings["stiffness"], "ks": 0.0, "cs": 0.0, "frictionAngle": 0.0, "density": density}
+        ball = O.materials.append(ViscElMat(cn=settings["damping"] * mass, **touching))
+        solid = O.materials.append(ViscElMat(cn=1e30 if settings["damping"] else 0.0, **touching))
+        self.watched = O.bodies.append([utils.sphere(tuple(each[:3]), each[3], material=ball) for each in spheres])[0]
+        self.driven = O.bodies.append(utils.wall(0.0, axis=2, sense=1, material=solid))
+        for axis in (0, 1) if width else ():
+            O.bodies.append(utils.wall(0.0, axis=axis, sense=1, material=solid))
+            O.bodies.append(utils.wall(width, axis=axis, sense=-1, material=solid))
+        collider = InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()])
+        found = [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()]
+        law = Law2_ScGeom_ViscElPhys_Basic()
+        self.run(settings, collider, InteractionLoop(found, [Ip2_ViscElMat_ViscElMat_ViscElPhys()], [law]), gravity)
+        for body in O.bodies:
+            if body.dynamic:
+                body.state.vel = Vector3(0, 0, settings["velocity"] + 0.5 * O.dt * gravity)
+
+
+class Row(World):
+    """Three spheres that touch, with cohesion; the last is driven along x."""
+
+    axis, along = 0, Vector3(1, 0, 0)
+
+    def __init__(self, settings):
+        radius = settings["radius"]
+        density = settings["mass"] / (4.0 / 3.0 * pi * radius**3)
+        law = {"momentRotationLaw": False, "isCohesive": True, "normalCohesion": 1e30, "shearCohesion": 1e30}
+        material = O.materials.append(CohFrictMat(young=1e3, poisson=0.0, frictionAngle=0.0, density=density, **law))
+        fixed, self.watched, self.driven = (
+            O.bodies.append(utils.sphere((2 * radius * number, 0, 0), radius, material=material, fixed=number != 1))
+            for number in range(3)
+        )
+        # The springs stay where the spheres part.
+        collider = InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.5)])
+        found = Ig2_Sphere_Sphere_ScGeom6D(interactionDetectionFactor=1.5)
+        bonds = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)
+        loop = InteractionLoop([found], [bonds], [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()])
+        self.run(settings, collider, loop)
+        O.dt = 0.0
+        O.step()
+        O.dt = settings["time_step"]
+        for other, stiffness in ((fixed, settings["outer"]), (self.driven, settings["middle"])):
+            spring = O.interactions[self.watched, other].phys
+            spring.kn, spring.ks = stiffness, 0.0
+        O.bodies[self.watched].state.vel = Vector3(settings["speed"], 0, 0)
+
+
+serve(lambda settings: {"OverFloor": OverFloor, "Row": Row}[settings["kind"]](settings))

@@ -1,4 +1,4 @@
-"""YADE, which is a program with an interpreter of its own: the floor is a wall that moves at constant velocity."""
+"""YADE, a program with an interpreter of its own: the floor is a wall that moves at constant velocity."""
 
 import shutil
 
@@ -10,11 +10,11 @@ if PROGRAM is None:
 
 
 class Side(Process):
-    """One sphere in YADE. It can restore a state of its memory, so it can be had in repeated exchanges, too."""
+    """Spheres in YADE. It can restore a state of its memory, so it can be had in repeated exchanges, too."""
 
     can_restore = True
     # Nothing returns to the beginning of a step by itself.
     keeps_itself = False
 
-    def __init__(self, *problem):
-        super().__init__([PROGRAM, "-j1", "-n", "-x", HERE / "yade_program.py", HERE], *problem)
+    def __init__(self, problem):
+        super().__init__([PROGRAM, "-j1", "-n", "-x", HERE / "yade_program.py", HERE], problem)
