@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, field
+from math import sqrt
 from typing import Literal
 
 import numpy as np
@@ -374,13 +375,13 @@ class QuasiNewton(Implicit):
         kept: list[tuple[Vector, Vector]] = []
         directions: list[Vector] = []
         for residual, answer in columns:
-            length = float(np.linalg.norm(residual))
+            length = sqrt(residual @ residual)
             if length == 0.0 or len(kept) == len(residual):
                 continue
             rest = residual / length
             for direction in directions:
                 rest = rest - (rest @ direction) * direction
-            size = float(np.linalg.norm(rest))
+            size = sqrt(rest @ rest)
             if size > 1e-6:
                 directions.append(rest / size)
                 kept.append((residual, answer))

@@ -33,6 +33,7 @@ class _Part:
         boundaries = dict.fromkeys(name.split(".")[0] for name in displacements)
         works = tuple(f"{boundary}.work" for boundary in boundaries)
         self.works = works if all(name in unit.variables for name in works) else ()
+        self.slopes: tuple[str, ...] = ()  # names of the slopes of the forces, once they are asked for
         self.state: State | None = None
         self.begin = unit.get(displacements)
         #: How many directions of the partner it has.
@@ -63,10 +64,13 @@ class _Part:
         self.unit.set_rates(self.displacements, -0.5 * given * length)
         self.unit.set_rates(self.displacements, given, order=2)
 
-    def slope(self) -> Vector:
-        """Slopes of the forces over the last step \\[N/s\\]."""
-        found = self.unit.get(tuple(name.replace(".displacement.", ".force_slope.") for name in self.displacements))
-        return found if self.through is None else vector(self.through.T @ found)
+    def mean_and_slope(self) -> tuple[Vector, Vector]:
+        """Means \\[N\\] and slopes \\[N/s\\] of the forces over the last step."""
+        if not self.slopes:
+            self.slopes = tuple(name.replace(".displacement.", ".force_slope.") for name in self.displacements)
+        found = self.unit.get((*self.forces["mean"], *self.slopes))
+        mean, slope = found[: len(self.slopes)], found[len(self.slopes) :]
+        return (mean, slope) if self.through is None else (self.through.T @ mean, self.through.T @ slope)
 
     def force(self, kind: Force) -> Vector:
         """Forces of the particles \\[N, N m\\]."""
@@ -207,7 +211,8 @@ class Interface:
         for unit in self.units:
             unit.step(step.length, until=step.end)
         self.displacement = displacement
-        return self.force("mean"), np.concatenate([part.slope() for part in self._parts])
+        found = [part.mean_and_slope() for part in self._parts]
+        return found[0] if len(found) == 1 else _joined(found)
 
     def _move(self, displacement: Vector, length: float, end: float) -> None:
         """One step of every unit."""
@@ -243,6 +248,12 @@ class Interface:
                     block = block if one.through is None else one.through.T @ block
                     blocks[rows, columns] = block if other.through is None else block @ other.through
         return blocks
+
+
+def _joined(pairs: Sequence[tuple[Vector, Vector]]) -> tuple[Vector, Vector]:
+    """Pairs of vectors of several units as one pair."""
+    first, second = zip(*pairs, strict=True)
+    return np.concatenate(first), np.concatenate(second)
 
 
 def _several(names: str | Sequence[str]) -> tuple[str, ...]:

@@ -98,12 +98,26 @@ class _DoubledSide:
 
     def __init__(self, side: QuadraticSide) -> None:
         self._side = side
-        self.names = [*side.names, *(f"{name}.bulge" for name in side.names)]
         self.save: Callable[[], None] = side.save
         self.restore: Callable[[], None] = side.restore
         self.can_restore, self.keeps_itself = side.can_restore, side.keeps_itself
-        self.time, self.work = side.time, side.work
         self.displacement = np.concatenate([side.displacement, np.zeros(len(side.displacement))])
+
+    @property
+    def names(self) -> list[str]:
+        """Names of its directions."""
+        names = self._side.names
+        return [*names, *(f"{name}.bulge" for name in names)]
+
+    @property
+    def time(self) -> float:
+        """Its present time \\[s\\]."""
+        return self._side.time
+
+    @property
+    def work(self) -> float | None:
+        """Work of the interface on the particles since the start \\[J\\]."""
+        return self._side.work
 
     def force(self, kind: Force) -> Vector:
         """Not asked for by repeated exchanges."""

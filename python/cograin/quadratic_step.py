@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import bmat
 from scipy.sparse.linalg import splu
 
 from cograin.step import Step
-from cograin.vector import Matrix, Vector
+from cograin.vector import Matrix, Vector, solver
 
 if TYPE_CHECKING:
     from cograin.structure import Structure
@@ -85,7 +84,7 @@ def _solver(blocks: Any, *, sparse: bool) -> Any:
             return splu(bmat(blocks).tocsc()).solve
         except RuntimeError:
             raise ValueError(singular) from None
-    factors = lu_factor(np.block(blocks))
-    if not np.all(np.abs(np.diag(factors[0])) > 0.0):
+    solve = solver(np.block(blocks))
+    if solve is None:
         raise ValueError(singular)
-    return lambda forces: lu_solve(factors, forces)
+    return solve

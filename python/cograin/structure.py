@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
+from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import splu
 
 from cograin.quadratic_step import QuadraticStep
 from cograin.step import Step
-from cograin.vector import Matrix, Vector, is_sparse, vector
+from cograin.vector import Matrix, Vector, is_sparse, solver, vector
 
 #: External forces on the degrees of freedom at a time [s] [N].
 Load = Callable[[float], ArrayLike]
@@ -194,8 +194,11 @@ class Structure:
     def _quadratic_motion(self, force: Vector, slope: Vector, step: Step) -> tuple[Vector, Vector]:
         """Mean velocity and acceleration of the free degrees of freedom."""
         stepping = self._quadratic_step(step.length)
-        load, change = stepping.loads(step)
-        return stepping.motion(self.at @ force + load, self.at @ slope + change, self.position, self.velocity)
+        mean, change = self.at @ force, self.at @ slope
+        if self._load is not None:
+            load, its_change = stepping.loads(step)
+            mean, change = mean + load, change + its_change
+        return stepping.motion(mean, change, self.position, self.velocity)
 
     def _quadratic_step(self, length: float) -> QuadraticStep:
         """What steps of this length \\[s\\] need."""
@@ -305,10 +308,10 @@ class Structure:
             return lambda forces: cho_solve(cholesky, forces)
         except np.linalg.LinAlgError:
             pass
-        factors = lu_factor(matrix)
-        if not np.all(np.abs(np.diag(factors[0])) > 0.0):
+        solve = solver(matrix)
+        if solve is None:
             raise ValueError(f"{otherwise}: the matrix is singular")
-        return lambda forces: lu_solve(factors, forces)
+        return solve
 
 
 class Oscillator(Structure):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 
@@ -32,7 +33,7 @@ class Tolerance:
         """Which limit does not hold yet, in words; empty if all hold. `compliance` is called only if it is needed."""
         said = []
         left = float(np.abs(residual).max())
-        if not np.isfinite(left):
+        if not isfinite(left):
             return "the residual is not finite"
         if self.displacement is not None and left > self.displacement:
             said.append(f"displacements differ by {left:.1e} m, {self.displacement:g} m is allowed")

@@ -75,7 +75,7 @@ class Unit:
         if self.description.coSimulation is None:
             raise UnitError(f"{self.path}: offers no co-simulation; a unit for co-simulation is needed")
         self.variables: dict[str, Any] = {variable.name: variable for variable in self.description.modelVariables}
-        self._groups: dict[tuple[str, ...], tuple[Any, Any, int]] = {}
+        self._groups: dict[tuple[str, ...], tuple[Any, Any, int, Vector]] = {}
         self._messages: list[str] = []
         self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
         #: Where it is unpacked.
@@ -168,32 +168,33 @@ class Unit:
 
     # Values
 
-    def _group(self, names: tuple[str, ...]) -> tuple[Any, Any, int]:
-        """References and room for the values of real variables, made once."""
+    def _group(self, names: tuple[str, ...]) -> tuple[Any, Any, int, Vector]:
+        """References and room for the values of real variables, also as an array, made once."""
         found = self._groups.get(names)
         if found is None:
             for name in names:
                 if self.variable(name).type != "Real":
                     raise UnitError(f"{self.name}: {name} is of type {self.variable(name).type}; a Real is needed")
             references = (ctypes.c_uint32 * len(names))(*(self.variables[name].valueReference for name in names))
-            found = self._groups[names] = (references, (ctypes.c_double * len(names))(), len(names))
+            room: Any = (ctypes.c_double * len(names))()
+            found = self._groups[names] = (references, room, len(names), np.frombuffer(room))
         return found
 
     def get(self, names: Sequence[str]) -> Vector:
         """Values of real variables, in SI units."""
-        references, room, count = self._group(tuple(names))
+        references, room, count, values = self._group(tuple(names))
         self._call(self.slave.fmi2GetReal, self.slave.component, references, count, room)
-        return np.array(room)
+        return values.copy()
 
     def set(self, names: Sequence[str], values: Iterable[float]) -> None:
         """Sets real variables: all of them or none."""
-        references, room, count = self._group(tuple(names))
+        references, room, count, _ = self._group(tuple(names))
         room[:] = list(values)
         self._call(self.slave.fmi2SetReal, self.slave.component, references, count, room)
 
     def set_rates(self, names: Sequence[str], rates: Iterable[float], *, order: int = 1) -> None:
         """Sets derivatives of real inputs in time for the next step: all of them or none. Set their values first."""
-        references, room, count = self._group(tuple(names))
+        references, room, count, _ = self._group(tuple(names))
         room[:] = list(rates)
         orders = (ctypes.c_int * count)(*[order] * count)
         self._call(self.slave.fmi2SetRealInputDerivatives, self.slave.component, references, count, orders, room)

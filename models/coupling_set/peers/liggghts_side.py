@@ -15,14 +15,20 @@ library.lammps_extract_atom.restype = ctypes.c_void_p
 class Side(InputSide):
     """Spheres in LIGGGHTS."""
 
-    space = "region space block -1 1 -1 1 -0.3 0.5 units box"
-
     def __init__(self, problem):
+        #: How far the floor reaches. Every run looks for neighbours anew, which takes the longer, the larger the space.
+        self.low, self.high = (-0.1, 0.35) if getattr(problem.world(), "width", 0.0) else (-0.3, 0.9)
         words = (ctypes.c_char_p * 5)(b"liggghts", b"-log", b"none", b"-screen", b"/dev/null")
         self.handle = ctypes.c_void_p()
         library.lammps_open_no_mpi(5, words, ctypes.byref(self.handle))
         self.folder = tempfile.TemporaryDirectory()
         super().__init__(problem)
+
+    @property
+    def space(self):
+        """Where spheres may be."""
+        reach = f"{self.low - 0.01} {self.high + 0.01}"
+        return f"region space block {reach} {reach} -0.3 0.5 units box"
 
     def _open_floor(self):
         world = self.world
@@ -66,7 +72,8 @@ class Side(InputSide):
     def _mesh(self):
         """A file with the floor, a triangle."""
         path = Path(self.folder.name) / "floor.stl"
-        corners = "".join(f"vertex {x} {y} 0\n" for x, y in ((-0.3, -0.3), (0.9, -0.3), (-0.3, 0.9)))
+        places = (self.low, self.low), (self.high, self.low), (self.low, self.high)
+        corners = "".join(f"vertex {x} {y} 0\n" for x, y in places)
         path.write_text(f"solid f\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid f\n")
         return path
 
