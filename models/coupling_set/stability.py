@@ -5,6 +5,8 @@ Writes bed.csv, border.csv and stability.png.
 
 import argparse
 import csv
+from contextlib import closing
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -26,7 +28,7 @@ from cograin import (
     Unit,
     Verlet,
 )
-from peers import NAMES, REFUSALS, apart, hand_over, taken_by
+from peers import NAMES, REFUSALS, apart, apart_if_needed, hand_over, taken_by
 from problems import Bed, TwoMasses
 from theory import FixedPointGain, Linear
 
@@ -42,6 +44,7 @@ BED = {
 }
 BORDER = {"Gauss–Seidel": GaussSeidel, "Jacobi": Jacobi, "Verlet": Verlet, "fixed point": FixedPoint, "secant": Secant}
 EXPLICIT = ("Gauss–Seidel", "Verlet")
+BEDS = tuple(name for name in NAMES if name != "kratos")  # programs that have the bed
 PEERS = (*EXPLICIT, "secant")  # of other programs, the last where it can be had
 LONG = (2e-4, 1e-3)  # steps of the secant there: to save and to restore takes tens of milliseconds [s]
 BED_COLUMNS = ["program", "exchange", "mass", "step", "reached", "largest", "mean", "evaluations", "most"]
@@ -100,19 +103,25 @@ def bed(options):
                     unit.reset()
                     side = Interface(unit, "floor.displacement.z")
                     yield ["cograin", name, mass, step, *cell(side, problem, BED[name], mass, step)]
-    for name in () if options.no_peers else NAMES:
+    for name in () if options.no_peers else BEDS:
         yield from apart(__file__, name, *(["--exchanges", *options.exchanges] if options.exchanges else []))
 
 
 def bed_of_peer(options):
     """Rows of BED_COLUMNS by another program."""
-    problem, module = Bed(), import_module(f"peers.{options.peer}_side")
-    for name in PEERS if module.Side.can_restore else EXPLICIT:
+    problem, side = Bed(), import_module(f"peers.{options.peer}_side").Side
+    for name in PEERS if side.can_restore else EXPLICIT:
         for mass in problem.masses if name in (options.exchanges or BED) else ():
             for step in problem.steps if name in EXPLICIT else LONG:
-                side = module.Side(problem)
-                yield [options.peer, name, mass, step, *cell(side, problem, BED[name], mass, step)]
-                side.close()
+                course = partial(cell_of_peer, side, problem, BED[name], mass, step)
+                ended = [*[""] * 10, "the program ends with an error"]
+                yield [options.peer, name, mass, step, *(apart_if_needed(side, course) or ended)]
+
+
+def cell_of_peer(side, problem, make, mass, step):
+    """One run of the bed by another program, as figures of BED_COLUMNS."""
+    with closing(side(problem)) as opened:
+        return cell(opened, problem, make, mass, step)
 
 
 def told(found):

@@ -6,6 +6,7 @@ line (`process.py`, `serving.py`).
 """
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -25,7 +26,8 @@ class ParticleSide:
     """
 
     can_restore = has_derivatives = False
-    keeps_itself = True
+    keeps_itself = True  # none discards a step
+    ends_all = False  # whether its errors end the process that it is in
     worlds = (OverFloor, Row)  # that it can be driven in
 
     def __init__(self, problem):
@@ -74,6 +76,24 @@ def apart(script, name, *words):
         said = child.stderr.read().strip().splitlines()
     if child.returncode:
         print(f"\n{name} is left out: {(said or ['it gives no reason'])[-1]}")
+
+
+def apart_if_needed(side, course):
+    """What a course gives, which it makes in a process of its own if the program ends that by its errors."""
+    if not side.ends_all:
+        return course()
+    here, there = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(here)
+        with os.fdopen(there, "w") as pipe:
+            json.dump(course(), pipe, default=float)
+        os._exit(0)
+    os.close(there)
+    with os.fdopen(here) as pipe:
+        said = pipe.read()
+    os.waitpid(child, 0)
+    return json.loads(said) if said else None
 
 
 def hand_over(rows):

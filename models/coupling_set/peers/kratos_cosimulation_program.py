@@ -139,7 +139,7 @@ class Analysis(CoSimulationAnalysis):
 
 def main():
     settings = json.loads(sys.argv[1])
-    falling.write_spheres(settings)
+    falling.write_sphere(settings)
     falling.write_materials(settings)
     write_plate(settings)
     end = settings["end"] - 0.5 * settings["time_step"]

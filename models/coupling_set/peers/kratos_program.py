@@ -1,4 +1,4 @@
-"""Spheres in the DEM application of Kratos; run by an interpreter that has it, in an empty folder."""
+"""One sphere in the DEM application of Kratos; run by an interpreter that has it, in an empty folder."""
 
 import json
 import math
@@ -19,7 +19,6 @@ Kratos.Logger.GetDefaultOutput().SetSeverity(Kratos.Logger.Severity.WARNING)
 EMPTY = "Begin ModelPartData\nEnd ModelPartData\nBegin Properties {}\nEnd Properties\n"
 CORNERS = ((-0.3, -0.3), (0.6, -0.3), (-0.3, 0.6))
 WALL = 100000  # number of the first node of the floor
-FAR = 0.2  # how far walls reach beyond the box [m]
 LAW = "DEM_D_Linear_viscous_Coulomb"
 
 
@@ -36,78 +35,38 @@ def part(name, nodes, kind, elements, data=""):
     )
 
 
-def write_spheres(settings):
-    """Spheres and floor, a triangle, and the walls of a box."""
-    numbers = range(1, len(settings["spheres"]) + 1)
-    each = list(zip(numbers, settings["spheres"], strict=True))
-    text = EMPTY.format(1) + block("Nodes", *(f"{number} {x!r} {y!r} {z!r}" for number, (x, y, z, _) in each))
-    text += block("Elements SphericParticle3D", *(f"{number} 1 {number}" for number in numbers))
-    text += block("NodalData RADIUS", *(f"{number} 0 {radius!r}" for number, (*_, radius) in each))
-    names = [str(number) for number in numbers]
-    Path("pDEM.mdpa").write_text(text + part("1", names, "Elements", names))
-    faces = [[(x, y, 0.0) for x, y in CORNERS], *walls(settings["width"])]
-    nodes = [[str(WALL + 3 * face + corner) for corner in range(3)] for face in range(len(faces))]
-    text = EMPTY.format(0) + block(
-        "Nodes",
-        *(
-            f"{node} {x} {y} {z}"
-            for names, face in zip(nodes, faces, strict=True)
-            for node, (x, y, z) in zip(names, face, strict=True)
-        ),
-    )
-    text += block("Conditions RigidFace3D3N", *(" ".join([names[0], "0", *names]) for names in nodes))
-    for number, (name, own) in enumerate((("floor", nodes[:1]), ("box", nodes[1:]))):
-        if own:
-            data = block("SubModelPartData", f"IDENTIFIER {name}", "FIXED_MESH_OPTION 0", "RIGID_BODY_MOTION 0")
-            inside = [node for names in own for node in names]
-            text += part(str(number), inside, "Conditions", [names[0] for names in own], data)
-    Path("pDEM_FEM_boundary.mdpa").write_text(text)
+def write_sphere(settings):
+    """Sphere and floor, a triangle."""
+    ((x, y, z, radius),) = settings["spheres"]
+    text = EMPTY.format(1) + block("Nodes", f"1 {x!r} {y!r} {z!r}")
+    text += block("Elements SphericParticle3D", "1 1 1") + block("NodalData RADIUS", f"1 0 {radius!r}")
+    Path("pDEM.mdpa").write_text(text + part("1", "1", "Elements", "1"))
+    nodes = [str(WALL + number) for number in range(3)]
+    text = EMPTY.format(0) + block("Nodes", *(f"{node} {x} {y} 0.0" for node, (x, y) in zip(nodes, CORNERS)))
+    text += block("Conditions RigidFace3D3N", " ".join([nodes[0], "0", *nodes]))
+    data = block("SubModelPartData", "IDENTIFIER floor", "FIXED_MESH_OPTION 0", "RIGID_BODY_MOTION 0")
+    Path("pDEM_FEM_boundary.mdpa").write_text(text + part("0", nodes, "Conditions", nodes[:1], data))
     for name in ("Inlet", "Clusters"):
         Path(f"pDEM_{name}.mdpa").write_text(EMPTY.format(0))
 
 
-def walls(width):
-    """Triangles of a box that reaches far beyond its spheres."""
-    low, high = -FAR, width + FAR
-    for place, turn in ((0.0, 1), (width, -1)) if width else ():
-        for axis in (0, 1):
-            for corners in (((low, low), (high, low), (high, high)), ((low, low), (high, high), (low, high))):
-                points = [(place, along, up) if axis == 0 else (along, place, up) for along, up in corners]
-                yield points[::turn]
-
-
-def restitution(damping, mass, stiffness):
-    """Of a contact between linear springs with this damping for each effective mass."""
-    share = 0.5 * damping / math.sqrt(stiffness / mass)
-    return math.exp(-math.pi * share / math.sqrt(1.0 - share**2))
-
-
 def write_materials(settings):
     """A law whose stiffness at a wall is π · 0.31225 · E · r, without loss."""
-    radius, density = settings["spheres"][0][3], settings["density"]
-    modulus = settings["stiffness"] / (math.pi * 0.31225 * radius)
-    mass = 4.0 / 3.0 * math.pi * radius**3 * density
-    common = {"STATIC_FRICTION": 0.0, "DYNAMIC_FRICTION": 0.0, "ROLLING_FRICTION": 0.0}
-    common |= {"ROLLING_FRICTION_WITH_WALLS": 0.0, "FRICTION_DECAY": 500, "SEVERITY_OF_WEAR": 0.0}
-    common |= {"IMPACT_WEAR_SEVERITY": 0.0, "BRINELL_HARDNESS": 200.0}
-    common |= {"DEM_ROLLING_FRICTION_MODEL_NAME": "DEMRollingFrictionModelConstantTorque"}
-    common |= {"DEM_DISCONTINUUM_CONSTITUTIVE_LAW_NAME": LAW}
-    ball = {"PARTICLE_DENSITY": density, "YOUNG_MODULUS": modulus, "POISSON_RATIO": 0.0}
+    modulus = settings["stiffness"] / (math.pi * 0.31225 * settings["spheres"][0][3])
+    pair = dict.fromkeys("STATIC_FRICTION DYNAMIC_FRICTION ROLLING_FRICTION ROLLING_FRICTION_WITH_WALLS".split(), 0.0)
+    pair |= {"COEFFICIENT_OF_RESTITUTION": 1.0, "FRICTION_DECAY": 500, "SEVERITY_OF_WEAR": 0.0}
+    pair |= {"IMPACT_WEAR_SEVERITY": 0.0, "BRINELL_HARDNESS": 200.0}
+    pair |= {"DEM_ROLLING_FRICTION_MODEL_NAME": "DEMRollingFrictionModelConstantTorque"}
+    pair |= {"DEM_DISCONTINUUM_CONSTITUTIVE_LAW_NAME": LAW}
+    ball = {"PARTICLE_DENSITY": settings["density"], "YOUNG_MODULUS": modulus, "POISSON_RATIO": 0.0}
     floor = {"YOUNG_MODULUS": 1e30, "POISSON_RATIO": 0.0, "COMPUTE_WEAR": False}
     named = [("ball", 1, ball), ("floor", 2, floor)]
-    met = [(["ball", "ball"], [1, 1], 0.5 * mass), (["ball", "floor"], [1, 2], mass)]
-    relations = [
-        {
-            "material_names_list": names,
-            "material_ids_list": numbers,
-            "Variables": common
-            | {"COEFFICIENT_OF_RESTITUTION": restitution(settings["damping"], moved, settings["stiffness"])},
-        }
-        for names, numbers, moved in met
-    ]
+    met = [(["ball", "ball"], [1, 1]), (["ball", "floor"], [1, 2])]
     materials = {
         "materials": [{"material_name": n, "material_id": i, "Variables": values} for n, i, values in named],
-        "material_relations": relations,
+        "material_relations": [
+            {"material_names_list": names, "material_ids_list": numbers, "Variables": pair} for names, numbers in met
+        ],
         "material_assignation_table": [["SpheresPart", "ball"], ["RigidFacePart", "floor"]],
     }
     Path("MaterialsDEM.json").write_text(json.dumps(materials))
@@ -144,18 +103,17 @@ def parameters(settings):
 
 
 class World:
-    """Spheres, and a floor that goes at a given velocity."""
+    """A sphere, and a floor that goes at a given velocity."""
 
     def __init__(self, settings):
         self.settings, self.place = settings, 0.0
-        write_spheres(settings)
+        write_sphere(settings)
         write_materials(settings)
         self.stage = DEMAnalysisStage(Kratos.Model(), Kratos.Parameters(json.dumps(parameters(settings))))
         self.stage.Initialize()
         self.solver = self.stage._GetSolver()
-        for ball in self.stage.spheres_model_part.Nodes:
-            ball.SetSolutionStepValue(Kratos.VELOCITY_Z, settings["velocity"])
         self.ball = next(iter(self.stage.spheres_model_part.Nodes))
+        self.ball.SetSolutionStepValue(Kratos.VELOCITY_Z, settings["velocity"])
         self.begin = self.ball.Z
         self.floor = list(self.stage.rigid_face_model_part.GetSubModelPart("0").Nodes)
 
@@ -173,11 +131,11 @@ class World:
         stage.FinalizeSolutionStep()
 
     def force(self):
-        """Of the spheres on the floor [N]."""
+        """Of the sphere on the floor [N]."""
         return sum(node.GetSolutionStepValue(Dem.CONTACT_FORCES)[2] for node in self.floor)
 
     def sphere(self):
-        """How far the first sphere has come, and its velocity [m, m/s]."""
+        """How far the sphere has come, and its velocity [m, m/s]."""
         return self.ball.Z - self.begin, self.ball.GetSolutionStepValue(Kratos.VELOCITY_Z)
 
 

@@ -26,7 +26,7 @@ if not has_it():
 
 
 class Side(Process):
-    """Spheres in Kratos: no state that could be restored, and no springs between spheres without a law of breaking."""
+    """One sphere in Kratos: no state that could be restored, and no springs between spheres without a law of breaking."""
 
     worlds = (OverFloor,)
 

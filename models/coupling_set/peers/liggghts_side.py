@@ -15,6 +15,8 @@ library.lammps_extract_atom.restype = ctypes.c_void_p
 class Side(InputSide):
     """Spheres in LIGGGHTS."""
 
+    ends_all = True
+
     def __init__(self, problem):
         #: How far the floor reaches. Every run looks for neighbours anew, which takes the longer, the larger the space.
         self.low, self.high = (-0.1, 0.35) if getattr(problem.world(), "width", 0.0) else (-0.3, 0.9)

@@ -38,6 +38,9 @@ class World:
             collider,
             loop,
         ]
+        # The forces of the beginning, before anything moves.
+        O.dt = 0.0
+        O.step()
         O.dt = settings["time_step"]
         self.gravity = gravity
         self.start = O.bodies[self.watched].state.pos[self.axis]
@@ -88,13 +91,14 @@ class OverFloor(World):
         for axis in (0, 1) if width else ():
             O.bodies.append(utils.wall(0.0, axis=axis, sense=1, material=solid))
             O.bodies.append(utils.wall(width, axis=axis, sense=-1, material=solid))
-        collider = InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()])
+        collider = InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * spheres[0][3])
         found = [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()]
         law = Law2_ScGeom_ViscElPhys_Basic()
         self.run(settings, collider, InteractionLoop(found, [Ip2_ViscElMat_ViscElMat_ViscElPhys()], [law]), gravity)
-        for body in O.bodies:
+        for number, body in enumerate(O.bodies):
             if body.dynamic:
-                body.state.vel = Vector3(0, 0, settings["velocity"] + 0.5 * O.dt * gravity)
+                rate = O.forces.f(number)[2] / body.state.mass - gravity
+                body.state.vel = Vector3(0, 0, settings["velocity"] - 0.5 * O.dt * rate)
 
 
 class Row(World):
@@ -117,9 +121,6 @@ class Row(World):
         bonds = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)
         loop = InteractionLoop([found], [bonds], [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()])
         self.run(settings, collider, loop)
-        O.dt = 0.0
-        O.step()
-        O.dt = settings["time_step"]
         for other, stiffness in ((fixed, settings["outer"]), (self.driven, settings["middle"])):
             spring = O.interactions[self.watched, other].phys
             spring.kn, spring.ks = stiffness, 0.0

@@ -13,8 +13,6 @@ class Side(Process):
     """Spheres in YADE. It can restore a state of its memory, so it can be had in repeated exchanges, too."""
 
     can_restore = True
-    # Nothing returns to the beginning of a step by itself.
-    keeps_itself = False
 
     def __init__(self, problem):
         super().__init__([PROGRAM, "-j1", "-n", "-x", HERE / "yade_program.py", HERE], problem)
