@@ -150,7 +150,8 @@ class Coupling:
     def _attempt(self, step: Step) -> tuple[Outcome | None, float, str]:
         """The outcome of the units, its interface energy residual, and why it is not accepted."""
         begin = self.interface.displacement
-        expected = self._expected(step.length)
+        # What makes one evaluation does not look ahead.
+        expected = self._expected(step.length) if self.exchange.repeats else self._force
         try:
             outcome = self.exchange.evaluate(self.interface, self.partner, step, self._force, expected)
         except StepDiscarded as refusal:

@@ -74,6 +74,7 @@ class Structure:
         self._solvers: dict[float, Any] = {}
         self._responses: dict[float, tuple[Matrix, Matrix]] = {}
         self._unforced: tuple[Step, Vector] | None = None
+        self._kicked: tuple[Step, Vector, Vector] | None = None  # step, force and what they come to
         self._mass_solver: Any = None
         self._quadratic_steps: dict[float, QuadraticStep] = {}
 
@@ -215,6 +216,7 @@ class Structure:
     def kick(self, begin: Vector, end: Vector, step: Step) -> None:
         """Makes the step with the forces at its beginning and its end."""
         half, before = self._half_kicked(begin, step), self.displacement
+        self._kicked = None
         self.position = self.position + step.length * half
         self.displacement = self._at_interface(self.position)
         self._unforced = None
@@ -227,8 +229,11 @@ class Structure:
         self.work += 0.5 * float((begin + end) @ (self.displacement - before))
 
     def _half_kicked(self, force: Vector, step: Step) -> Vector:
-        kick = self._acceleration(self.position, self.velocity, force, step.begin)
-        return self.velocity + 0.5 * step.length * kick
+        """Velocity in the middle of the step, which drift and kick both ask for \\[m/s\\]."""
+        if self._kicked is None or self._kicked[0] is not step or self._kicked[1] is not force:
+            kick = self._acceleration(self.position, self.velocity, force, step.begin)
+            self._kicked = (step, force, self.velocity + 0.5 * step.length * kick)
+        return self._kicked[2]
 
     def _acceleration(self, position: Vector, velocity: Vector, force: Vector, time: float) -> Vector:
         if self._mass_solver is None:
