@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from cograin import Unit
 from problems import GRAVITY, Measure, share
+from worlds import Rough
 
 MODEL = Path(__file__).resolve().parents[1] / "loaded_beam"
 sys.path.append(str(MODEL))
@@ -30,10 +31,23 @@ class LoadedBeam:
         settled = folder / "loaded_beam.checkpoint"
         print(command.settle(MODEL / "scene.toml", settled), flush=True)
         unit = Unit(command.export(MODEL / "scene.toml", folder / "loaded_beam.fmu", start=settled))
-        self.held = -unit["floor.force.z"]  # on the floor as it begins [N]
+        self.hold(-unit["floor.force.z"])
+        return unit
+
+    def hold(self, force):
+        """Takes note of what weighs on the floor as it begins [N]."""
+        self.held = force
         self.weight = weight_of(particles())  # of the bed [N]
         self.plate = self.design.plate_mass * GRAVITY
-        return unit
+
+    def world(self):
+        """For other programs."""
+        spheres = particles()[:, :4].tolist()
+        return Rough(spheres, 2e-5, 5e7, 0.3, 0.5, 0.5, width=0.2448, settling=1000)
+
+    def watched(self, side):
+        """Forces on the walls, which are smooth, in a program that does not say them."""
+        return (0.0,) * len(self.watch)
 
     def partner(self):
         load = self.held + self.plate

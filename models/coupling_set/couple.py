@@ -6,6 +6,7 @@ on the machine changes least.
 
 import argparse
 import csv
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -94,8 +95,11 @@ def ours(problem, unit, name, step):
 def theirs(problem, open_side, name, step):
     """One course by another program."""
     side = open_side(problem)
+    if hasattr(problem, "hold"):
+        problem.hold(-float(side.force("end")[0]))
+    watched = partial(problem.watched, side) if hasattr(problem, "watched") else side.sphere
     try:
-        return run(problem, side, side.sphere, EXCHANGES[name](), step)
+        return run(problem, side, watched, EXCHANGES[name](), step)
     finally:
         side.close()
 

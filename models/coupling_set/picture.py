@@ -4,6 +4,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 COLOURS = {
@@ -20,6 +21,7 @@ COLOURS = {
     "CoSimulation, weak": "#6b4c2a",  # its strong ones fail, and are not drawn
 }
 MARKS = {"cograin": "o", "lammps": "s", "liggghts": "^", "yade": "v", "kratos": "D"}
+TITLES = {"lammps": "LAMMPS", "liggghts": "LIGGGHTS", "yade": "YADE", "kratos": "Kratos"}
 ROUNDING = 1e-17  # where an interface energy of nothing is drawn
 
 
@@ -39,24 +41,33 @@ def draw(path, columns, table):
         axes[1, column].set_xlabel("processor time [s]")
     axes[0, 0].set_ylabel("error against the closed form")
     axes[1, 0].set_ylabel("interface energy over exchanged work")
-    handles, labels = {}, []
-    for each in axes.flat:
-        for handle, label in zip(*each.get_legend_handles_labels(), strict=True):
-            handles.setdefault(label, handle)
-    labels = list(handles)
-    figure.legend([handles[label] for label in labels], labels, loc="outside lower center", ncols=5, frameon=False)
+    figure.legend(handles=legend(rows), loc="outside lower center", ncols=6, frameon=False)
     figure.savefig(path, dpi=110)
     plt.close(figure)
+
+
+def legend(rows):
+    """A line for each exchange, and a mark for each program."""
+    names = dict.fromkeys(one["exchange"] for one in rows)
+    lines = [Line2D([], [], color=COLOURS[name], label=name) for name in COLOURS if name in names]
+    programs = dict.fromkeys(one["program"] for one in rows)
+    marks = [Line2D([], [], label=TITLES.get(program, program), **style(program, "black")) for program in programs]
+    return [*lines, *marks]
+
+
+def style(program, colour):
+    """Full marks on lines for our own program, open ones on dots for the others."""
+    own = program == "cograin"
+    shape = {"color": colour, "marker": MARKS[program], "markersize": 4 if own else 6}
+    return shape | {"linestyle": "-" if own else ":", "markerfacecolor": colour if own else "none", "linewidth": 1.2}
 
 
 def panel(axes, rows, key):
     """One quantity of one problem; a line joins the steps of one program and exchange."""
     for program, name in dict.fromkeys((one["program"], one["exchange"]) for one in rows):
         line = [one for one in rows if (one["program"], one["exchange"]) == (program, name)]
-        style = {"color": COLOURS[name], "marker": MARKS[program], "linestyle": "-" if program == "cograin" else ":"}
-        label = name if program == "cograin" else f"{program}, {name}"
         values = [max(abs(one[key]), ROUNDING) for one in line]
-        axes.plot([one["processor"] for one in line], values, label=label, markersize=4, linewidth=1.2, **style)
+        axes.plot([one["processor"] for one in line], values, **style(program, COLOURS[name]))
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Enough marks where the times span less than a power of ten, and none that run into one another.

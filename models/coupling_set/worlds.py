@@ -1,4 +1,4 @@
-"""What another particle program is told of a problem: spheres over a driven floor, or masses in a row."""
+"""What another particle program is told of a problem: spheres over a driven floor, rough ones, or masses in a row."""
 
 from dataclasses import asdict, dataclass
 
@@ -24,6 +24,25 @@ class OverFloor:
     def told(self):
         """As plain words."""
         return {"kind": type(self).__name__, **asdict(self)}
+
+
+@dataclass(frozen=True)
+class Rough:
+    """Spheres by Hertz with friction, of several sizes, over a floor as rough as they, in a box with smooth walls."""
+
+    interface = "floor.displacement.z"
+
+    spheres: list  # coordinates of the centre, and radius [m]
+    time_step: float  # [s]
+    youngs_modulus: float  # [Pa]
+    poissons_ratio: float
+    restitution: float
+    friction: float
+    width: float  # of the box [m]
+    settling: int  # time steps in which they come to rest first, with friction of a fluid
+    gravity: float = GRAVITY  # downwards [m/s²]
+    velocity: float = 0.0  # of the spheres as they begin, along z [m/s]
+    density: float = DENSITY  # [kg/m³]
 
 
 @dataclass(frozen=True)

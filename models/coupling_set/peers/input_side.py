@@ -29,8 +29,7 @@ class InputSide(ParticleSide):
         self.command("thermo 1000000")
         self.command(f"timestep {self.world.time_step!r}")
         if not self.row:
-            self.masses = 4.0 / 3.0 * math.pi * np.array(self.world.spheres)[:, 3] ** 3 * self.world.density
-            self.weight = float(self.masses.sum()) * self.world.gravity
+            self.weight = float(self.masses().sum()) * self.world.gravity
         self.command("run 0 post no")
         self.start = self.atoms("x")[self.watched, self.axis]
 
@@ -98,4 +97,9 @@ class InputSide(ParticleSide):
 
     def _momentum(self):
         """Of all spheres, upwards [N s]."""
-        return float(self.masses @ self.atoms("v")[:, 2])
+        return float(self.masses() @ self.atoms("v")[:, 2])
+
+    def masses(self):
+        """Of the spheres, in the order of `atoms` [kg]."""
+        radii = np.array(self.world.spheres)[:, 3]
+        return 4.0 / 3.0 * math.pi * radii**3 * self.world.density

