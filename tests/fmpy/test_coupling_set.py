@@ -72,9 +72,12 @@ class World:
     """Velocity Verlet by hand."""
     def __init__(self, given):
         self.given, self.floor = given, 0.0
-        self.height, self.speed = given["height"], given["velocity"]
+        ((_, _, centre, radius),) = given["spheres"]
+        self.mass = 4.0 / 3.0 * 3.141592653589793 * radius**3 * given["density"]
+        self.height, self.speed = centre - radius, given["velocity"]
+        self.begin = self.height
     def rate(self):
-        return -self.force() / self.given["mass"] - self.given["gravity"]
+        return -self.force() / self.mass - self.given["gravity"]
     def step(self, speed):
         length = self.given["time_step"]
         self.speed += 0.5 * length * self.rate()
@@ -84,7 +87,7 @@ class World:
     def force(self):
         return -self.given["stiffness"] * max(self.floor - self.height, 0.0)
     def sphere(self):
-        return self.height, self.speed
+        return self.height - self.begin, self.speed
     def save(self):
         self.kept = self.height, self.speed, self.floor
     def restore(self):
@@ -99,10 +102,10 @@ def test_a_program_of_its_own_is_a_side_of_the_same_exchanges(tmp_path, exchange
     (tmp_path / "world.py").write_text(WORLD)
 
     class Side(Process):
-        can_restore, keeps_itself = True, False
+        can_restore = True
 
-        def __init__(self, *problem):
-            super().__init__([sys.executable, tmp_path / "world.py", HERE], *problem)
+        def __init__(self, problem):
+            super().__init__([sys.executable, tmp_path / "world.py", HERE], problem)
 
     (measure, *_), taken, said = couple.theirs(problems.Drop(), Side, exchange, 1e-3)
     assert not said and taken > 0.0
@@ -112,7 +115,7 @@ def test_a_program_of_its_own_is_a_side_of_the_same_exchanges(tmp_path, exchange
 def test_a_program_that_ends_says_why_at_once(tmp_path):
     (tmp_path / "world.py").write_text("raise ValueError('no sphere today')")
     with pytest.raises(ChildProcessError, match="ValueError: no sphere today"):
-        Process([sys.executable, tmp_path / "world.py"], problems.Drop(), 1e-5, 0.05, 0.0, True)
+        Process([sys.executable, tmp_path / "world.py"], problems.Drop())
 
 
 def test_the_set_goes_on_where_other_programs_are_missing(monkeypatch, capfd):
