@@ -9,6 +9,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 
 from cograin import CouplingStopped
@@ -69,11 +70,13 @@ def taken_by(side):
 def apart(script, name, *words):
     """Rows that a script prints of one other program, from a process of its own; it is told its name by ``--peer``."""
     command = [sys.executable, script, "--peer", name, *map(str, words)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
-        for line in child.stdout:
-            if line.startswith("##"):
-                yield json.loads(line[2:])
-        said = child.stderr.read().strip().splitlines()
+    with tempfile.TemporaryFile("w+") as beside:
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=beside, text=True) as child:
+            for line in child.stdout:
+                if line.startswith("##"):
+                    yield json.loads(line[2:])
+        beside.seek(0)
+        said = beside.read().strip().splitlines()
     if child.returncode:
         print(f"\n{name} is left out: {(said or ['it gives no reason'])[-1]}")
 

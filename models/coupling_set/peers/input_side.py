@@ -24,8 +24,12 @@ class InputSide(ParticleSide):
         super().__init__(problem)
         self.row = isinstance(self.world, Row)
         self.weight, self.mean = 0.0, 0.0
-        self._open_row() if self.row else self._open_floor()
-        self.axis, self.watched = (0, 1) if self.row else (2, 0)
+        if self.row:
+            self.axis, self.watched = 0, 1
+            self._open_row()
+        else:
+            self.axis, self.watched = 2, 0
+            self._open_floor()
         self.command("thermo 1000000")
         self.command(f"timestep {self.world.time_step!r}")
         if not self.row:
