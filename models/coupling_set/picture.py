@@ -31,7 +31,7 @@ def draw(path, columns, table):
     rows = [one for one in rows if one["exchange"] in COLOURS]
     problems = list(dict.fromkeys(one["problem"] for one in rows))
     figure, axes = plt.subplots(
-        2, len(problems), figsize=(4.2 * len(problems), 7.6), squeeze=False, layout="constrained"
+        2, len(problems), figsize=(3.5 * len(problems), 7.2), squeeze=False, layout="constrained"
     )
     for column, problem in enumerate(problems):
         chosen = [one for one in rows if one["problem"] == problem]
