@@ -67,7 +67,7 @@ def arguments():
 def run(problem, side, sphere, exchange, step):
     """A course of a problem: its measure, and what it took; `sphere` says the watched values of the particles."""
     partner = problem.partner()
-    watch = {name: (lambda place=place: sphere()[place]) for place, name in enumerate(problem.watch)}
+    watch = read_once(problem.watch, sphere)
     watch["speed"] = lambda: partner.velocity[0]
     control = StepControl(unconverged="accept", halvings=0)
     began, said = taken_by(side), ""
@@ -83,6 +83,17 @@ def run(problem, side, sphere, exchange, step):
     counts = record["evaluations"]
     mean = float(counts[touched].mean()) if touched.any() else 0.0
     return (measure, float(counts.mean()), mean, len(record.unconverged)), taken, said
+
+
+def read_once(names, read):
+    """Functions for values that are read together: the first one reads, the others take what it found."""
+    found = []
+
+    def first():
+        found[:] = read()
+        return found[0]
+
+    return {name: (lambda place=place: found[place]) if place else first for place, name in enumerate(names)}
 
 
 def ours(problem, unit, name, step):

@@ -202,11 +202,10 @@ class Coupling:
 
     def _work_on_units(self) -> float:
         """Work on the particles in the last step, by the account of the units or by the mean force \\[J\\]."""
-        moved = self.interface.displacement - self._stood
-        self._stood = self.interface.displacement
+        stood, self._stood = self._stood, self.interface.displacement
         total = self.interface.work
         if total is None:
-            return -float(self.interface.force("mean") @ moved)
+            return -float(self.interface.force("mean") @ (self._stood - stood))
         before, self._worked = self._worked, total
         return total - before
 
