@@ -22,6 +22,7 @@ COLOURS = {
 }
 MARKS = {"cograin": "o", "lammps": "s", "liggghts": "^", "yade": "v", "kratos": "D"}
 TITLES = {"lammps": "LAMMPS", "liggghts": "LIGGGHTS", "yade": "YADE", "kratos": "Kratos"}
+WIDE = 70.0  # ratio of the longest time to the shortest from which only powers of ten are marked
 ROUNDING = 1e-17  # where an interface energy of nothing is drawn
 
 
@@ -71,7 +72,9 @@ def panel(axes, rows, key):
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Enough marks where the times span less than a power of ten, and none that run into one another.
-    axes.xaxis.set_major_locator(FixedLocator([mark * 10.0**power for power in range(-4, 4) for mark in (1, 2, 5)]))
+    times = [one["processor"] for one in rows]
+    marks = (1, 2, 5) if max(times) < WIDE * min(times) else (1,)
+    axes.xaxis.set_major_locator(FixedLocator([mark * 10.0**power for power in range(-4, 4) for mark in marks]))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda time, _: f"{time:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.grid(alpha=0.25)
