@@ -15,6 +15,9 @@ use std::time::Instant;
 /// Time steps of a communication step.
 const STEPS: f64 = 50.0;
 
+/// Communication steps that are timed; the quickest counts.
+const ROUNDS: usize = 40;
+
 /// Ten by ten by ten spheres between planes, pressed by the upper one.
 const PRESSED: &str = r#"
 [run]
@@ -48,15 +51,11 @@ fn model(name: &str) -> Source {
     Source { name: name.into(), text, files: BTreeMap::from([("bed.csv.gz".into(), read("bed.csv.gz"))]) }
 }
 
-/// The quickest of some times \[s\] that something took after a communication step.
-fn quickest(simulation: &mut Simulation, length: f64, mut work: impl FnMut(&mut Simulation)) -> f64 {
-    let times = (0..20).map(|_| {
-        simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
-        let begun = Instant::now();
-        work(simulation);
-        begun.elapsed().as_secs_f64()
-    });
-    times.fold(f64::INFINITY, f64::min)
+/// How long something takes \[s\].
+fn time(work: impl FnOnce()) -> f64 {
+    let begun = Instant::now();
+    work();
+    begun.elapsed().as_secs_f64()
 }
 
 /// Prints the cost of a derivative in a scene, for one input and for as many as are followed at a time.
@@ -67,12 +66,16 @@ fn tell(source: &Source, step: f64, boundary: &str) {
     let boundary = BoundaryIndex(place as u32);
     let mut simulation = Simulation::new(scene).expect("the scene starts");
     let length = STEPS * step;
-    let once = quickest(&mut simulation, length, |it| it.advance_or_return(length).expect("it runs"));
     for inputs in [1, DIRECTIONS] {
         let inputs = vec![(boundary, 2); inputs];
-        let cost = quickest(&mut simulation, length, |it| {
-            black_box(it.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
-        });
+        let (mut once, mut cost) = (f64::INFINITY, f64::INFINITY);
+        // By turns, so that both have the same share of a machine's slow moments.
+        for _ in 0..ROUNDS {
+            once = once.min(time(|| simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"))));
+            cost = cost.min(time(|| {
+                black_box(simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+            }));
+        }
         let (count, steps) = (inputs.len(), cost / once);
         println!(
             "{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input",
