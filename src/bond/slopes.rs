@@ -32,7 +32,7 @@ impl Law {
     ) -> Option<Sloped<N>> {
         let respond = self.formulation.visit(self.asked(), TakeSloped(PhantomData));
         let (motion, elastic) = respond(law, pair, rows);
-        // Nothing is broken by a slope.
+        // Values alone decide whether a bond breaks.
         if !self.breakage.is_empty() && self.judge(&values(&elastic.loaded(&motion))) != 0.0 {
             return None;
         }

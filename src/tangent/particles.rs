@@ -7,7 +7,7 @@ use crate::lanes::{Kernel, Lane, add_eight, run};
 use crate::number::{Number, Vector};
 use crate::state::{Particles, State};
 
-/// How a vector changes that does not.
+/// The slopes of a vector that does not change.
 const NO_VECTOR: VectorSlopes = [[0.0; DIRECTIONS]; 3];
 
 /// How a vector changes.
@@ -111,14 +111,14 @@ impl ParticleSlopes {
     /// Position with radius and velocity with mass of a particle, with their slopes.
     #[inline(always)]
     pub(crate) fn body<N: Lane>(&self, particles: &Particles, slot: usize) -> [[Dual<N>; 4]; 2] {
-        let position = with(particles.position[slot], &self.position[slot]);
-        [position, with(particles.velocity[slot], &self.velocity[slot])]
+        let position = row_of(particles.position[slot], &self.position[slot]);
+        [position, row_of(particles.velocity[slot], &self.velocity[slot])]
     }
 
     /// Angular velocity with inertia of a particle, with its slopes.
     #[inline(always)]
     pub(crate) fn spin<N: Lane>(&self, particles: &Particles, slot: usize) -> [Dual<N>; 4] {
-        with(particles.angular_velocity[slot], &self.spin[slot])
+        row_of(particles.angular_velocity[slot], &self.spin[slot])
     }
 
     /// Adds to the slopes of the force on a particle, which is reached then.
@@ -136,9 +136,9 @@ impl ParticleSlopes {
     }
 }
 
-/// A row of a vector and of a number that does not change, with the slopes of the vector.
+/// A vector with its slopes, and behind it a number that does not change.
 #[inline(always)]
-fn with<N: Lane>([x, y, z, rest]: [f64; 4], [dx, dy, dz]: &VectorSlopes) -> [Dual<N>; 4] {
+fn row_of<N: Lane>([x, y, z, rest]: [f64; 4], [dx, dy, dz]: &VectorSlopes) -> [Dual<N>; 4] {
     [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::splat(rest)]
 }
 
