@@ -112,7 +112,7 @@ fn of_body(
     fields: &Fields,
     step: f64,
 ) -> [f64; Source::COUNT] {
-    let [drift, turn] = body.mean_motion(moved, step);
+    let ([drift, turn], added_work) = body.mean_motion(moved, step);
     let power = |force: Vector, moment: Vector| 0.5 * step * (force.dot(drift) + moment.dot(turn));
     let mut sum = [0.0; Source::COUNT];
     // Damping acts on the group as a whole.
@@ -132,7 +132,7 @@ fn of_body(
     let [weight, applied] = fields.on_body(body, moved, particles);
     let [x, y, z, a, b, c] = moved.inertial.support;
     sum[Source::Support as usize] = power(Vector::new(x, y, z), Vector::new(a, b, c));
-    sum[Source::AddedInertia as usize] = body.added_work(moved, step);
+    sum[Source::AddedInertia as usize] = added_work;
     sum[Source::Damping as usize] = power(moved.inertial.braking_force.into(), moved.inertial.braking_moment.into());
     sum[Source::Gravity as usize] = power(weight[0], weight[1]);
     sum[Source::Applied as usize] = power(applied[0], applied[1]);

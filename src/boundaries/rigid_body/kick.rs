@@ -55,8 +55,14 @@ impl RigidBody {
     fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
         let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
         let before = Vector::from(inertial.angular_momentum);
-        let added = implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step);
-        if added == [0.0; 21] {
+        // Looked at where it stands: most bodies have nothing added, and what was just computed would be waited for.
+        let soft = inertial.stiffness == [0.0; 21] && inertial.damping == [0.0; 21];
+        let added = if soft {
+            [0.0; 21]
+        } else {
+            implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step)
+        };
+        if soft || added == [0.0; 21] {
             let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
             let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
             let momentum = before + self.twist(moved, step);
@@ -112,18 +118,13 @@ impl RigidBody {
         [shift, Vector::new(a, b, c), shift * self.mass - force]
     }
 
-    /// Power of what is added to its inertia, as work of the half kick that is about to be made \[J\].
-    pub(crate) fn added_work(&self, moved: &BoundaryState, step: f64) -> f64 {
-        let [x, y, z, a, b, c] = self.kicked(moved, step).added;
-        let [drift, turn] = self.mean_motion(moved, step);
-        drift.dot(Vector::new(x, y, z)) + turn.dot(Vector::new(a, b, c))
-    }
-
-    /// Mean of the motion of the free axes before and after half a kick with the present load.
-    pub(crate) fn mean_motion(&self, moved: &BoundaryState, step: f64) -> Motion {
-        let after = self.kicked(moved, step).motion;
+    /// Mean of the motion of the free axes before and after half a kick with the present load, and the work of what is
+    /// added to the inertia in it \[J\].
+    pub(crate) fn mean_motion(&self, moved: &BoundaryState, step: f64) -> (Motion, f64) {
+        let Kick { motion: after, added: [x, y, z, a, b, c], .. } = self.kicked(moved, step);
         let before = self.kicked(moved, 0.0).motion;
-        [0, 1].map(|part| (before[part] + after[part]) * 0.5)
+        let [drift, turn] = [0, 1].map(|part| (before[part] + after[part]) * 0.5);
+        ([drift, turn], drift.dot(Vector::new(x, y, z)) + turn.dot(Vector::new(a, b, c)))
     }
 
     /// Largest speed that one of its spheres can have after half a kick with the present load \[m/s\].
