@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -13,7 +13,7 @@ from cograin.partner import Partner
 from cograin.progress import Progress
 from cograin.record import Record, Row
 from cograin.step import Outcome, Step
-from cograin.unit import StepDiscarded
+from cograin.unit import StepDiscarded, Unit
 from cograin.vector import Vector, vector
 
 #: What is recorded beside the columns of every record: names of a unit's variables, or names with what gives a value.
@@ -81,10 +81,10 @@ class Coupling:
         self.exchange = exchange
         self.step = step
         self.control = control or StepControl()
-        self._watch = self._reading(watch)
+        watched, self._read_watched = self._reading(watch)
         names = interface.names
         forces = [_force_name(name, exchange.force) for name in names]
-        self.record = Record(names, forces, list(self._watch))
+        self.record = Record(names, forces, watched)
         self._start = interface.time
         self._place = 0.0  # in steps since the start, exact
         self._level = 0  # how often the step is halved now
@@ -194,7 +194,7 @@ class Coupling:
             abs(on_partner),
             outcome.displacement,
             outcome.force,
-            tuple(read() for read in self._watch.values()),
+            tuple(self._read_watched()),
             outcome.reason,
         )
         self.record.rows.append(row)
@@ -221,19 +221,24 @@ class Coupling:
                 "give the unit its inputs at the start, or place the partner"
             )
 
-    def _reading(self, watch: Watch) -> dict[str, Callable[[], float]]:
-        """A function for each watched name that returns its value."""
+    def _reading(self, watch: Watch) -> tuple[list[str], Callable[[], Iterable[float]]]:
+        """The watched names, and a function that returns all their values."""
         if isinstance(watch, Mapping):
-            return dict(watch)
+            functions = list(watch.values())
+            return list(watch), lambda: (read() for read in functions)
         units = {unit.name: unit for unit in getattr(self.interface, "units", [])}
-        found: dict[str, Callable[[], float]] = {}
-        for name in watch:
+        found: list[tuple[Unit, str]] = []
+        watched = list(dict.fromkeys(watch))
+        for name in watched:
             first, _, rest = name.partition(".")
             several = len(units) > 1 and first in units
-            unit, variable = (units[first], rest) if several else (next(iter(units.values())), name)
-            unit.variable(variable)
-            found[name] = lambda unit=unit, variable=variable: unit.number(variable)  # type: ignore[misc]
-        return found
+            found.append((units[first], rest) if several else (next(iter(units.values())), name))
+        kinds = {unit.variable(variable).type for unit, variable in found}
+        if kinds == {"Real"} and len({id(unit) for unit, _ in found}) == 1:
+            # One call for all of them: on a small scene each call costs as much as several time steps.
+            unit, names = found[0][0], tuple(variable for _, variable in found)
+            return watched, lambda: unit.get(names).tolist()
+        return watched, lambda: (unit.number(variable) for unit, variable in found)
 
 
 def couple(

@@ -19,9 +19,11 @@ class Progress:
         """Another step is done."""
         self._steps += 1
         self._evaluations += evaluations
+        if not self._shown:
+            return
         clock = time.monotonic()
         done = now >= self._end - 1e-9 * (self._end - self._begin)
-        if not self._shown or (clock - self._written < 0.1 and not done):
+        if clock - self._written < 0.1 and not done:
             return
         self._written = clock
         share = (now - self._begin) / (self._end - self._begin)
