@@ -34,24 +34,24 @@ fn at_step<N: Lane>(law: &Law, step: Dual) -> Coefficients<Dual<N>> {
     Coefficients { step: Dual::new(step.value, &step.slopes), ..law.elasticity.at_step(step.value) }
 }
 
-/// What a bond does, with slopes; those of its rows go on. The first so many `fixed` rows never change.
+/// What a bond does, with slopes; those of its rows go on. The first so many `fixed` rows never change. `rows` is room for them.
 #[inline(always)]
 fn react<N: Lane>(
     law: &Law,
     coefficients: &Coefficients<Dual<N>>,
     pair: &Pair<Dual<N>>,
+    rows: &mut Rows<Dual<N>>,
     (list, slopes, bond, fixed): (&BondList, &mut ListSlopes, usize, usize),
 ) -> Option<Sloped<N>> {
-    let mut rows: Rows<Dual<N>> = [[Dual::zero(); 4]; MOST_ROWS];
     for (place, (row, values)) in rows.iter_mut().zip(&list.rows).enumerate() {
         *row = match place < fixed {
             true => values[bond].map(Dual::splat),
             false => Dual::row(values[bond], &slopes.rows[place][bond]),
         };
     }
-    let found = law.react_with_slopes(coefficients, pair, &mut rows);
-    for (slopes, row) in slopes.rows.iter_mut().zip(rows).skip(fixed) {
-        slopes[bond] = if found.is_some() { Dual::slopes_of(row) } else { NONE };
+    let found = law.react_with_slopes(coefficients, pair, rows);
+    for (slopes, row) in slopes.rows.iter_mut().zip(&*rows).skip(fixed) {
+        slopes[bond] = if found.is_some() { Dual::slopes_of(*row) } else { NONE };
     }
     found
 }
@@ -77,13 +77,14 @@ impl Kernel for AddSlopes<'_, &BondPass> {
         let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let (slopes, moved) = (&mut tangent.bonds[pass.index], &mut tangent.particles);
         let (coefficients, fixed) = (at_step::<N>(&pass.law, step), pass.law.one_bond().fixed_rows);
+        let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let (i, j) = (i as usize, j as usize);
             if !moved.reached[i] && !moved.reached[j] {
                 continue;
             }
             let pair = Pair::of_spheres(&body(moved, particles, i), &body(moved, particles, j));
-            if let Some(found) = react(&pass.law, &coefficients, &pair, (list, slopes, bond, fixed)) {
+            if let Some(found) = react(&pass.law, &coefficients, &pair, &mut rows, (list, slopes, bond, fixed)) {
                 moved.load(i, found.force, found.torque_i);
                 moved.load(j, -found.force, found.torque_j);
             }
@@ -100,6 +101,7 @@ impl Kernel for AddSlopes<'_, &WallBondPass> {
         let (slopes, boundary) = (&mut bonds[pass.index], &mut boundaries[pass.boundary.index()]);
         let (coefficients, moves) = (at_step::<N>(&pass.law, step), boundary.is_moved());
         let fixed = pass.law.one_bond().fixed_rows;
+        let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
         for (bond, &slot) in list.first.iter().enumerate() {
             let slot = slot as usize;
             if !moves && !moved.reached[slot] {
@@ -116,7 +118,7 @@ impl Kernel for AddSlopes<'_, &WallBondPass> {
                 inertia: Dual::splat(at.inertia),
             };
             let pair = Pair::at_wall(&body(moved, particles, slot), &foot);
-            if let Some(found) = react(&pass.law, &coefficients, &pair, (list, slopes, bond, fixed)) {
+            if let Some(found) = react(&pass.law, &coefficients, &pair, &mut rows, (list, slopes, bond, fixed)) {
                 moved.load(slot, found.force, found.torque_i);
                 let arm = Vector::from(list.foot[bond]) - pass.reference;
                 let arm = Vector::new(Dual::splat(arm.x), Dual::splat(arm.y), Dual::splat(arm.z));

@@ -289,40 +289,53 @@ impl Law {
     pub fn react<N: OneContact>(
         &self,
         row: &[f64],
-        contact: Contact<N>,
+        mut contact: Contact<N>,
         history: &mut [[N; 4]],
         step: N,
     ) -> Reaction<N> {
-        let (contact, carry, normal) = self.press(row, contact, history, step);
-        let (force, couple, sliding) = self.friction(row, &contact, &normal, normal.force, history, (step, carry));
-        let rolling = self.roll(row, &contact, &normal, history, (step, carry));
+        self.react_where_it_stands(row, &mut contact, history, step)
+    }
+
+    /// The same, where the contact stands: with slopes it is too large to be copied. It gets the velocities that dashpots
+    /// see.
+    #[inline(always)]
+    pub(crate) fn react_where_it_stands<N: OneContact>(
+        &self,
+        row: &[f64],
+        contact: &mut Contact<N>,
+        history: &mut [[N; 4]],
+        step: N,
+    ) -> Reaction<N> {
+        let (carry, normal) = self.press(row, contact, history, step);
+        let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, (step, carry));
+        let rolling = self.roll(row, contact, &normal, history, (step, carry));
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// The normal force of one contact, with the velocities that dashpots see, and how it was carried: all of [`Law::react`] where
-    /// bodies feel no torque.
+    /// How one contact was carried, and its normal force: all of [`Law::react`] where bodies feel no torque. It gets the velocities
+    /// that dashpots see.
     #[inline(always)]
     pub(crate) fn press<N: OneContact>(
         &self,
         row: &[f64],
-        mut contact: Contact<N>,
+        contact: &mut Contact<N>,
         history: &mut [[N; 4]],
         step: N,
-    ) -> (Contact<N>, Option<Carry<N>>, NormalForce<N>) {
+    ) -> (Option<Carry<N>>, NormalForce<N>) {
         if self.undeformed_arms() {
-            contact = contact.with_undeformed_arms();
+            *contact = contact.with_undeformed_arms();
         }
-        let carry = self.carry(&mut contact, history, step);
+        let carry = self.carry(contact, history, step);
         let (acting, mut none) = (N::acting(self), [N::zero(); 4]);
         let remembered = match self.history_places.normal {
             Some(place) => &mut history[place],
             None => &mut none,
         };
-        let mut normal = (acting.normal)(row, &contact, remembered, step);
+        let mut normal = (acting.normal)(row, contact, remembered, step);
         if self.cohesion.active {
-            (acting.cohesion)(&row[self.places.cohesion..], &contact, &mut normal);
+            (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
         }
-        (contact, carry, normal)
+        (carry, normal)
     }
 
     /// The same of a contact that a bond suppresses, or has suppressed. The elastic force is taken from the overlap beyond the

@@ -18,7 +18,7 @@ pub(super) struct Touching<P, const TURNING: bool>(pub(super) P);
 pub(super) fn react<N: Lane, const TURNING: bool>(
     law: &Law,
     row: &[f64],
-    contact: Contact<Dual<N>>,
+    contact: &mut Contact<Dual<N>>,
     (history, slopes, entry): (&[Vec<Row>], &mut ListSlopes, usize),
     (rows, step): (&mut [[Dual<N>; 4]; MOST_HISTORY], Dual<N>),
 ) -> Reaction<Dual<N>> {
@@ -27,9 +27,9 @@ pub(super) fn react<N: Lane, const TURNING: bool>(
         *row = Dual::row(values[entry], &slopes[entry]);
     }
     let reaction = if TURNING {
-        law.react(row, contact, rows, step)
+        law.react_where_it_stands(row, contact, rows, step)
     } else {
-        let (contact, _, normal) = law.press(row, contact, rows, step);
+        let (_, normal) = law.press(row, contact, rows, step);
         let force = contact.normal * normal.force;
         Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: false }
     };
@@ -111,11 +111,11 @@ impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<&ContactPass, TURNIN
             let spins = [i, j].map(|slot| if TURNING { moved.spin(particles, slot) } else { [Dual::zero(); 4] });
             let geometry = SpherePair::of([p, q]).meet([v, u], spins, Dual::splat(constant));
             let values = near.meet([particles.velocity[i], particles.velocity[j]], [[0.0; 4]; 2], constant).contact;
-            let ContactGeometry { contact, first_arm, second_arm } =
+            let ContactGeometry { mut contact, first_arm, second_arm } =
                 needed::<N, TURNING>(geometry, &values, pass.law.needs);
             let row = pass.table.row(particles.material[i], particles.material[j]);
             let Reaction { force, couple, rolling, .. } =
-                react::<N, TURNING>(law, row, contact, (&list.history, slopes, entry), (&mut rows, step));
+                react::<N, TURNING>(law, row, &mut contact, (&list.history, slopes, entry), (&mut rows, step));
             if TURNING {
                 moved.load(i, force, -(couple * first_arm) - rolling);
                 moved.load(j, -force, rolling - couple * second_arm);

@@ -69,10 +69,11 @@ impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<(&AtSurface, Plane),
             let body = [particles.position[slot], particles.velocity[slot]];
             let at = [plane.distance(body[0]), body[0][3]];
             let values = plane.meet(at, [body[1], [0.0; 4]], constant).contact;
-            let ContactGeometry { contact, first_arm, .. } = needed::<N, TURNING>(geometry, &values, surface.law.needs);
+            let ContactGeometry { mut contact, first_arm, .. } =
+                needed::<N, TURNING>(geometry, &values, surface.law.needs);
             let row = surface.row(state, slot as u32);
             let Reaction { force, couple, rolling, .. } =
-                react::<N, TURNING>(law, row, contact, (&list.history, slopes, entry), (&mut rows, step));
+                react::<N, TURNING>(law, row, &mut contact, (&list.history, slopes, entry), (&mut rows, step));
             if TURNING {
                 moved.load(slot, force, -(couple * first_arm) - rolling);
             } else {
