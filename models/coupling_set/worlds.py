@@ -44,6 +44,8 @@ class Rough:
     velocity: float = 0.0  # of the spheres as they begin, along z [m/s]
     density: float = DENSITY  # [kg/m³]
 
+    told = OverFloor.told
+
 
 @dataclass(frozen=True)
 class Row:

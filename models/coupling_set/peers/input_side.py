@@ -7,6 +7,8 @@ from worlds import Row
 
 from peers import ParticleSide
 
+CALMING = 0.5  # of spheres that come to rest, as by a fluid [kg/s]
+
 # Where the driven end of a row, or a floor, stands: a step moves it from `begin` on at a constant `rate` for each time
 # step.
 PLACE = """

@@ -6,10 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from peers.input_side import PLACE, InputSide
+from peers.input_side import CALMING, PLACE, InputSide
 from worlds import OverFloor, Rough, Row
-
-CALMING = 0.5  # of spheres that come to rest, as by a fluid [kg/s]
 
 message_passing = Path(sys.prefix) / "lib" / "libmpi.so.12"
 if message_passing.exists():  # of the package mpich, where the machine has none

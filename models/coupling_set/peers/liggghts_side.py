@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from peers.input_side import InputSide
+from peers.input_side import CALMING, InputSide
+from worlds import OverFloor, Rough, Row
 
 library = ctypes.CDLL("libliggghts.so.3", mode=ctypes.RTLD_GLOBAL)
 library.lammps_extract_atom.restype = ctypes.c_void_p
@@ -16,10 +17,13 @@ class Side(InputSide):
     """Spheres in LIGGGHTS."""
 
     ends_all = True
+    worlds = (OverFloor, Rough, Row)
 
     def __init__(self, problem):
-        #: How far the floor reaches. Every run looks for neighbours anew, which takes the longer, the larger the space.
-        self.low, self.high = (-0.1, 0.35) if getattr(problem.world(), "width", 0.0) else (-0.3, 0.9)
+        #: How far the floor reaches, a triangle under the whole box. Every run looks for neighbours anew, which takes the longer,
+        #: the larger the space.
+        width = getattr(problem.world(), "width", 0.0)
+        self.low, self.high = (-0.1, 2.0 * width + 0.15) if width else (-0.3, 0.9)
         words = (ctypes.c_char_p * 5)(b"liggghts", b"-log", b"none", b"-screen", b"/dev/null")
         self.handle = ctypes.c_void_p()
         library.lammps_open_no_mpi(5, words, ctypes.byref(self.handle))
@@ -32,9 +36,27 @@ class Side(InputSide):
         reach = f"{self.low - 0.01} {self.high + 0.01}"
         return f"region space block {reach} {reach} -0.3 0.5 units box"
 
+    def _contact(self):
+        """The law of its contacts, and the coefficients of it: the first material is rough, the second is smooth."""
+        world = self.world
+        if isinstance(world, Rough):
+            return "model hertz tangential history", f"""
+                fix youngs all property/global youngsModulus peratomtype {world.youngs_modulus} {world.youngs_modulus}
+                fix poisson all property/global poissonsRatio peratomtype {world.poissons_ratio} {world.poissons_ratio}
+                fix bounce all property/global coefficientRestitution peratomtypepair 2 {_pairs(world.restitution)}
+                fix slip all property/global coefficientFriction peratomtypepair 2 {world.friction} 0.0 0.0 0.0
+            """
+        return "model hooke/stiffness tangential off", f"""
+            fix stiffness all property/global kn peratomtypepair 2 {_pairs(world.stiffness)}
+            fix sideways all property/global kt peratomtypepair 2 {_pairs(0.0)}
+            fix damping all property/global gamman peratomtypepair 2 {_pairs(world.damping)}
+            fix friction all property/global gammat peratomtypepair 2 {_pairs(0.0)}
+            fix slip all property/global coefficientFriction peratomtypepair 2 {_pairs(0.0)}
+        """
+
     def _open_floor(self):
         world = self.world
-        contact = "model hooke/stiffness tangential off"
+        contact, coefficients = self._contact()
         self.say(f"""
             units si
             atom_style granular
@@ -42,21 +64,16 @@ class Side(InputSide):
             boundary f f f
             newton off
             communicate single vel yes
-            {self.space}
-            create_box 1 space
+            read_data {self._spheres()}
             neighbor 0.002 bin
             neigh_modify delay 0 every 1 check yes
             hard_particles yes
-            fix stiffness all property/global kn peratomtypepair 1 {world.stiffness}
-            fix sideways all property/global kt peratomtypepair 1 0.0
-            fix damping all property/global gamman peratomtypepair 1 {world.damping}
-            fix friction all property/global gammat peratomtypepair 1 0.0
-            fix slip all property/global coefficientFriction peratomtypepair 1 0.0
+        """)
+        self.say(coefficients)
+        self.say(f"""
             pair_style gran {contact}
             pair_coeff * *
-        """)
-        self._add_spheres()
-        self.say(f"""
+            velocity all set 0 0 {world.velocity!r} units box
             fix floor all mesh/surface/stress file {self._mesh()} type 1
             fix wall all wall/gran {contact} mesh n_meshes 1 meshes floor
             variable none equal 0.0
@@ -67,9 +84,16 @@ class Side(InputSide):
         for axis in ("x", "y") if world.width else ():
             for place in (0.0, world.width):
                 name = f"{axis}{place:g}".replace(".", "_")
-                self.command(f"fix {name} all wall/gran {contact} primitive type 1 {axis}plane {place!r}")
+                self.command(f"fix {name} all wall/gran {contact} primitive type 2 {axis}plane {place!r}")
         if world.gravity:
             self.command(f"fix weight all gravity {world.gravity} vector 0 0 -1")
+        if getattr(world, "settling", 0):
+            self.say(f"""
+                timestep {world.time_step!r}
+                fix calm all viscous {CALMING}
+                run {world.settling} post no
+                unfix calm
+            """)
 
     def _mesh(self):
         """A file with the floor, a triangle."""
@@ -79,12 +103,20 @@ class Side(InputSide):
         path.write_text(f"solid f\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid f\n")
         return path
 
-    def _add_spheres(self):
-        """Those of the problem, all of one size."""
-        for x, y, z, _ in self.world.spheres:
-            self.command(f"create_atoms 1 single {x!r} {y!r} {z!r} units box")
-        self.command(f"set group all diameter {2.0 * self.world.spheres[0][3]!r} density {self.world.density!r}")
-        self.command(f"velocity all set 0 0 {self.world.velocity!r} units box")
+    def _spheres(self):
+        """A file with those of the problem: number, kind, diameter, density, place."""
+        spheres, low, high = self.world.spheres, self.low - 0.01, self.high + 0.01
+        lines = [f"{low} {high} {axis}lo {axis}hi" for axis in "xy"] + ["-0.3 0.5 zlo zhi", "", "Atoms", ""]
+        for number, (x, y, z, radius) in enumerate(spheres, 1):
+            lines.append(f"{number} 1 {2.0 * radius!r} {self.world.density!r} {x!r} {y!r} {z!r}")
+        path = Path(self.folder.name) / "spheres.data"
+        path.write_text("\n".join(["spheres", "", f"{len(spheres)} atoms", "2 atom types", "", *lines, ""]))
+        return path
+
+    def masses(self):
+        """Of the spheres, in the order of `atoms` [kg]."""
+        found = library.lammps_extract_atom(self.handle, b"rmass")
+        return np.ctypeslib.as_array(ctypes.cast(found, ctypes.POINTER(ctypes.c_double)), (len(self.world.spheres),))
 
     def command(self, text):
         """One line of its input."""
@@ -111,3 +143,8 @@ class Side(InputSide):
         """Ends it."""
         library.lammps_close(self.handle)
         self.folder.cleanup()
+
+
+def _pairs(value):
+    """A coefficient of all pairs of two materials."""
+    return " ".join([str(value)] * 4)

@@ -1,7 +1,7 @@
 """Spheres in YADE; run by its own interpreter: ``yade -j1 -n -x yade_program.py FOLDER``."""
 
 import sys
-from math import pi
+from math import atan, pi, sqrt
 
 sys.path.insert(0, sys.argv[-1])
 
@@ -12,22 +12,30 @@ from yade.wrapper import (
     Bo1_Wall_Aabb,
     CohFrictMat,
     ForceResetter,
+    FrictMat,
     Ig2_Sphere_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom6D,
     Ig2_Wall_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
     Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_FrictMat_FrictMat_MindlinPhys,
     Ip2_ViscElMat_ViscElMat_ViscElPhys,
     Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_MindlinPhys_Mindlin,
     Law2_ScGeom_ViscElPhys_Basic,
+    MatchMaker,
     NewtonIntegrator,
     ViscElMat,
 )
 
+CALMING = 0.5  # share of the force that brakes spheres which come to rest
+
 
 class World:
-    """What both worlds have: a body that is driven and one that is watched, along one axis."""
+    """What all worlds have: a body that is driven and one that is watched, along one axis."""
+
+    first_step = 0.0  # which finds the forces of the beginning [s]
 
     def run(self, settings, collider, loop, gravity=0.0):
         """Puts its engines together."""
@@ -39,7 +47,7 @@ class World:
             loop,
         ]
         # The forces of the beginning, before anything moves.
-        O.dt = 0.0
+        O.dt = self.first_step
         O.step()
         O.dt = settings["time_step"]
         self.gravity = gravity
@@ -86,12 +94,7 @@ class OverFloor(World):
         touching = {"kn": 2.0 * settings["stiffness"], "ks": 0.0, "cs": 0.0, "frictionAngle": 0.0, "density": density}
         ball = O.materials.append(ViscElMat(cn=settings["damping"] * mass, **touching))
         solid = O.materials.append(ViscElMat(cn=1e30 if settings["damping"] else 0.0, **touching))
-        self.watched = O.bodies.append([utils.sphere(tuple(each[:3]), each[3], material=ball) for each in spheres])[0]
-        self.driven = O.bodies.append(utils.wall(0.0, axis=2, sense=1, material=solid))
-        for axis in (0, 1) if width else ():
-            O.bodies.append(utils.wall(0.0, axis=axis, sense=1, material=solid))
-            O.bodies.append(utils.wall(width, axis=axis, sense=-1, material=solid))
-        collider = InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * spheres[0][3])
+        collider = self.fill(spheres, width, ball, solid, solid)
         found = [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()]
         law = Law2_ScGeom_ViscElPhys_Basic()
         self.run(settings, collider, InteractionLoop(found, [Ip2_ViscElMat_ViscElMat_ViscElPhys()], [law]), gravity)
@@ -99,6 +102,46 @@ class OverFloor(World):
             if body.dynamic:
                 rate = O.forces.f(number)[2] / body.state.mass - gravity
                 body.state.vel = Vector3(0, 0, settings["velocity"] - 0.5 * O.dt * rate)
+
+
+    def fill(self, spheres, width, ball, floor, wall):
+        """Adds spheres, floor and walls of these materials; returns what finds neighbours."""
+        self.watched = O.bodies.append([utils.sphere(tuple(each[:3]), each[3], material=ball) for each in spheres])[0]
+        self.driven = O.bodies.append(utils.wall(0.0, axis=2, sense=1, material=floor))
+        for axis in (0, 1) if width else ():
+            O.bodies.append(utils.wall(0.0, axis=axis, sense=1, material=wall))
+            O.bodies.append(utils.wall(width, axis=axis, sense=-1, material=wall))
+        smallest = min(each[3] for each in spheres)
+        return InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * smallest)
+
+
+class Rough(OverFloor):
+    """Spheres by Hertz with friction over a wall as rough as they, between smooth ones."""
+
+    first_step = 1e-12  # its law divides by the step
+
+    def __init__(self, settings):
+        modulus, restitution = settings["youngs_modulus"], settings["restitution"]
+        same = {"poisson": settings["poissons_ratio"], "density": settings["density"]}
+        angle = atan(settings["friction"])
+        # At a wall it takes half of the sphere's radius for the effective one; a stiffer wall makes up for the root of 2.
+        hard = modulus / (sqrt(2.0) - 1.0)
+        ball = O.materials.append(FrictMat(young=modulus, frictionAngle=angle, **same))
+        floor = O.materials.append(FrictMat(young=hard, frictionAngle=angle, **same))
+        wall = O.materials.append(FrictMat(young=hard, frictionAngle=0.0, **same))
+        collider = self.fill(settings["spheres"], settings["width"], ball, floor, wall)
+        found = [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()]
+        bounce = [MatchMaker(algo="val", val=restitution) for _ in range(2)]
+        pressing = Ip2_FrictMat_FrictMat_MindlinPhys(en=bounce[0], es=bounce[1])
+        self.run(
+            settings,
+            collider,
+            InteractionLoop(found, [pressing], [Law2_ScGeom_MindlinPhys_Mindlin()]),
+            settings["gravity"],
+        )
+        O.engines[0].damping = CALMING
+        O.run(settings["settling"], True)
+        O.engines[0].damping = 0.0
 
 
 class Row(World):
@@ -127,4 +170,4 @@ class Row(World):
         O.bodies[self.watched].state.vel = Vector3(settings["speed"], 0, 0)
 
 
-serve(lambda settings: {"OverFloor": OverFloor, "Row": Row}[settings["kind"]](settings))
+serve(lambda settings: {"OverFloor": OverFloor, "Rough": Rough, "Row": Row}[settings["kind"]](settings))

@@ -3,6 +3,7 @@
 import shutil
 
 from peers.process import HERE, Process
+from worlds import OverFloor, Rough, Row
 
 PROGRAM = shutil.which("yade")
 if PROGRAM is None:
@@ -13,6 +14,7 @@ class Side(Process):
     """Spheres in YADE. It can restore a state of its memory, so it can be had in repeated exchanges, too."""
 
     can_restore = True
+    worlds = (OverFloor, Rough, Row)
 
     def __init__(self, problem):
         super().__init__([PROGRAM, "-j1", "-n", "-x", HERE / "yade_program.py", HERE], problem)
