@@ -95,7 +95,7 @@ fn one_by_one(law: &BatchLaw, rows: &[f64]) -> Vec<(Vec<Row>, u8)> {
     let one = |place: usize| {
         let entry = (place * 3) % COUNT;
         let mut history: Vec<Row> = (0..law.law.history().len()).map(|row| before(entry, row)).collect();
-        let reaction = law.law.react(rows, corners()[place % 5], &mut history, 0.5);
+        let reaction = law.law.react(rows, &mut corners()[place % 5], &mut history, 0.5);
         let mut found = vec![of(reaction.force)];
         if law.needs.torque {
             found.push(of(reaction.couple));

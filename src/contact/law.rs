@@ -284,22 +284,10 @@ impl Law {
         Switches::read(&row[self.normal.count..])
     }
 
-    /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\].
+    /// Force and torque of one contact, which gets the velocities that dashpots see; `history`, as many rows as [`Law::history`],
+    /// is advanced by `step` \[s\].
     #[inline(always)]
     pub fn react<N: OneContact>(
-        &self,
-        row: &[f64],
-        mut contact: Contact<N>,
-        history: &mut [[N; 4]],
-        step: N,
-    ) -> Reaction<N> {
-        self.react_where_it_stands(row, &mut contact, history, step)
-    }
-
-    /// The same, where the contact stands: with slopes it is too large to be copied. It gets the velocities that dashpots
-    /// see.
-    #[inline(always)]
-    pub(crate) fn react_where_it_stands<N: OneContact>(
         &self,
         row: &[f64],
         contact: &mut Contact<N>,

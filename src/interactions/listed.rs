@@ -112,8 +112,8 @@ pub(crate) fn near_switch(list: &impl Listed, state: &State, step: f64, margin: 
     let is_near = |entry: &usize| {
         let Some(Met { contact, row, .. }) = list.meet(state, *entry, margin, Motion::Present) else { return false };
         let slides = |share: f64| {
-            let contact = Contact { overlap: share * contact.overlap, ..contact };
-            law.react(row, contact, &mut records::history(kept.history, *entry), step).sliding
+            let mut contact = Contact { overlap: share * contact.overlap, ..contact };
+            law.react(row, &mut contact, &mut records::history(kept.history, *entry), step).sliding
         };
         contact.overlap.abs() < margin || slides(1.0 - SLIGHT) != slides(1.0 + SLIGHT)
     };

@@ -143,7 +143,7 @@ pub(crate) fn react(
     if sliding && law.spring().is_some() && !law.limits_dashpot() {
         contact.slip = Vector::zero();
     }
-    (law.react(row, contact, &mut history(lists, entry), 0.0), sliding)
+    (law.react(row, &mut contact, &mut history(lists, entry), 0.0), sliding)
 }
 
 /// The spring of a contact.

@@ -27,7 +27,7 @@ pub(super) fn react<N: Lane, const TURNING: bool>(
         *row = Dual::row(values[entry], &slopes[entry]);
     }
     let reaction = if TURNING {
-        law.react_where_it_stands(row, contact, rows, step)
+        law.react(row, contact, rows, step)
     } else {
         let (_, normal) = law.press(row, contact, rows, step);
         let force = contact.normal * normal.force;

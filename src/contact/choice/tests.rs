@@ -39,7 +39,7 @@ fn every_law_is_finite_at_the_corners() {
         for row in [row, law_of(&choice, 1.0).1].into_iter().chain(nothing) {
             for contact in corners() {
                 let mut history = history(&law, SPRING);
-                let reaction = law.react(&row, contact, &mut history, 0.5);
+                let reaction = law.react(&row, &mut contact.clone(), &mut history, 0.5);
                 let found = numbers(&reaction, &history);
                 assert!(found.iter().all(|number| number.is_finite()), "{found:?} of {choice:?} at {contact:?}");
             }
@@ -59,7 +59,7 @@ fn what_a_bond_suppresses_comes_back_without_a_jump_in_every_law() {
             let nothing = Contact { overlap: 0.0, section_area: 0.0, ..contact };
             let whole = Offset { pressing: contact.overlap, acts: true, contact: nothing };
             let mut remembered = history(&law, SPRING);
-            let open = law.react(&row, contact, &mut remembered, 0.5);
+            let open = law.react(&row, &mut contact.clone(), &mut remembered, 0.5);
             let (found, after) = beyond(&contact, whole);
             let claim = "without an offset nothing is suppressed";
             assert_eq!(numbers(&found, &after), numbers(&open, &remembered), "{claim}");

@@ -37,7 +37,7 @@ fn law(choice: LawChoice) -> (Law, Vec<f64>) {
 fn react(choice: LawChoice, normal_velocity: f64) -> Reaction {
     let (law, row) = law(choice);
     let mut history = vec![[0.0; 4]; law.history().len()];
-    law.react(&row, Contact { normal_velocity, ..contact() }, &mut history, 0.0)
+    law.react(&row, &mut Contact { normal_velocity, ..contact() }, &mut history, 0.0)
 }
 
 /// k_n δ of the fixture's contact.

@@ -128,13 +128,13 @@ impl Stand<'_> {
 
     /// Elastic force of a foot without motion \[N\].
     pub(super) fn pressing(&self, law: &Law, foot: &Foot) -> f64 {
-        let resting = Contact {
+        let mut resting = Contact {
             normal_velocity: 0.0,
             slip: Vector::zero(),
             relative_spin: Vector::zero(),
             ..self.meet_moving(foot, None).contact
         };
-        law.react(self.row, resting, &mut [[0.0; 4]; MOST_HISTORY], 0.0).force.dot(resting.normal)
+        law.react(self.row, &mut resting, &mut [[0.0; 4]; MOST_HISTORY], 0.0).force.dot(resting.normal)
     }
 
     /// The share of friction that a foot has: none at a saddle, less than all at its faces.
