@@ -328,6 +328,18 @@ def test_a_record_is_a_table_with_a_header(drop, tmp_path):
         record["speed"]
 
 
+def test_watched_values_are_the_same_read_together_or_one_by_one(drop):
+    names = ["ball.velocity.z", "floor.work"]
+    _, together = falls(drop, Secant(), end=0.06, watch=[*names, names[0]])
+    assert together.names[-2:] == names and len(together.rows[0].watched) == 2
+    drop.reset()
+    # A whole number is among them, so each is read by itself.
+    _, single = falls(drop, Secant(), end=0.06, watch=["contacts.count", *names])
+    assert single["contacts.count"].max() == 1.0
+    for name in names:
+        assert np.array_equal(together[name], single[name]) and np.ptp(single[name]) > 0.0
+
+
 def test_the_end_is_a_whole_number_of_steps(drop):
     with pytest.raises(ValueError, match="a whole number is right"):
         falls(drop, Secant(), step=1e-3, end=0.0105)

@@ -284,8 +284,8 @@ impl Law {
         Switches::read(&row[self.normal.count..])
     }
 
-    /// Force and torque of one contact, which gets the velocities that dashpots see; `history`, as many rows as [`Law::history`],
-    /// is advanced by `step` \[s\].
+    /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\]. The velocities
+    /// of `contact` become those that its dashpots see; with slopes it is too large to be copied.
     #[inline(always)]
     pub fn react<N: OneContact>(
         &self,
@@ -300,8 +300,7 @@ impl Law {
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// How one contact was carried, and its normal force: all of [`Law::react`] where bodies feel no torque. It gets the velocities
-    /// that dashpots see.
+    /// How one contact was carried, and its normal force: all of [`Law::react`] where bodies feel no torque.
     #[inline(always)]
     pub(crate) fn press<N: OneContact>(
         &self,

@@ -70,6 +70,17 @@ class InputSide(ParticleSide):
             fix driven driven move variable v_place NULL NULL v_speed NULL NULL
         """)
 
+    def settle(self):
+        """Lets the spheres come to rest as in a fluid, if the world asks for it."""
+        steps = getattr(self.world, "settling", 0)
+        if steps:
+            self.say(f"""
+                timestep {self.world.time_step!r}
+                fix calm all viscous {CALMING}
+                run {steps} post no
+                unfix calm
+            """)
+
     def place_by_variables(self, place, count):
         """Says where the floor or the driven end goes in this many time steps."""
         begin = float(self.displacement[0])

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from peers.input_side import CALMING, PLACE, InputSide
+from peers.input_side import PLACE, InputSide
 from worlds import OverFloor, Rough, Row
 
 message_passing = Path(sys.prefix) / "lib" / "libmpi.so.12"
@@ -65,14 +65,8 @@ class Side(InputSide):
             self.command(f"fix {axis} all wall/gran granular {smooth} {axis}plane 0 {world.width!r}")
         if world.gravity:
             self.command(f"fix weight all gravity {world.gravity} vector 0 0 -1")
-        if getattr(world, "settling", 0):
-            self.say(f"""
-                timestep {world.time_step!r}
-                fix calm all viscous {CALMING}
-                run {world.settling} post no
-                unfix calm
-                reset_timestep 0
-            """)
+        self.settle()
+        self.command("reset_timestep 0")
 
     def _add_spheres(self):
         """Those of the problem."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from peers.input_side import CALMING, InputSide
+from peers.input_side import InputSide
 from worlds import OverFloor, Rough, Row
 
 library = ctypes.CDLL("libliggghts.so.3", mode=ctypes.RTLD_GLOBAL)
@@ -24,6 +24,7 @@ class Side(InputSide):
         #: the larger the space.
         width = getattr(problem.world(), "width", 0.0)
         self.low, self.high = (-0.1, 2.0 * width + 0.15) if width else (-0.3, 0.9)
+        self.reach = f"{self.low - 0.01} {self.high + 0.01}"  # of the space along x and along y
         words = (ctypes.c_char_p * 5)(b"liggghts", b"-log", b"none", b"-screen", b"/dev/null")
         self.handle = ctypes.c_void_p()
         library.lammps_open_no_mpi(5, words, ctypes.byref(self.handle))
@@ -33,8 +34,7 @@ class Side(InputSide):
     @property
     def space(self):
         """Where spheres may be."""
-        reach = f"{self.low - 0.01} {self.high + 0.01}"
-        return f"region space block {reach} {reach} -0.3 0.5 units box"
+        return f"region space block {self.reach} {self.reach} -0.3 0.5 units box"
 
     def _contact(self):
         """The law of its contacts, and the coefficients of it: the first material is rough, the second is smooth."""
@@ -87,13 +87,7 @@ class Side(InputSide):
                 self.command(f"fix {name} all wall/gran {contact} primitive type 2 {axis}plane {place!r}")
         if world.gravity:
             self.command(f"fix weight all gravity {world.gravity} vector 0 0 -1")
-        if getattr(world, "settling", 0):
-            self.say(f"""
-                timestep {world.time_step!r}
-                fix calm all viscous {CALMING}
-                run {world.settling} post no
-                unfix calm
-            """)
+        self.settle()
 
     def _mesh(self):
         """A file with the floor, a triangle."""
@@ -104,9 +98,9 @@ class Side(InputSide):
         return path
 
     def _spheres(self):
-        """A file with those of the problem: number, kind, diameter, density, place."""
-        spheres, low, high = self.world.spheres, self.low - 0.01, self.high + 0.01
-        lines = [f"{low} {high} {axis}lo {axis}hi" for axis in "xy"] + ["-0.3 0.5 zlo zhi", "", "Atoms", ""]
+        """A file with the spheres of the problem: number, kind, diameter, density, place."""
+        spheres = self.world.spheres
+        lines = [f"{self.reach} {axis}lo {axis}hi" for axis in "xy"] + ["-0.3 0.5 zlo zhi", "", "Atoms", ""]
         for number, (x, y, z, radius) in enumerate(spheres, 1):
             lines.append(f"{number} 1 {2.0 * radius!r} {self.world.density!r} {x!r} {y!r} {z!r}")
         path = Path(self.folder.name) / "spheres.data"

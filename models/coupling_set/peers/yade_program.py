@@ -103,7 +103,6 @@ class OverFloor(World):
                 rate = O.forces.f(number)[2] / body.state.mass - gravity
                 body.state.vel = Vector3(0, 0, settings["velocity"] - 0.5 * O.dt * rate)
 
-
     def fill(self, spheres, width, ball, floor, wall):
         """Adds spheres, floor and walls of these materials; returns what finds neighbours."""
         self.watched = O.bodies.append([utils.sphere(tuple(each[:3]), each[3], material=ball) for each in spheres])[0]

@@ -55,14 +55,15 @@ impl RigidBody {
     fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
         let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
         let before = Vector::from(inertial.angular_momentum);
-        // Looked at where it stands: most bodies have nothing added, and what was just computed would be waited for.
-        let soft = inertial.stiffness == [0.0; 21] && inertial.damping == [0.0; 21];
-        let added = if soft {
+        // Most bodies have nothing added. The stored numbers say so at once; a comparison of freshly computed ones would have to
+        // wait for them.
+        let nothing = inertial.stiffness == [0.0; 21] && inertial.damping == [0.0; 21];
+        let added = if nothing {
             [0.0; 21]
         } else {
             implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step)
         };
-        if soft || added == [0.0; 21] {
+        if nothing || added == [0.0; 21] {
             let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
             let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
             let momentum = before + self.twist(moved, step);
