@@ -1,9 +1,10 @@
 //! What directional derivatives cost, in communication steps of the same length: a bonded block, the bed of the coupling set, and
 //! spheres with Hertz contacts and friction that press each other.
 //!
-//! `cargo bench --bench derivatives`, with the names of scenes behind it to have these alone
+//! `cargo bench --bench derivatives`; with `-- bed 1 8` behind it of these scenes and numbers of inputs alone, with `-- four` in
+//! registers of four numbers
 
-use cograin::dual::DIRECTIONS;
+use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
@@ -58,40 +59,45 @@ fn time(work: impl FnOnce()) -> f64 {
     begun.elapsed().as_secs_f64()
 }
 
-/// Prints the cost of a derivative in a scene, for one input and for as many as are followed at a time.
+/// Prints the cost of derivatives in a scene by so many inputs, from its beginning on.
 #[allow(clippy::print_stdout, reason = "a benchmark prints")]
-fn tell(source: &Source, step: f64, boundary: &str) {
+fn tell(source: &Source, step: f64, boundary: &str, inputs: usize, width: Width) {
     let scene = Arc::new(Scene::from_source(source).unwrap_or_else(|errors| panic!("{errors}")));
     let place = scene.boundaries.iter().position(|it| it.name == boundary).expect("the boundary is there");
-    let boundary = BoundaryIndex(place as u32);
+    let inputs = vec![(BoundaryIndex(place as u32), 2); inputs];
     let mut simulation = Simulation::new(scene).expect("the scene starts");
+    simulation.set_width(width);
     let length = STEPS * step;
-    for inputs in [1, DIRECTIONS] {
-        let inputs = vec![(boundary, 2); inputs];
-        let (mut once, mut cost) = (f64::INFINITY, f64::INFINITY);
-        // By turns, so that both have the same share of a machine's slow moments.
-        for _ in 0..ROUNDS {
-            once = once.min(time(|| simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"))));
-            cost = cost.min(time(|| {
-                black_box(simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
-            }));
-        }
-        let (count, steps) = (inputs.len(), cost / once);
-        println!(
-            "{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input",
-            source.name,
-            once * 1e3,
-            steps / count as f64
-        );
+    let (mut once, mut cost) = (f64::INFINITY, f64::INFINITY);
+    // By turns, so that both have the same share of a machine's slow moments.
+    for _ in 0..ROUNDS {
+        once = once.min(time(|| simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"))));
+        cost = cost.min(time(|| {
+            black_box(simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+        }));
     }
+    let (count, steps) = (inputs.len(), cost / once);
+    println!(
+        "{:10} {:7.2} ms, {count} inputs: {steps:5.2} communication steps, {:4.2} an input",
+        source.name,
+        once * 1e3,
+        steps / count as f64
+    );
 }
 
 fn main() {
     // Cargo adds an option of its own.
-    let names: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let counts: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
+    let counts = if counts.is_empty() { vec![1, 2, 4, 8] } else { counts };
     let pressed = Source { name: "pressed".into(), text: PRESSED.into(), files: BTreeMap::new() };
     let all = [(model("block"), 1e-6, "top"), (model("bed"), 5e-5, "floor"), (pressed, 1e-5, "top")];
-    for (source, step, boundary) in all.iter().filter(|it| names.is_empty() || names.contains(&it.0.name)) {
-        tell(source, *step, boundary);
+    let width = if words.iter().any(|word| word == "four") { Width::Four } else { Width::widest() };
+    let some = all.iter().any(|(source, ..)| words.contains(&source.name));
+    let named = |name: &String| !some || words.contains(name);
+    for (source, step, boundary) in all.iter().filter(|it| named(&it.0.name)) {
+        for &count in &counts {
+            tell(source, *step, boundary, count, width);
+        }
     }
 }

@@ -5,6 +5,18 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 /// A row of four numbers, 32 bytes.
 pub type Row = [f64; 4];
 
+/// Adds a row to another.
+#[inline(always)]
+pub(crate) fn add(sum: &mut Row, row: &Row) {
+    *sum = [sum[0] + row[0], sum[1] + row[1], sum[2] + row[2], sum[3] + row[3]];
+}
+
+/// Takes a row from another.
+#[inline(always)]
+pub(crate) fn subtract(sum: &mut Row, row: &Row) {
+    *sum = [sum[0] - row[0], sum[1] - row[1], sum[2] - row[2], sum[3] - row[3]];
+}
+
 /// A real number, or a lane vector of real numbers, in IEEE 754 double precision.
 ///
 /// Every operation is exactly rounded and none is fused, so a law written over this trait gives the

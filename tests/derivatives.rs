@@ -41,10 +41,10 @@ fn seen(simulation: &Simulation) -> [Vec<f64>; 4] {
 fn slopes(all: &[BoundaryDerivatives]) -> [Vec<f64>; 4] {
     let of = |parts: fn(&BoundaryDerivatives) -> [[f64; 3]; 2]| all.iter().flat_map(parts).flatten().collect();
     [
-        of(|it| [it.displacement.map(|slopes| slopes[0]), [0.0; 3]]),
-        of(|it| [it.velocity.map(|slopes| slopes[0]), [0.0; 3]]),
-        of(|it| [it.force, it.mean_force].map(|vector| vector.map(|slopes| slopes[0]))),
-        of(|it| [it.moment, it.mean_moment].map(|vector| vector.map(|slopes| slopes[0]))),
+        of(|it| [it.displacement, [0.0; 3]]),
+        of(|it| [it.velocity, [0.0; 3]]),
+        of(|it| [it.force, it.mean_force]),
+        of(|it| [it.moment, it.mean_moment]),
     ]
 }
 
@@ -63,7 +63,14 @@ fn distance(simulation: &mut Simulation, (name, axis): (&str, usize), length: f6
     let reached = at(given);
     let bytes = simulation.state().clone();
     simulation.set_input(boundary, axis, given + 1.0);
-    let found = simulation.derivatives(&[(boundary, axis)]).unwrap_or_else(|refusal| panic!("{refusal}"));
+    // One input and several are followed in ways of their own.
+    let mut by = |count: usize| {
+        let inputs = vec![(boundary, axis); count];
+        let mut found = simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}"));
+        found.swap_remove(count - 1)
+    };
+    let found = by(1);
+    assert_eq!(found, by(5));
     assert_eq!(simulation.state().boundaries[boundary.index()].target[axis], given + 1.0, "an input was forgotten");
     simulation.set_input(boundary, axis, given);
     assert_eq!(reached, seen(simulation));
@@ -306,20 +313,22 @@ fn derivatives_are_the_same_in_every_lane_width_and_beside_other_inputs() {
     );
     pressed.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
     let lid = named(&pressed, "lid");
-    for (mut simulation, inputs) in [(bonded, [(grip, 0), (grip, 2)]), (pressed, [(lid, 0), (lid, 2)])] {
+    for (mut simulation, [across, along]) in [(bonded, [(grip, 0), (grip, 2)]), (pressed, [(lid, 0), (lid, 2)])] {
+        // More than are followed one by one, and more than are followed together.
+        let inputs = [across, along, along, across, along, across, along, across, across, along, along];
         let mut follow = |inputs: &[(BoundaryIndex, usize)], width: Width| {
             simulation.set_width(width);
             simulation.derivatives(inputs).unwrap_or_else(|refusal| panic!("{refusal}"))
         };
         let whole = follow(&inputs, Width::Least);
-        assert!(whole.iter().any(|boundary| boundary.force[2][1] != 0.0), "nothing changes");
+        assert!(whole[1].iter().any(|boundary| boundary.force[2] != 0.0), "nothing changes");
+        assert!(whole[0] != whole[1]);
         for width in Width::ALL.into_iter().filter(|width| width.offered()) {
             assert_eq!(follow(&inputs, width), whole, "{width:?}");
         }
-        for (direction, input) in inputs.into_iter().enumerate() {
-            let alone = follow(&[input], Width::widest());
-            for (alone, whole) in alone.iter().zip(&whole) {
-                assert_eq!(alone.mean_force.map(|slopes| slopes[0]), whole.mean_force.map(|slopes| slopes[direction]));
+        for (input, whole) in inputs.into_iter().zip(&whole) {
+            for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+                assert_eq!(follow(&[input], width)[0], *whole, "{width:?}");
             }
         }
     }
@@ -333,7 +342,7 @@ fn the_rate_of_a_pressed_spring_is_stiffness_times_velocity() {
     simulation.advance(4.0e-6).unwrap_or_else(|error| panic!("{error}"));
     let rates = simulation.rates().unwrap_or_else(|refusal| panic!("{refusal}"));
     // Eight spheres of 5 kN/m under the lid, at 0.25 m/s; they have hardly begun to move themselves.
-    let (found, expected) = (rates[lid.index()].force[2][0], 8.0 * 5.0e3 * 0.25);
+    let (found, expected) = (rates[lid.index()].force[2], 8.0 * 5.0e3 * 0.25);
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} N/s, not {expected} N/s");
 }
 

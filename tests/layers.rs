@@ -131,7 +131,7 @@ struct Rule {
 /// Rooms with unsafe blocks, and how many each may have. `docs/architecture.md` says what they are for; a block more is
 /// to be argued for there.
 const UNSAFE: [(&str, usize); 10] = [
-    ("lanes", 89),
+    ("lanes", 92),
     ("memory", 9),
     ("threads", 5),
     ("neighbours", 14),
@@ -156,10 +156,9 @@ const LANES: Rule = Rule {
         "src/books",
         "src/step",
         "src/stability",
-        "src/dual.rs",
+        "src/dual",
         "src/tangent",
-        "src/contact/slopes.rs",
-        "src/contact/law.rs",
+        "src/contact/law/slopes.rs",
         "src/bond/slopes.rs",
         "src/surface/feet.rs",
         "src/surface/mesh",

@@ -21,7 +21,7 @@ const LONG: [(&str, &str); 23] = [
     ("src/bond_passes/mod.rs", "the pass over bonds: what it begins with, asks for and leaves"),
     ("src/bond_passes/pipeline_buffer.rs", "one buffer: its columns, and how each is written and read"),
     ("src/bond_passes/walls.rs", "bonds to planes: the pass, its books and its records"),
-    ("src/contact/law.rs", "what a law says of one contact, sub-model by sub-model"),
+    ("src/contact/law/mod.rs", "what a law says of one contact, sub-model by sub-model"),
     ("src/contact/normal/eepa.rs", "one sub-model, with the tests that its branches are held to"),
     ("src/export/tests.rs", "tests"),
     ("src/interactions/suppression.rs", "the life of a suppressed contact: entered, carried, released"),
@@ -38,7 +38,8 @@ const LONG: [(&str, &str); 23] = [
 ];
 
 /// Folders that are rooms of their own though they stand inside of another.
-const INNER_ROOMS: [&str; 11] = [
+const INNER_ROOMS: [&str; 12] = [
+    "contact/law",
     "contact/normal",
     "contact/tangential",
     "contact/rolling",

@@ -302,10 +302,11 @@ class Unit:
         if not self.has_derivatives:
             raise UnitError(f"{self.name}: gives no directional derivatives")
         unknown = [self.variable(name).valueReference for name in outputs]
-        columns = [
-            self._call(self.slave.getDirectionalDerivative, unknown, [self.variable(name).valueReference], [1.0])
-            for name in inputs
-        ]
+        known = [self.variable(name).valueReference for name in inputs]
+        if len(known) > 1:
+            # The unit follows together what it is asked for in one call; those below find it done.
+            self._call(self.slave.getDirectionalDerivative, unknown, known, [0.0] * len(known))
+        columns = [self._call(self.slave.getDirectionalDerivative, unknown, [one], [1.0]) for one in known]
         return np.array(columns, dtype=float).T.reshape(len(outputs), len(inputs))
 
     # Its end

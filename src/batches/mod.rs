@@ -33,7 +33,7 @@ use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
-pub(crate) use coefficients::{CoefficientTable, Partners, overlap_of};
+pub(crate) use coefficients::{CoefficientTable, Partners, in_lanes, overlap_of};
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};
@@ -370,18 +370,6 @@ impl<B: Bodies> Batches<'_, B> {
             lanes::run(self.width, Meet::<B, true, false> { bodies, needs, buffer });
         }
     }
-}
-
-/// Adds a row to another.
-#[inline(always)]
-pub(crate) fn add(sum: &mut Row, row: &Row) {
-    *sum = [sum[0] + row[0], sum[1] + row[1], sum[2] + row[2], sum[3] + row[3]];
-}
-
-/// Takes a row from another.
-#[inline(always)]
-pub(crate) fn subtract(sum: &mut Row, row: &Row) {
-    *sum = [sum[0] - row[0], sum[1] - row[1], sum[2] - row[2], sum[3] - row[3]];
 }
 
 #[cfg(test)]

@@ -1,94 +1,116 @@
-//! How what a bond does changes with a few inputs: the law over numbers with slopes.
+//! How what bonds do changes with a few inputs: the law over numbers with slopes, on a register's worth of bonds at a time.
 
-use super::breakage::Loaded;
+use super::breakage::{Breakage, Loaded, TakeRule};
 use super::damping::{Damping, DampingLoad, TakeDamping};
 use super::formulation::{Formulation, TakeFormulation};
-use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, Rows, Section};
-use crate::dual::Dual;
+use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, Rows};
+use crate::dual::{Dual, Slopes};
 use crate::lanes::{Lane, Work};
 use crate::number::{Number, Vector};
 use std::marker::PhantomData;
 
-/// Loads of one bond, with slopes.
-#[derive(Clone, Copy, Debug)]
-pub struct Sloped<N: Lane> {
+/// Loads of some bonds, with slopes.
+#[derive(Clone, Copy)]
+pub struct Sloped<V: Lane, S: Slopes<V>> {
     /// Force on i; j gets the opposite \[N\].
-    pub force: Vector<Dual<N>>,
+    pub force: Vector<Dual<V, S>>,
     /// Torque on i \[N m\].
-    pub torque_i: Vector<Dual<N>>,
+    pub torque_i: Vector<Dual<V, S>>,
     /// Torque on j \[N m\].
-    pub torque_j: Vector<Dual<N>>,
+    pub torque_j: Vector<Dual<V, S>>,
+    /// Which break, a bit for each: of these there is no load.
+    pub broken: u32,
 }
 
 impl Law {
-    /// Loads of one bond, with slopes; nothing where it breaks. `rows`, what it remembers, go on. Called where the features of the
-    /// registers are there.
+    /// Loads of some bonds, with slopes. `rows`, what they remember, go on. Called where the features of the registers are there.
     #[inline(always)]
-    pub fn react_with_slopes<N: Lane>(
+    pub fn react_with_slopes<V: Lane, S: Slopes<V>>(
         &self,
-        law: &Coefficients<Dual<N>>,
-        pair: &Pair<Dual<N>>,
-        rows: &mut Rows<Dual<N>>,
-    ) -> Option<Sloped<N>> {
+        law: &Coefficients<Dual<V, S>>,
+        pair: &Pair<Dual<V, S>>,
+        rows: &mut Rows<Dual<V, S>>,
+    ) -> Sloped<V, S> {
         let respond = self.formulation.visit(self.asked(), TakeSloped(PhantomData));
         let (motion, elastic) = respond(law, pair, rows);
-        // Values alone decide whether a bond breaks.
-        if !self.breakage.is_empty() && self.judge(&values(&elastic.loaded(&motion))) != 0.0 {
-            return None;
-        }
-        let mut found = Sloped { force: elastic.force, torque_i: elastic.torque_i, torque_j: elastic.torque_j };
+        let mut found =
+            Sloped { force: elastic.force, torque_i: elastic.torque_i, torque_j: elastic.torque_j, broken: 0 };
         if let Some(damping) = &self.damping {
             let load = damping.visit(Damp { law, pair, motion: &motion, elastic: &elastic });
             found.force += load.force;
             found.torque_i += load.torque_i;
             found.torque_j += load.torque_j;
         }
-        Some(found)
+        if self.breakage.is_empty() {
+            return found;
+        }
+        // Values alone decide whether a bond breaks.
+        let (loaded, mut broken) = (elastic.loaded(&motion), V::zero().greater(V::zero()));
+        for rule in &self.breakage {
+            broken = V::either(broken, rule.visit(Judge(&loaded)));
+        }
+        let none = Vector::zero();
+        Sloped {
+            force: Vector::select(broken, none, found.force),
+            torque_i: Vector::select(broken, none, found.torque_i),
+            torque_j: Vector::select(broken, none, found.torque_j),
+            broken: V::bits(broken),
+        }
     }
 }
 
-/// A load without its slopes.
-fn values<N: Lane>(loaded: &Loaded<Dual<N>>) -> Loaded {
-    let vector = |vector: Vector<Dual<N>>| Vector::new(vector.x.value, vector.y.value, vector.z.value);
-    let Section { radius, area, polar, axial } = loaded.section;
-    Loaded {
-        distance: loaded.distance.value,
-        section: Section { radius: radius.value, area: area.value, polar: polar.value, axial: axial.value },
-        compression: loaded.compression.value,
-        normal: loaded.normal.value,
-        shear: vector(loaded.shear),
-        torsion: loaded.torsion.value,
-        bending: vector(loaded.bending),
+/// Asks a rule which bonds break under their loads.
+struct Judge<'a, V: Lane, S: Slopes<V>>(&'a Loaded<Dual<V, S>>);
+
+impl<V: Lane, S: Slopes<V>> TakeRule for Judge<'_, V, S> {
+    type Output = V::Mask;
+    fn take<B: Breakage>(self, rule: B, _before: f64) -> V::Mask {
+        S::within(Judged(self.0, rule))
     }
 }
 
-/// What a formulation does to a bond, whose rows go on, with slopes: energies are not found.
-type Respond<N> = fn(&Coefficients<Dual<N>>, &Pair<Dual<N>>, &mut Rows<Dual<N>>) -> (Motion<Dual<N>>, Elastic<Dual<N>>);
+/// A rule at work.
+struct Judged<'a, B, V: Lane, S: Slopes<V>>(&'a Loaded<Dual<V, S>>, B);
+
+impl<B: Breakage, V: Lane, S: Slopes<V>> Work for Judged<'_, B, V, S> {
+    type Output = V::Mask;
+    #[inline(always)]
+    fn run(self) -> V::Mask {
+        self.1.judge(self.0).value.greater(V::zero())
+    }
+}
+
+/// What a formulation does to bonds, whose rows go on, with slopes: energies are not found.
+type Respond<V, S> = fn(
+    &Coefficients<Dual<V, S>>,
+    &Pair<Dual<V, S>>,
+    &mut Rows<Dual<V, S>>,
+) -> (Motion<Dual<V, S>>, Elastic<Dual<V, S>>);
 
 /// Takes what a formulation does, with slopes.
-struct TakeSloped<N>(PhantomData<N>);
+struct TakeSloped<V, S>(PhantomData<(V, S)>);
 
-impl<N: Lane> TakeFormulation for TakeSloped<N> {
-    type Output = Respond<N>;
+impl<V: Lane, S: Slopes<V>> TakeFormulation for TakeSloped<V, S> {
+    type Output = Respond<V, S>;
     fn take<F: Formulation>(self) -> Self::Output {
-        |law, pair, rows| N::within(Response::<F, N> { law, pair, rows, formulation: PhantomData })
+        |law, pair, rows| S::within(Response::<F, V, S> { law, pair, rows, formulation: PhantomData })
     }
 }
 
-/// What a formulation does to one bond.
-struct Response<'a, F, N: Lane> {
+/// What a formulation does to bonds.
+struct Response<'a, F, V: Lane, S: Slopes<V>> {
     /// The law at this step.
-    law: &'a Coefficients<Dual<N>>,
-    /// Its bodies.
-    pair: &'a Pair<Dual<N>>,
-    /// What it remembers.
-    rows: &'a mut Rows<Dual<N>>,
+    law: &'a Coefficients<Dual<V, S>>,
+    /// Their bodies.
+    pair: &'a Pair<Dual<V, S>>,
+    /// What they remember.
+    rows: &'a mut Rows<Dual<V, S>>,
     /// The formulation.
     formulation: PhantomData<F>,
 }
 
-impl<F: Formulation, N: Lane> Work for Response<'_, F, N> {
-    type Output = (Motion<Dual<N>>, Elastic<Dual<N>>);
+impl<F: Formulation, V: Lane, S: Slopes<V>> Work for Response<'_, F, V, S> {
+    type Output = (Motion<Dual<V, S>>, Elastic<Dual<V, S>>);
     #[inline(always)]
     fn run(self) -> Self::Output {
         let (motion, elastic) = F::respond(self.law, self.pair, self.rows);
@@ -100,35 +122,35 @@ impl<F: Formulation, N: Lane> Work for Response<'_, F, N> {
     }
 }
 
-/// One bond to be damped.
-struct Damp<'a, N: Lane> {
+/// Bonds to be damped.
+struct Damp<'a, V: Lane, S: Slopes<V>> {
     /// The law at this step.
-    law: &'a Coefficients<Dual<N>>,
-    /// Its bodies.
-    pair: &'a Pair<Dual<N>>,
+    law: &'a Coefficients<Dual<V, S>>,
+    /// Their bodies.
+    pair: &'a Pair<Dual<V, S>>,
     /// How they move.
-    motion: &'a Motion<Dual<N>>,
+    motion: &'a Motion<Dual<V, S>>,
     /// What the formulation answers.
-    elastic: &'a Elastic<Dual<N>>,
+    elastic: &'a Elastic<Dual<V, S>>,
 }
 
-impl<N: Lane> TakeDamping for Damp<'_, N> {
-    type Output = DampingLoad<Dual<N>>;
-    fn take<D: Damping>(self, damping: D) -> DampingLoad<Dual<N>> {
-        N::within(Damped { bond: self, damping })
+impl<V: Lane, S: Slopes<V>> TakeDamping for Damp<'_, V, S> {
+    type Output = DampingLoad<Dual<V, S>>;
+    fn take<M: Damping>(self, damping: M) -> DampingLoad<Dual<V, S>> {
+        S::within(Damped { bond: self, damping })
     }
 }
 
-/// A damping at work on one bond.
-struct Damped<'a, D, N: Lane> {
-    /// The bond.
-    bond: Damp<'a, N>,
+/// A damping at work on bonds.
+struct Damped<'a, M, V: Lane, S: Slopes<V>> {
+    /// The bonds.
+    bond: Damp<'a, V, S>,
     /// The damping.
-    damping: D,
+    damping: M,
 }
 
-impl<D: Damping, N: Lane> Work for Damped<'_, D, N> {
-    type Output = DampingLoad<Dual<N>>;
+impl<M: Damping, V: Lane, S: Slopes<V>> Work for Damped<'_, M, V, S> {
+    type Output = DampingLoad<Dual<V, S>>;
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Damp { law, pair, motion, elastic } = self.bond;

@@ -15,7 +15,6 @@
 use super::after::{After, Bonds};
 use super::book::{Broken, Done};
 use super::pipeline_buffer::{PipelineBuffer, start_of};
-use crate::batches::{add, subtract};
 use crate::bond::damping::DampingLoad;
 use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
@@ -23,6 +22,7 @@ use crate::bond::{
 };
 use crate::lanes::{self, Kernel, Lane, Shared, Width, vector};
 use crate::memory::prefetch;
+use crate::number::{add, subtract};
 use crate::state::Row;
 use std::marker::PhantomData;
 

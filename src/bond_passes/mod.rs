@@ -15,7 +15,6 @@ pub(crate) use book::{Done, book};
 
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::{Body, Carried, Law, OneBond, Pair, Quaternion, Rows};
-use crate::dual::Dual;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link};
@@ -29,7 +28,6 @@ use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{BondList, Particles, Row, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::Context;
 use after::After;
 use batch::{SlabOf, TakeSlabs, Work};
@@ -192,10 +190,6 @@ impl Pass for BondPass {
             done.release(context.step, |bond| self.carried(state, bond));
         }
         book(state, self.index, results.iter())
-    }
-
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        self.add_bond_slopes(state, tangent, step);
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {

@@ -1,27 +1,24 @@
-//! How bonds change with a few inputs.
+//! How bonds change with a few inputs: their law over numbers with slopes, on a register's worth of bonds at a time.
 
 use super::BondPass;
 use super::walls::WallBondPass;
 use crate::bond::{Body, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows, Sloped};
-use crate::dual::Dual;
-use crate::lanes::{Kernel, Lane, run};
+use crate::dual::{Dual, Slopes};
+use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of, vectors_of};
 use crate::number::{Number, Vector};
 use crate::state::{BondList, Particles, State};
-use crate::tangent::{AddSlopes, ListSlopes, NONE, ParticleSlopes, Tangent};
+use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, ParticleSlopes, Tangent};
+use crate::tangent::{rows_at, slopes_of, spread};
 
-/// A particle as a body of a bond, with slopes.
+/// Particles as bodies of bonds, with slopes.
 #[inline(always)]
-fn body<N: Lane>(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> Body<Dual<N>> {
-    let ([position, velocity], spin) = (moved.body(particles, slot), moved.spin(particles, slot));
-    let orientation = match (particles.orientation.get(slot), moved.orientation.get(slot)) {
-        (Some(row), Some(slopes)) => Quaternion::from_row(Dual::row(*row, slopes)),
-        _ => Quaternion::identity(),
-    };
+fn bodies<I: Inputs, N: Lane>(moved: &ParticleSlopes<I>, particles: &Particles, slots: &Places) -> Body<InLanes<I, N>> {
+    let ([position, velocity], spin) = (moved.bodies(particles, slots), moved.spins(particles, slots));
     Body {
         position: Vector::of_row(position),
         velocity: Vector::of_row(velocity),
         spin: Vector::of_row(spin),
-        orientation,
+        orientation: moved.orientations(particles, slots),
         radius: position[3],
         mass: velocity[3],
         inertia: spin[3],
@@ -30,100 +27,120 @@ fn body<N: Lane>(moved: &ParticleSlopes, particles: &Particles, slot: usize) -> 
 
 /// The numbers of a law at a time step of this length \[s\].
 #[inline(always)]
-fn at_step<N: Lane>(law: &Law, step: Dual) -> Coefficients<Dual<N>> {
-    Coefficients { step: Dual::new(step.value, &step.slopes), ..law.elasticity.at_step(step.value) }
+fn at_step<I: Inputs, N: Lane>(law: &Law, step: Alone<I>) -> Coefficients<InLanes<I, N>> {
+    Coefficients { step: spread::<I, N>(step), ..law.elasticity.at_step(step.value) }
 }
 
-/// What a bond does, with slopes; those of its rows go on. The first so many `fixed` rows never change. `rows` is room for them.
+/// Vectors, given as columns, that all change in the same way.
 #[inline(always)]
-fn react<N: Lane>(
+fn moving<I: Inputs, N: Lane>([x, y, z]: [I::Values<N>; 3], [dx, dy, dz]: [I::Each; 3]) -> Vector<InLanes<I, N>> {
+    let slopes = [I::spread::<N>(dx), I::spread::<N>(dy), I::spread::<N>(dz)];
+    Dual::vector(Vector::new(x, y, z), slopes)
+}
+
+/// What bonds do, with slopes; those of their rows go on. The first so many `fixed` of the `rows`, which are room for
+/// them, never change.
+#[inline(always)]
+fn react<I: Inputs, N: Lane>(
     law: &Law,
-    coefficients: &Coefficients<Dual<N>>,
-    pair: &Pair<Dual<N>>,
-    rows: &mut Rows<Dual<N>>,
-    (list, slopes, bond, fixed): (&BondList, &mut ListSlopes, usize, usize),
-) -> Option<Sloped<N>> {
+    coefficients: &Coefficients<InLanes<I, N>>,
+    pair: &Pair<InLanes<I, N>>,
+    (list, slopes, bonds, count): (&BondList, &mut ListSlopes<I>, &Places, usize),
+    (rows, fixed): (&mut Rows<InLanes<I, N>>, usize),
+) -> Sloped<I::Values<N>, I::Slopes<N>> {
     for (place, (row, values)) in rows.iter_mut().zip(&list.rows).enumerate() {
         *row = match place < fixed {
-            true => values[bond].map(Dual::splat),
-            false => Dual::row(values[bond], &slopes.rows[place][bond]),
+            true => Dual::constants(columns_at(values, bonds)),
+            false => rows_at::<I, N>(values, &slopes.rows[place], bonds),
         };
     }
     let found = law.react_with_slopes(coefficients, pair, rows);
     for (slopes, row) in slopes.rows.iter_mut().zip(&*rows).skip(fixed) {
-        slopes[bond] = if found.is_some() { Dual::slopes_of(*row) } else { NONE };
+        I::put::<N>(slopes_of::<I, N>(*row), slopes, bonds.first(count));
+    }
+    let mut broken = found.broken & ((1 << count) - 1);
+    while broken != 0 {
+        let bond = bonds.at(broken.trailing_zeros() as usize);
+        slopes.rows.iter_mut().for_each(|rows| rows[bond] = I::NONE);
+        broken &= broken - 1;
     }
     found
 }
 
-impl BondPass {
-    /// Adds the slopes of its loads to those of the particles.
-    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        run(tangent.width, AddSlopes { pass: self, state, tangent, step });
+impl<I: Inputs> FollowPass<I> for BondPass {
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
+        I::run(tangent.width, AddSlopes { pass: self, state, tangent, step });
     }
 }
 
-impl WallBondPass {
-    /// Adds the slopes of its loads to those of the particles and the plane.
-    pub(super) fn add_bond_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        run(tangent.width, AddSlopes { pass: self, state, tangent, step });
+impl<I: Inputs> FollowPass<I> for WallBondPass {
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
+        I::run(tangent.width, AddSlopes { pass: self, state, tangent, step });
     }
 }
 
-impl Kernel for AddSlopes<'_, &BondPass> {
+impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass, state, tangent, step } = self;
         let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let (slopes, moved) = (&mut tangent.bonds[pass.index], &mut tangent.particles);
-        let (coefficients, fixed) = (at_step::<N>(&pass.law, step), pass.law.one_bond().fixed_rows);
+        let (coefficients, fixed) = (at_step::<I, N>(&pass.law, step), pass.law.one_bond().fixed_rows);
         let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
-        for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
-            let (i, j) = (i as usize, j as usize);
-            if !moved.reached[i] && !moved.reached[j] {
+        for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
+            let Group { entries, bodies: [i, j], count } =
+                Group::from::<I::Values<N>>([&list.first, &list.second], first);
+            if moved.reached(i.first(count)) | moved.reached(j.first(count)) == 0 {
                 continue;
             }
-            let pair = Pair::of_spheres(&body(moved, particles, i), &body(moved, particles, j));
-            if let Some(found) = react(&pass.law, &coefficients, &pair, &mut rows, (list, slopes, bond, fixed)) {
-                moved.load(i, found.force, found.torque_i);
-                moved.load(j, -found.force, found.torque_j);
-            }
+            let pair = Pair::of_spheres(&bodies::<I, N>(moved, particles, &i), &bodies::<I, N>(moved, particles, &j));
+            let bonds = (list, &mut *slopes, &entries, count);
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut rows, fixed));
+            let slots = [i.first(count), j.first(count)];
+            moved.press_pairs(slots, found.force);
+            moved.twist_pairs(slots, [found.torque_i, found.torque_j]);
         }
     }
 }
 
-impl Kernel for AddSlopes<'_, &WallBondPass> {
+impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass, state, tangent, step } = self;
         let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let Tangent { particles: moved, bonds, boundaries, .. } = tangent;
         let (slopes, boundary) = (&mut bonds[pass.index], &mut boundaries[pass.boundary.index()]);
-        let (coefficients, moves) = (at_step::<N>(&pass.law, step), boundary.is_moved());
+        let (coefficients, moves) = (at_step::<I, N>(&pass.law, step), boundary.is_moved());
         let fixed = pass.law.one_bond().fixed_rows;
         let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
-        for (bond, &slot) in list.first.iter().enumerate() {
-            let slot = slot as usize;
-            if !moves && !moved.reached[slot] {
+        for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
+            let Group { entries, bodies: [slots], count } = Group::from::<I::Values<N>>([&list.first], first);
+            if !moves && moved.reached(slots.first(count)) == 0 {
                 continue;
             }
-            let at = pass.foot(list.foot[bond], &state.boundaries[pass.boundary.index()]);
+            let place = &state.boundaries[pass.boundary.index()];
+            let mut at = [pass.foot(list.foot[entries.at(0)], place); 8];
+            for (lane, at) in at.iter_mut().enumerate() {
+                *at = pass.foot(list.foot[entries.at(lane)], place);
+            }
             let foot = Body {
-                position: Dual::vector(at.position, &boundary.displacement),
-                velocity: Dual::vector(at.velocity, &boundary.velocity),
+                position: moving::<I, N>(vectors_of(|lane| at[lane].position), boundary.displacement),
+                velocity: moving::<I, N>(vectors_of(|lane| at[lane].velocity), boundary.velocity),
                 spin: Vector::zero(),
                 orientation: Quaternion::identity(),
-                radius: Dual::splat(at.radius),
-                mass: Dual::splat(at.mass),
-                inertia: Dual::splat(at.inertia),
+                radius: Dual::constant(lanes_of(|lane| at[lane].radius)),
+                mass: Dual::constant(lanes_of(|lane| at[lane].mass)),
+                inertia: Dual::constant(lanes_of(|lane| at[lane].inertia)),
             };
-            let pair = Pair::at_wall(&body(moved, particles, slot), &foot);
-            if let Some(found) = react(&pass.law, &coefficients, &pair, &mut rows, (list, slopes, bond, fixed)) {
-                moved.load(slot, found.force, found.torque_i);
-                let arm = Vector::from(list.foot[bond]) - pass.reference;
-                let arm = Vector::new(Dual::splat(arm.x), Dual::splat(arm.y), Dual::splat(arm.z));
-                boundary.add_load(&(-found.force).slopes(), &(found.torque_j - arm.cross(found.force)).slopes());
-            }
+            let pair = Pair::at_wall(&bodies::<I, N>(moved, particles, &slots), &foot);
+            let bonds = (list, &mut *slopes, &entries, count);
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut rows, fixed));
+            moved.press(slots.first(count), found.force);
+            moved.twist(slots.first(count), found.torque_i);
+            let arm = |lane: usize| Vector::from(list.foot[entries.at(lane)]) - pass.reference;
+            let moment = found.torque_j - moving::<I, N>(vectors_of(arm), [I::Each::none(); 3]).cross(found.force);
+            I::sum::<N>((-found.force).slopes(), &mut boundary.force, count);
+            I::sum::<N>(moment.slopes(), &mut boundary.moment, count);
         }
     }
 }

@@ -7,7 +7,6 @@ use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, 
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::DampingLoad;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
-use crate::dual::Dual;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link};
@@ -18,7 +17,6 @@ use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Particles, Row, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use std::sync::{Mutex, PoisonError};
 
@@ -266,10 +264,6 @@ impl Pass for WallBondPass {
             piece.done.release(context.step, |bond| self.carried(state, bond));
         }
         book(state, self.index, pieces.iter().map(|piece| &piece.done))
-    }
-
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        self.add_bond_slopes(state, tangent, step);
     }
 
     fn create(&self, state: &mut State, moment: &Moment, step: f64) -> bool {

@@ -1,19 +1,19 @@
 //! How boundaries, and the particles of groups, change with a few inputs.
 
 use super::{RigidBody, Turning};
-use crate::dual::{DIRECTIONS, Dual, Slopes};
+use crate::dual::{Dual, Slopes};
 use crate::geometry::Quaternion;
 use crate::motion::{InputCourse, Progress, Way};
-use crate::number::{Number, Vector};
+use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
 use crate::state::{BoundaryState, State};
-use crate::tangent::{BoundarySlopes, Tangent, rotation};
+use crate::tangent::{BoundarySlopes, Inputs, Tangent, alone, rotation, row_of, vector_of};
 
 /// Follows an input, an axis of a boundary, as one of the directions through a communication step of this length \[s\].
-pub(crate) fn begin(
+pub(crate) fn begin<I: Inputs>(
     boundary: &Boundary,
     moved: &BoundaryState,
-    slopes: &mut BoundarySlopes,
+    slopes: &mut BoundarySlopes<I>,
     (axis, direction): (usize, usize),
     length: f64,
 ) {
@@ -33,18 +33,18 @@ pub(crate) fn begin(
         target[about] = moved.target[3 + about] + moved.target_rate[3 + about] * length;
     }
     let [.., a, b, c] = slopes.end;
-    let from = Quaternion::from(moved.orientation).to_row().map(Dual::splat);
-    let to = rotation::orientation(Dual::vector(target.into(), &[a, b, c]));
+    let from = Quaternion::from(moved.orientation).to_row().map(Dual::constant);
+    let to = rotation::orientation(Dual::vector(target.into(), [a, b, c]));
     slopes.turn = rotation::between(Quaternion::from_row(from), to).slopes();
 }
 
 /// Moves every boundary, and the particles of groups with it, to the end of the present time step, where those of the state
 /// stand already. Loads begin anew.
-pub(crate) fn advance(
+pub(crate) fn advance<I: Inputs>(
     scene: &Scene,
     bodies: &[Option<RigidBody>],
     state: &State,
-    tangent: &mut Tangent,
+    tangent: &mut Tangent<I>,
     progress: &Progress,
 ) {
     for (index, (boundary, body)) in scene.boundaries.iter().zip(bodies).enumerate() {
@@ -58,7 +58,7 @@ pub(crate) fn advance(
         if body.as_ref().is_some_and(|body| body.turning == Turning::Led) {
             turn(boundary, moved, slopes, progress);
         }
-        (slopes.force, slopes.moment) = Default::default();
+        (slopes.force, slopes.moment) = ([I::Each::none(); 3], [I::Each::none(); 3]);
         if slopes.is_moved() {
             carry(scene, (boundary, index), state, tangent);
         }
@@ -66,9 +66,9 @@ pub(crate) fn advance(
 }
 
 /// An axis goes on its way: in proportion to where it is to be at the end, or by its velocity.
-fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, axis: usize, progress: &Progress) {
+fn lead<I: Inputs>(boundary: &Boundary, slopes: &mut BoundarySlopes<I>, axis: usize, progress: &Progress) {
     let motion = &boundary.axes[axis];
-    for direction in 0..DIRECTIONS {
+    for direction in 0..I::COUNT {
         let (target, before) = (slopes.end[axis][direction], slopes.displacement[axis][direction]);
         if motion.is_driven() {
             let way = Way { start: 0.0, target, before, course: boundary.input, acceleration: 0.0 };
@@ -83,72 +83,77 @@ fn lead(boundary: &Boundary, slopes: &mut BoundarySlopes, axis: usize, progress:
 }
 
 /// A boundary that the outside turns goes on its way.
-fn turn(boundary: &Boundary, moved: &BoundaryState, slopes: &mut BoundarySlopes, progress: &Progress) {
-    let whole = Dual::vector(moved.turn.into(), &slopes.turn);
+fn turn<I: Inputs>(boundary: &Boundary, moved: &BoundaryState, slopes: &mut BoundarySlopes<I>, progress: &Progress) {
+    let whole = Dual::vector(moved.turn.into(), slopes.turn);
     let course = boundary.input;
     let (before, share) = (progress.share_before(course), progress.share(course));
-    let from = Quaternion::from(moved.start_orientation).to_row().map(Dual::splat);
-    let on_the_way = rotation::orientation(whole * Dual::splat(share)) * Quaternion::from_row(from);
-    slopes.orientation = Dual::slopes_of(on_the_way.to_row());
+    let from = Quaternion::from(moved.start_orientation).to_row().map(Dual::constant);
+    let on_the_way = rotation::orientation(whole * Dual::constant(share)) * Quaternion::from_row(from);
+    slopes.orientation = row_of::<I>(on_the_way.to_row());
     let rate = match course {
         InputCourse::Ramp => 1.0 / progress.length,
         InputCourse::Smooth | InputCourse::Quadratic => (share - before) / progress.step,
         InputCourse::Hold => 0.0,
     };
-    slopes.angular_velocity = slopes.turn.map(|turn| turn.map(|slope| slope * rate));
+    slopes.angular_velocity = slopes.turn.map(|turn| turn.times(rate));
 }
 
 /// The particles of a group go with their boundary.
-fn carry(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, tangent: &mut Tangent) {
+fn carry<I: Inputs>(scene: &Scene, (boundary, index): (&Boundary, usize), state: &State, tangent: &mut Tangent<I>) {
     let (moved, slopes) = (&state.boundaries[index], &tangent.boundaries[index]);
     let particles = &mut tangent.particles;
     let orientation =
-        Quaternion::from_row(<Dual>::row(Quaternion::from(moved.orientation).to_row(), &slopes.orientation));
-    let (pivot, velocity) = (Dual::vector(moved.pivot.into(), &slopes.displacement), &slopes.velocity);
+        Quaternion::from_row(alone::<I>(Quaternion::from(moved.orientation).to_row(), &slopes.orientation));
+    let (pivot, velocity) = (Dual::vector(moved.pivot.into(), slopes.displacement), slopes.velocity);
     let velocity = Dual::vector(moved.velocity.into(), velocity);
-    let spin = Dual::vector(moved.angular_velocity.into(), &slopes.angular_velocity);
+    let spin = Dual::vector(moved.angular_velocity.into(), slopes.angular_velocity);
     for &member in boundary.shape.members() {
         let slot = state.particles.slot[member as usize] as usize;
         let home = Vector::from(scene.particles[member as usize].position) - boundary.reference.into();
-        let place = pivot + orientation.turn(Dual::vector(home, &[[0.0; DIRECTIONS]; 3]));
-        particles.position[slot] = place.slopes();
-        particles.velocity[slot] = (velocity + spin.cross(place - pivot)).slopes();
-        particles.spin[slot] = slopes.angular_velocity;
+        let place = pivot + orientation.turn(Dual::vector(home, [I::Each::none(); 3]));
+        particles.position[slot] = vector_of::<I>(place);
+        particles.velocity[slot] = vector_of::<I>(velocity + spin.cross(place - pivot));
+        particles.spin[slot] = vector_of::<I>(spin);
         if let Some(row) = particles.orientation.get_mut(slot) {
             *row = slopes.orientation;
         }
-        particles.reached[slot] = true;
+        particles.is_reached[slot] = true;
     }
 }
 
 /// Loads on the particles of groups are loads on their boundaries. `weight` says what is among the forces on a particle, by
 /// its slot, that no pass gave \[N\].
-pub(crate) fn sum_groups(scene: &Scene, state: &State, tangent: &mut Tangent, weight: impl Fn(usize) -> [f64; 3]) {
+pub(crate) fn sum_groups<I: Inputs>(
+    scene: &Scene,
+    state: &State,
+    tangent: &mut Tangent<I>,
+    weight: impl Fn(usize) -> [f64; 3],
+) {
     let particles = &tangent.particles;
     for ((boundary, moved), slopes) in scene.boundaries.iter().zip(&state.boundaries).zip(&mut tangent.boundaries) {
-        let pivot = <Dual>::vector(moved.pivot.into(), &slopes.displacement);
+        let pivot = Dual::vector(moved.pivot.into(), slopes.displacement);
         for &member in boundary.shape.members() {
             let slot = state.particles.slot[member as usize] as usize;
-            if !particles.reached[slot] {
+            if !particles.is_reached[slot] {
                 continue;
             }
             let force = Vector::from(state.particles.force[slot]) - weight(slot).into();
-            let force = Dual::vector(force, &particles.force[slot]);
-            let place = Dual::vector(state.particles.position[slot].into(), &particles.position[slot]);
-            let torque = Dual::vector(Vector::zero(), &particles.torque[slot]);
+            let force = Vector::of_row(alone::<I>(force.row_with(0.0), &particles.force[slot]));
+            let place = Vector::of_row(alone::<I>(state.particles.position[slot], &particles.position[slot]));
+            let torque = Vector::of_row(alone::<I>([0.0; 4], &particles.torque[slot]));
             let moment = (place - pivot).cross(force) + torque;
-            slopes.add_load(&force.slopes(), &moment.slopes());
+            slopes.add_load(force.slopes(), moment.slopes());
         }
     }
 }
 
 /// The whole load on boundaries that forces move, and the second half of their kick.
-pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &State, tangent: &mut Tangent, step: f64) {
+pub(crate) fn kick_again<I: Inputs>(bodies: &[Option<RigidBody>], state: &State, tangent: &mut Tangent<I>, step: f64) {
     for ((body, moved), slopes) in bodies.iter().zip(&state.boundaries).zip(&mut tangent.boundaries) {
         let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
         for axis in 0..3 {
             let [stiffness, damping] = body.ground(axis);
-            for direction in 0..DIRECTIONS {
+            for direction in 0..I::COUNT {
                 let given = if body.moves[axis] { slopes.end[axis][direction] } else { 0.0 };
                 let held =
                     stiffness * slopes.displacement[axis][direction] + damping * slopes.velocity[axis][direction];
@@ -160,9 +165,9 @@ pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &State, tangent: &
 }
 
 /// Half a kick.
-fn kick(body: &RigidBody, moved: &BoundaryState, slopes: &mut BoundarySlopes, step: f64) {
-    for direction in 0..DIRECTIONS {
-        let of = |slopes: &[Slopes; 3]| slopes.map(|slopes| slopes[direction]);
+fn kick<I: Inputs>(body: &RigidBody, moved: &BoundaryState, slopes: &mut BoundarySlopes<I>, step: f64) {
+    for direction in 0..I::COUNT {
+        let of = |slopes: &[I::Each; 3]| slopes.map(|slopes| slopes[direction]);
         let shift = body.shift(moved, of(&slopes.load), step);
         for (velocity, shift) in slopes.velocity.iter_mut().zip(shift) {
             velocity[direction] += shift;

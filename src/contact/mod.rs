@@ -13,24 +13,21 @@ mod coefficients;
 pub mod cohesion;
 #[cfg(test)]
 pub(crate) mod fixtures;
-mod functions;
 mod law;
 mod losses;
 mod material;
 pub mod normal;
 pub mod rolling;
 mod scheme;
-mod slopes;
 mod sub_model;
 pub mod tangential;
 
 pub use choice::{LawChoice, remembered};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
-pub use functions::Acting;
 #[cfg(test)]
 pub use law::Offset;
-pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET, OneContact};
+pub use law::{Acting, CoefficientPlaces, Evaluated, HistoryPlaces, Law, LawNumber, OFFSET};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
@@ -265,7 +262,7 @@ pub struct Objection {
 
 /// Force and torques of one contact on its two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reaction<N = f64> {
+pub struct Reaction<N: Number = f64> {
     /// Force on i; j gets the opposite \[N\].
     pub force: Vector<N>,
     /// n × F_t, which turns both bodies against their arms \[N\].
@@ -273,5 +270,5 @@ pub struct Reaction<N = f64> {
     /// Rolling torque taken from i and given to j \[N m\].
     pub rolling: Vector<N>,
     /// Whether friction is at its limit.
-    pub sliding: bool,
+    pub sliding: N::Mask,
 }

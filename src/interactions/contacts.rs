@@ -7,16 +7,15 @@ use super::ahead::{Ahead, Link};
 use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
-use crate::batches::{self, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
+use crate::batches::{BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::batches::{CoefficientTable, Partners, SpherePair};
 use crate::contact::{Contact, Law, Needs, Response};
-use crate::dual::Dual;
 use crate::lanes::{Lane, Shared};
 use crate::memory::prefetch;
+use crate::number::{add, subtract};
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::Context;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -83,10 +82,6 @@ impl Pass for ContactPass {
         });
         lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
         Ok(())
-    }
-
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        self.add_contact_slopes(state, tangent, step);
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {
@@ -283,16 +278,16 @@ impl Bodies for Pairs<'_> {
             let (i, j) = (first[place] as usize, second[place] as usize);
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
-                batches::add(self.force.at(i), &force[place]);
-                batches::subtract(self.force.at(j), &force[place]);
+                add(self.force.at(i), &force[place]);
+                subtract(self.force.at(j), &force[place]);
                 if needs.torque {
                     let [mut on_i, mut on_j] = touching.torques(place);
                     if needs.spin {
-                        batches::subtract(&mut on_i, &touching.rolling[place]);
-                        batches::add(&mut on_j, &touching.rolling[place]);
+                        subtract(&mut on_i, &touching.rolling[place]);
+                        add(&mut on_j, &touching.rolling[place]);
                     }
-                    batches::add(self.torque.at(i), &on_i);
-                    batches::add(self.torque.at(j), &on_j);
+                    add(self.torque.at(i), &on_i);
+                    add(self.torque.at(j), &on_j);
                 }
             }
         }

@@ -4,23 +4,18 @@ use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
 use crate::contact::Response;
-use crate::dual::Dual;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::tangent::Tangent;
+use crate::tangent::{EightInputs, FollowPass, OneInput};
 use crate::threads::Context;
 
 /// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: Send + Sync {
+pub(crate) trait Pass: FollowPass<OneInput> + FollowPass<EightInputs> + Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
-
-    /// Adds the slopes of its forces and torques to those of the particles and boundaries, as `apply` is about to find them
-    /// after a time step of this length \[s\], and brings those of what it remembers to the present.
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual);
 
     /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
     /// whether anything was made: the lists are then made anew.

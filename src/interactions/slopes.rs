@@ -1,127 +1,185 @@
-//! How contacts between particles change with a few inputs: the law over numbers with slopes.
+//! How contacts between particles change with a few inputs: the law over numbers with slopes, on a register's worth of touching
+//! entries of the list at a time.
 
 use super::contacts::ContactPass;
-use crate::batches::{ContactGeometry, SpherePair};
+use crate::batches::{ContactGeometry, SpherePair, in_lanes};
 use crate::contact::{Contact, Law, MOST_HISTORY, Needs, Reaction};
 use crate::dual::Dual;
-use crate::lanes::{Kernel, Lane, run};
+use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
-use crate::state::{Row, State};
-use crate::tangent::{AddSlopes, ListSlopes, NONE, Tangent};
+use crate::state::{Particles, Row, State};
+use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, Tangent, Waiting};
+use crate::tangent::{rows_at, slopes_of, spread};
 
 /// A pass over contacts that turn their bodies, or do not: of these nothing is looked at but the force.
 pub(super) struct Touching<P, const TURNING: bool>(pub(super) P);
 
-/// What a contact does, with slopes; those of what it remembers go on. `rows` is room for that.
+/// Room for what contacts remember.
+pub(super) type Remembered<I, N> = [[InLanes<I, N>; 4]; MOST_HISTORY];
+
+/// What contacts do, with slopes; those of what they remember, at these places of the list, go on. `rows` is room for that.
 #[inline(always)]
-pub(super) fn react<N: Lane, const TURNING: bool>(
+pub(super) fn react<I: Inputs, N: Lane, const TURNING: bool>(
     law: &Law,
-    row: &[f64],
-    contact: &mut Contact<Dual<N>>,
-    (history, slopes, entry): (&[Vec<Row>], &mut ListSlopes, usize),
-    (rows, step): (&mut [[Dual<N>; 4]; MOST_HISTORY], Dual<N>),
-) -> Reaction<Dual<N>> {
+    row: &[I::Values<N>],
+    contact: &mut Contact<InLanes<I, N>>,
+    (history, slopes, entries): (&[Vec<Row>], &mut ListSlopes<I>, (&Places, usize)),
+    (rows, step): (&mut Remembered<I, N>, InLanes<I, N>),
+) -> Reaction<InLanes<I, N>> {
+    let (entries, count) = entries;
     let rows = &mut rows[..law.history().len()];
     for (row, (values, slopes)) in rows.iter_mut().zip(history.iter().zip(&slopes.rows)) {
-        *row = Dual::row(values[entry], &slopes[entry]);
+        *row = rows_at::<I, N>(values, slopes, entries);
     }
     let reaction = if TURNING {
         law.react(row, contact, rows, step)
     } else {
         let (_, normal) = law.press(row, contact, rows, step);
-        let force = contact.normal * normal.force;
-        Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: false }
+        let (force, zero) = (contact.normal * normal.force, I::Values::<N>::zero());
+        Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: zero.greater(zero) }
     };
     for (slopes, row) in slopes.rows.iter_mut().zip(rows) {
-        slopes[entry] = Dual::slopes_of(*row);
+        I::put::<N>(slopes_of::<I, N>(*row), slopes, entries.first(count));
     }
     reaction
 }
 
-/// A contact with what its law looks at, and no slopes of what follows from radii and masses, which do not change: of the rest
-/// nothing is computed. `values` are those of the same contact.
+/// Contacts with what their law looks at, and no slopes of what follows from radii and masses, which do not change: of the rest
+/// nothing is computed. `values` are those of the same contacts.
 #[inline(always)]
-pub(super) fn needed<N: Lane, const TURNING: bool>(
-    geometry: ContactGeometry<Dual<N>>,
-    values: &Contact,
+pub(super) fn needed<I: Inputs, N: Lane, const TURNING: bool>(
+    geometry: ContactGeometry<InLanes<I, N>>,
+    values: &Contact<I::Values<N>>,
     needs: Needs,
-) -> ContactGeometry<Dual<N>> {
+) -> ContactGeometry<InLanes<I, N>> {
     let contact = geometry.contact;
-    let vector = |needed: bool, vector: Vector<Dual<N>>| if TURNING && needed { vector } else { Vector::zero() };
     let contact = Contact {
-        radius: Dual::splat(values.radius),
-        mass: Dual::splat(values.mass),
+        radius: Dual::constant(values.radius),
+        mass: Dual::constant(values.mass),
         section_area: if needs.section { contact.section_area } else { Dual::zero() },
-        section_radius: Dual::splat(values.section_radius),
-        slip: vector(needs.torque || needs.carry, contact.slip),
-        relative_spin: vector(needs.spin, contact.relative_spin),
-        spin_sum: vector(needs.spin_sum || needs.carry, contact.spin_sum),
-        turning: vector(needs.carry, contact.turning),
-        per_reach: Dual::splat(values.per_reach),
-        rolling_inertia: Dual::splat(values.rolling_inertia),
+        section_radius: Dual::constant(values.section_radius),
+        slip: kept(TURNING && (needs.torque || needs.carry), contact.slip),
+        relative_spin: kept(TURNING && needs.spin, contact.relative_spin),
+        spin_sum: kept(TURNING && (needs.spin_sum || needs.carry), contact.spin_sum),
+        turning: kept(TURNING && needs.carry, contact.turning),
+        per_reach: Dual::constant(values.per_reach),
+        rolling_inertia: Dual::constant(values.rolling_inertia),
         ..contact
     };
     ContactGeometry { contact, ..geometry }
 }
 
-/// Nothing is remembered of a contact whose bodies are apart.
-pub(super) fn part(slopes: &mut ListSlopes, entry: usize) {
-    for rows in &mut slopes.rows {
-        rows[entry] = NONE;
+/// A vector, where it is needed.
+#[inline(always)]
+fn kept<N: Number>(needed: bool, vector: Vector<N>) -> Vector<N> {
+    if needed { vector } else { Vector::zero() }
+}
+
+/// Nothing is remembered of contacts whose bodies are apart: those of the entries whose bit is set.
+#[inline(always)]
+pub(super) fn part<I: Inputs>(slopes: &mut ListSlopes<I>, entries: &Places, mut apart: u32) {
+    while apart != 0 {
+        let entry = entries.at(apart.trailing_zeros() as usize);
+        for rows in &mut slopes.rows {
+            rows[entry] = I::NONE;
+        }
+        apart &= apart - 1;
     }
 }
 
-/// How far beyond touch a contact holds its bodies together \[m\], if it may.
-pub(super) fn beyond(law: &Law, flags: u8, constant: f64) -> Option<f64> {
-    (law.holds_beyond_touch() && flags & TOUCHING != 0).then_some(constant)
+/// The materials of some particles.
+#[inline(always)]
+pub(super) fn materials(particles: &Particles, slots: &Places) -> [u32; 8] {
+    let mut found = [0; 8];
+    for (lane, found) in found.iter_mut().enumerate() {
+        *found = particles.material[slots.at(lane)];
+    }
+    found
 }
 
-impl ContactPass {
-    /// Adds the slopes of its forces to those of the particles.
-    pub(super) fn add_contact_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+/// The numbers that a list keeps of the pairs, where it does.
+#[inline(always)]
+pub(super) fn constants<N: Lane>(kept: &[f64], entries: &Places) -> N {
+    if kept.is_empty() { N::zero() } else { lanes_of(|lane| kept[entries.at(lane)]) }
+}
+
+/// How far beyond touch the contacts hold their bodies together \[m\], if the law does.
+#[inline(always)]
+pub(super) fn beyond<N: Lane>(law: &Law, flags: &[u8], kept: &[f64], entries: &Places) -> Option<N> {
+    let reach = |entry: usize| if flags[entry] & TOUCHING != 0 { kept[entry] } else { 0.0 };
+    if law.holds_beyond_touch() { Some(lanes_of(|lane| reach(entries.at(lane)))) } else { None }
+}
+
+impl<I: Inputs> FollowPass<I> for ContactPass {
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
         tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
         if self.law.needs.torque {
-            run(tangent.width, AddSlopes { pass: Touching::<_, true>(self), state, tangent, step });
+            I::run(tangent.width, AddSlopes { pass: Touching::<_, true>(self), state, tangent, step });
         } else {
-            run(tangent.width, AddSlopes { pass: Touching::<_, false>(self), state, tangent, step });
+            I::run(tangent.width, AddSlopes { pass: Touching::<_, false>(self), state, tangent, step });
         }
     }
 }
 
-impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<&ContactPass, TURNING>> {
+impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<&ContactPass, TURNING>, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass: Touching(pass), state, tangent, step } = self;
         let (list, particles, law) = (&state.contacts[pass.index], &state.particles, &pass.law.law);
         let (moved, slopes) = (&mut tangent.particles, &mut tangent.contacts[pass.index]);
-        let (step, mut rows) = (Dual::<N>::new(step.value, &step.slopes), [[Dual::zero(); 4]; MOST_HISTORY]);
-        for (entry, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
-            let (i, j) = (i as usize, j as usize);
-            if !moved.reached[i] && !moved.reached[j] {
+        let step = spread::<I, N>(step);
+        let uniform = pass.table.uniform().map(in_lanes::<I::Values<N>>);
+        let mut waiting = Waiting::of([&list.first, &list.second]);
+        let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
+        while let Some(mut group) = waiting.look::<I::Values<N>>() {
+            let Group { entries, bodies: [i, j], count } = group;
+            let wanted = moved.reached(i.first(count)) | moved.reached(j.first(count));
+            let mut touching = 0;
+            if wanted != 0 {
+                let place = &particles.position;
+                let pair = SpherePair::<I::Values<N>>::of([columns_at(place, &i), columns_at(place, &j)]);
+                let beyond = beyond(law, &list.flags, &list.pair_constant, &entries);
+                touching = wanted & I::Values::<N>::bits(pair.overlap(beyond));
+                part(slopes, &entries, wanted & !touching);
+            }
+            if I::Values::<N>::WIDTH > 1 {
+                waiting.wait(&group, touching);
+                let Some(filled) = waiting.take::<I::Values<N>>() else { continue };
+                group = filled;
+            } else if touching == 0 {
                 continue;
             }
-            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-            let near = SpherePair::of([particles.position[i], particles.position[j]]);
-            if !near.overlap(beyond(law, list.flags[entry], constant)) {
-                part(slopes, entry);
-                continue;
-            }
-            let ([p, v], [q, u]) = (moved.body::<N>(particles, i), moved.body::<N>(particles, j));
-            let spins = [i, j].map(|slot| if TURNING { moved.spin(particles, slot) } else { [Dual::zero(); 4] });
-            let geometry = SpherePair::of([p, q]).meet([v, u], spins, Dual::splat(constant));
-            let values = near.meet([particles.velocity[i], particles.velocity[j]], [[0.0; 4]; 2], constant).contact;
-            let ContactGeometry { mut contact, first_arm, second_arm } =
-                needed::<N, TURNING>(geometry, &values, pass.law.needs);
-            let row = pass.table.row(particles.material[i], particles.material[j]);
-            let Reaction { force, couple, rolling, .. } =
-                react::<N, TURNING>(law, row, &mut contact, (&list.history, slopes, entry), (&mut rows, step));
+            let Group { entries, bodies: [i, j], count } = group;
+            let ([p, v], [q, u]) = (moved.bodies::<N>(particles, &i), moved.bodies::<N>(particles, &j));
+            let mut spins = [[Dual::zero(); 4]; 2];
             if TURNING {
-                moved.load(i, force, -(couple * first_arm) - rolling);
-                moved.load(j, -force, rolling - couple * second_arm);
-            } else {
-                moved.press(i, force);
-                moved.press(j, -force);
+                spins = [moved.spins(particles, &i), moved.spins(particles, &j)];
+            }
+            let constant = constants::<I::Values<N>>(&list.pair_constant, &entries);
+            let geometry = SpherePair::of([p, q]).meet([v, u], spins, Dual::constant(constant));
+            let pair = SpherePair::of([Dual::values_of(p), Dual::values_of(q)]);
+            let velocities = [Dual::values_of(v), Dual::values_of(u)];
+            let values = pair.meet(velocities, [[Number::zero(); 4]; 2], constant).contact;
+            let mut geometry = needed::<I, N, TURNING>(geometry, &values, pass.law.needs);
+            let gathered;
+            let row = match &uniform {
+                Some(row) => row,
+                None => {
+                    gathered = pass.table.lanes(materials(particles, &i), materials(particles, &j));
+                    &gathered
+                }
+            };
+            let remembered = (&*list.history, &mut *slopes, (&entries, count));
+            let Reaction { force, couple, rolling, .. } =
+                react::<I, N, TURNING>(law, row, &mut geometry.contact, remembered, (&mut rows, step));
+            let slots = [i.first(count), j.first(count)];
+            moved.press_pairs(slots, force);
+            if TURNING {
+                moved.twist_pairs(
+                    slots,
+                    [-(couple * geometry.first_arm) - rolling, rolling - couple * geometry.second_arm],
+                );
             }
         }
     }

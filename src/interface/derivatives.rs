@@ -1,19 +1,39 @@
 //! How outputs change with inputs and in time.
 
 use super::{Causality, Interface, InterfaceError, Source, rows};
-use crate::dual::DIRECTIONS;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::step::{BoundaryDerivatives, NoDerivative, Simulation};
+use crate::step::{BoundaryDerivatives, Simulation};
 
 /// What has been found of the derivatives of the last communication step. As [`super::Findings`] it is part of no state: whoever
 /// changes the simulation forgets it.
 #[derive(Debug, Default)]
 pub struct Derivatives {
-    /// Inputs, by index, that were followed together, and what came of it.
-    found: Vec<(Vec<usize>, Vec<BoundaryDerivatives>)>,
+    /// Inputs, by index, and how the boundaries change with each.
+    found: Vec<(usize, Vec<BoundaryDerivatives>)>,
+    /// Inputs that were asked for.
+    asked: Vec<usize>,
+    /// Inputs that were asked for the last time before what was found was forgotten: those that are asked for again are followed
+    /// together.
+    before: Vec<usize>,
     /// Rates of the loads at the present time.
     rates: Option<Vec<BoundaryDerivatives>>,
+}
+
+impl Derivatives {
+    /// Forgets what has been found, for the simulation is another one now.
+    pub fn forget(&mut self) {
+        if !self.asked.is_empty() {
+            self.before = std::mem::take(&mut self.asked);
+        }
+        self.found.clear();
+        self.rates = None;
+    }
+
+    /// What was found of an input.
+    fn by(&self, input: usize) -> Option<&[BoundaryDerivatives]> {
+        self.found.iter().find(|(known, _)| *known == input).map(|(_, found)| &**found)
+    }
 }
 
 impl Interface {
@@ -38,6 +58,31 @@ impl Interface {
         (0..self.variables.len()).filter(follows).collect()
     }
 
+    /// Finds how the boundaries change with some inputs, all together, as far as that is not known.
+    pub fn find_derivatives(
+        &self,
+        simulation: &mut Simulation,
+        known: &mut Derivatives,
+        inputs: &[usize],
+    ) -> Result<(), InterfaceError> {
+        for &input in inputs {
+            self.axis_of(input)?;
+            if !known.asked.contains(&input) {
+                known.asked.push(input);
+            }
+        }
+        if inputs.iter().all(|&input| known.by(input).is_some()) {
+            return Ok(());
+        }
+        let mut missing: Vec<usize> = known.asked.iter().chain(&known.before).copied().collect();
+        missing.retain(|&input| known.by(input).is_none());
+        missing.sort_unstable();
+        missing.dedup();
+        let axes = missing.iter().map(|&input| self.axis_of(input)).collect::<Result<Vec<_>, _>>()?;
+        known.found.extend(missing.into_iter().zip(simulation.derivatives(&axes)?));
+        Ok(())
+    }
+
     /// Change of an output at the end of the last communication step per unit change of an input at that end.
     pub fn derivative(
         &self,
@@ -46,22 +91,8 @@ impl Interface {
         [output, input]: [usize; 2],
     ) -> Result<f64, InterfaceError> {
         let (slopes, at) = self.slopes_of(output)?;
-        self.axis_of(input)?;
-        if !known.found.iter().any(|(inputs, _)| inputs.contains(&input)) {
-            let beside = self
-                .followed(simulation.scene())
-                .into_iter()
-                .filter(|other| *other != input && !known.found.iter().any(|(inputs, _)| inputs.contains(other)));
-            let inputs: Vec<usize> = [input].into_iter().chain(beside).take(DIRECTIONS).collect();
-            let axes = inputs.iter().map(|&input| self.axis_of(input)).collect::<Result<Vec<_>, _>>()?;
-            let found = simulation.derivatives(&axes)?;
-            known.found.push((inputs, found));
-        }
-        let place = |(inputs, found): &(Vec<usize>, Vec<BoundaryDerivatives>)| {
-            let direction = inputs.iter().position(|other| *other == input)?;
-            Some(slopes(found, at)[direction])
-        };
-        known.found.iter().find_map(place).ok_or_else(|| NoDerivative::NoStep.into())
+        self.find_derivatives(simulation, known, &[input])?;
+        Ok(known.by(input).map_or(0.0, |found| slopes(found, at)))
     }
 
     /// Rate of an output at the present time, per second.
@@ -80,7 +111,7 @@ impl Interface {
             Some(rates) => rates,
             rates => rates.insert(simulation.rates()?),
         };
-        Ok(slopes(rates, at)[0])
+        Ok(slopes(rates, at))
     }
 
     /// How the derivatives of a variable are read.
@@ -104,5 +135,55 @@ impl Interface {
             }
             _ => Err(no_input()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source as Text;
+    use std::sync::Arc;
+
+    /// A sphere on a plate that is driven along three axes.
+    const SCENE: &str = r#"
+[run]
+step = 1.0e-5
+[material.a]
+density = 2500.0
+[pair.a.a]
+normal_stiffness = 1.0e4
+normal_damping = 1.0
+[contact.touch.normal.hooke_stiffness]
+[particles.all]
+material = "a"
+list = [{ position = [0.0, 0.0, 0.0049], radius = 0.005 }]
+[boundary.plate]
+material = "a"
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+motion = { driven = ["x", "y", "z"] }
+"#;
+
+    #[test]
+    fn inputs_that_were_asked_for_before_are_followed_together() {
+        let text = Text { name: "scene.toml".into(), text: SCENE.into(), files: Default::default() };
+        let scene = Scene::from_source(&text).unwrap_or_else(|errors| panic!("{errors}"));
+        let interface = Interface::of(&scene);
+        let inputs = interface.followed(&scene);
+        assert_eq!(inputs.len(), 3);
+        let mut simulation = Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"));
+        let mut known = Derivatives::default();
+        let mut follow = |asked: &[usize], expected: &[usize]| {
+            known.forget();
+            simulation.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
+            interface
+                .find_derivatives(&mut simulation, &mut known, asked)
+                .unwrap_or_else(|refusal| panic!("{refusal}"));
+            let found: Vec<usize> = known.found.iter().map(|(input, _)| *input).collect();
+            assert_eq!(found, expected);
+        };
+        follow(&inputs[2..], &inputs[2..]);
+        follow(&inputs[..2], &inputs);
+        follow(&inputs[1..2], &inputs[..2]);
+        follow(&inputs[1..2], &inputs[1..2]);
     }
 }

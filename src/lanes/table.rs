@@ -2,7 +2,7 @@
 
 use super::Lane;
 use crate::memory::prefetch;
-use crate::number::Row;
+use crate::number::{Row, Vector};
 
 /// An item. It begins at a line of the cache: what is read of items that lie all over the memory waits for lines.
 #[derive(Clone, Copy)]
@@ -80,4 +80,108 @@ pub fn columns_from<N: Lane>(rows: &[Row], first: usize) -> [N; 4] {
 pub fn rows_from<N: Lane>(columns: [N; 4], rows: &mut [Row], first: usize) {
     // SAFETY: so many rows are there.
     unsafe { N::store_block(columns, rows[first..first + N::WIDTH].as_mut_ptr()) };
+}
+
+/// Places in columns, one for each lane; behind the last lane places that are there, too.
+#[derive(Clone, Copy, Debug)]
+pub struct Places {
+    /// The places.
+    places: [u32; 8],
+    /// The last of them.
+    last: u32,
+}
+
+impl Places {
+    /// These places, at most eight; behind them the first one is repeated.
+    #[inline(always)]
+    pub fn of(some: &[u32]) -> Self {
+        let mut places = [some[0]; 8];
+        if some.len() == 1 {
+            return Self { places, last: some[0] };
+        }
+        if let Ok(all) = <[u32; 8]>::try_from(some) {
+            places = all;
+        } else {
+            for (place, own) in places.iter_mut().zip(some) {
+                *place = *own;
+            }
+        }
+        let mut last = 0;
+        for place in places {
+            last = u32::max(last, place);
+        }
+        Self { places, last }
+    }
+
+    /// So many places from one on; behind them the first one is repeated.
+    #[inline(always)]
+    pub fn consecutive(first: usize, count: usize) -> Self {
+        let first = first as u32;
+        let mut places = [first; 8];
+        for (place, next) in places.iter_mut().zip(first..).take(count) {
+            *place = next;
+        }
+        Self { places, last: first + count as u32 - 1 }
+    }
+
+    /// The first of them.
+    #[inline(always)]
+    pub fn first(&self, count: usize) -> &[u32] {
+        &self.places[..count]
+    }
+
+    /// The place of a lane.
+    #[inline(always)]
+    pub fn at(&self, lane: usize) -> usize {
+        self.places[lane] as usize
+    }
+}
+
+/// The rows at these places, as four columns.
+#[inline(always)]
+pub fn columns_at<N: Lane>(rows: &[Row], places: &Places) -> [N; 4] {
+    assert!((places.last as usize) < rows.len(), "row {} of {}", places.last, rows.len());
+    // SAFETY: the rows are there.
+    unsafe { N::load_rows(rows.as_ptr(), places.places.as_ptr()) }
+}
+
+/// Four columns as rows; those behind the last lane are zero.
+#[inline(always)]
+pub fn rows_of<N: Lane>(columns: [N; 4]) -> [Row; 8] {
+    let mut rows = [[0.0; 4]; 8];
+    // SAFETY: no register has more than eight lanes.
+    unsafe { N::store_block(columns, rows.as_mut_ptr()) };
+    rows
+}
+
+/// One number for each lane, made one by one.
+#[inline(always)]
+pub fn lanes_of<N: Lane>(make: impl Fn(usize) -> f64) -> N {
+    let mut numbers = [0.0; 8];
+    let mut lane = 0;
+    while lane < N::WIDTH {
+        numbers[lane] = make(lane);
+        lane += 1;
+    }
+    load_eight(&numbers)
+}
+
+/// A vector for each lane, as three columns.
+#[inline(always)]
+pub fn vectors_of<N: Lane>(make: impl Fn(usize) -> Vector) -> [N; 3] {
+    [lanes_of(|lane| make(lane).x), lanes_of(|lane| make(lane).y), lanes_of(|lane| make(lane).z)]
+}
+
+/// The first of eight numbers, as many as there are lanes.
+#[inline(always)]
+pub fn load_eight<N: Lane>(numbers: &[f64; 8]) -> N {
+    // SAFETY: no register has more than eight lanes.
+    unsafe { N::load(numbers.as_ptr()) }
+}
+
+/// Writes over the first of eight numbers, as many as there are lanes.
+#[inline(always)]
+pub fn store_eight<N: Lane>(numbers: &mut [f64; 8], register: N) {
+    // SAFETY: no register has more than eight lanes.
+    unsafe { register.store(numbers.as_mut_ptr()) };
 }

@@ -7,30 +7,34 @@ use super::Simulation;
 use super::way_back::Given;
 use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
-use crate::dual::{DIRECTIONS, Dual, Slopes};
+use crate::dual::Dual;
+use crate::interactions::Pass;
+use crate::lanes::Width;
 use crate::motion::AxisMotion;
 use crate::motion::Progress;
-use crate::number::Number;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::tangent::{BoundarySlopes, Tangent, passing};
+use crate::state::State;
+use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, Inputs, OneInput, PASSING, Tangent};
 
-/// How a boundary changes with each of some inputs: at the end of the last communication step, per unit of the input at that
-/// end.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Up to so many inputs are followed one by one. More are followed together, which costs as much as four of them or five.
+const FEW: usize = 3;
+
+/// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoundaryDerivatives {
     /// Of the force of the particles \[N\].
-    pub force: [Slopes; 3],
+    pub force: [f64; 3],
     /// Of its displacement \[m\].
-    pub displacement: [Slopes; 3],
+    pub displacement: [f64; 3],
     /// Of its velocity \[m/s\].
-    pub velocity: [Slopes; 3],
+    pub velocity: [f64; 3],
     /// Of their moment \[N m\].
-    pub moment: [Slopes; 3],
+    pub moment: [f64; 3],
     /// Of the mean force of the communication step \[N\].
-    pub mean_force: [Slopes; 3],
+    pub mean_force: [f64; 3],
     /// Of the mean moment of the communication step \[N m\].
-    pub mean_moment: [Slopes; 3],
+    pub mean_moment: [f64; 3],
 }
 
 /// Why there is no derivative.
@@ -53,31 +57,49 @@ pub enum NoDerivative {
 }
 
 impl Simulation {
-    /// How the boundaries change with each of at most [`DIRECTIONS`] inputs, axes of boundaries, at the end of the last
-    /// communication step. The state stays as it is. From the first call on the beginning of each communication step is
-    /// kept; before it is found by making up to 64 time steps again.
-    pub fn derivatives(&mut self, inputs: &[(BoundaryIndex, usize)]) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
+    /// How the boundaries change with each of some inputs, axes of boundaries, at the end of the last communication step. The
+    /// state stays as it is. From the first call on the beginning of each communication step is kept; before it is found by
+    /// making up to 64 time steps again.
+    pub fn derivatives(
+        &mut self,
+        inputs: &[(BoundaryIndex, usize)],
+    ) -> Result<Vec<Vec<BoundaryDerivatives>>, NoDerivative> {
         refuse(&self.scene)?;
         let given: Vec<Given> = self.state.boundaries.iter().map(Given::of).collect();
         let stop = self.stop.take();
         let length = self.return_to_last();
         let mut found = Err(NoDerivative::NoStep);
         if let Some(length) = length {
-            let mut tangent = Tangent::of(&self.state, self.width, self.turning);
-            for (direction, &(boundary, axis)) in inputs.iter().enumerate().take(DIRECTIONS) {
-                let place = boundary.index();
-                let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
-                slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, direction), length);
-            }
-            self.tangent = Some(Box::new(tangent));
+            self.followed = inputs
+                .chunks(EightInputs::COUNT)
+                .flat_map(|inputs| match inputs.len() {
+                    count if count <= FEW || self.width != Width::Eight => {
+                        inputs.iter().map(|input| self.follow::<OneInput>(&[*input], length)).collect()
+                    }
+                    _ => vec![self.follow::<EightInputs>(inputs, length)],
+                })
+                .collect();
             self.advance(length).expect("a communication step that was made before can be made again");
-            if let Some(tangent) = self.tangent.take() {
-                found = Ok(tangent.boundaries.iter().map(|slopes| told(slopes, length)).collect());
-            }
+            let followed = std::mem::take(&mut self.followed);
+            found = Ok(followed.iter().flat_map(|followed| followed.told(length)).take(inputs.len()).collect());
         }
         self.state.boundaries.iter_mut().zip(given).for_each(|(boundary, given)| given.give_to(boundary));
         self.stop = stop;
         found
+    }
+
+    /// What follows some inputs, at most [`Inputs::COUNT`], through a communication step of this length \[s\] that begins now.
+    fn follow<I: Inputs>(&self, inputs: &[(BoundaryIndex, usize)], length: f64) -> Box<dyn Followed>
+    where
+        Tangent<I>: Followed,
+    {
+        let mut tangent = Tangent::<I>::of(&self.state, self.width, self.turning);
+        for (direction, &(boundary, axis)) in inputs.iter().enumerate() {
+            let place = boundary.index();
+            let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
+            slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, direction), length);
+        }
+        Box::new(tangent)
     }
 
     /// Whether derivatives are followed in a scene.
@@ -97,67 +119,103 @@ impl Simulation {
         }
     }
 
-    /// How force and moment of each boundary change in time at present, in the first of the directions \[N/s, N m/s\]: as
-    /// positions, velocities and springs go on. The state stays as it is.
+    /// How force and moment of each boundary change in time at present \[N/s, N m/s\]: as positions, velocities and springs go on.
+    /// The state stays as it is.
     pub fn rates(&self) -> Result<Vec<BoundaryDerivatives>, NoDerivative> {
         Self::has_rates(&self.scene)?;
         let mut tangent = Tangent::of(&self.state, self.width, self.turning);
         tangent.go_on(&self.state);
         for pass in &self.passes {
-            pass.add_slopes(&self.state, &mut tangent, passing());
+            pass.add_slopes(&self.state, &mut tangent, PASSING);
         }
         let particles = &self.state.particles;
         slopes::sum_groups(&self.scene, &self.state, &mut tangent, |slot| self.fields.weight_of(particles, slot));
-        Ok(tangent.boundaries.iter().map(|slopes| told(slopes, 1.0)).collect())
+        Ok(tangent.boundaries.iter().map(|slopes| told(slopes, 0, 1.0)).collect())
     }
 
     /// The first half of a kick and the drift.
     pub(super) fn drift_slopes(&mut self, step: f64) {
-        if let Some(tangent) = &mut self.tangent {
-            for boundary in &mut tangent.boundaries {
-                boundary.book(0.5 * step);
-            }
-            tangent.drift(&self.state, step);
-        }
+        self.followed.iter_mut().for_each(|followed| followed.drift(&self.state, step));
     }
 
     /// Motion of the boundaries and the forces, before these are evaluated.
     pub(super) fn evaluate_slopes(&mut self, progress: &Progress) {
-        let Some(mut tangent) = self.tangent.take() else { return };
-        tangent.follow(&self.state);
-        slopes::advance(&self.scene, &self.bodies, &self.state, &mut tangent, progress);
-        for pass in &self.passes {
-            pass.add_slopes(&self.state, &mut tangent, Dual::splat(progress.step));
-        }
-        self.tangent = Some(tangent);
+        let mut all = std::mem::take(&mut self.followed);
+        all.iter_mut().for_each(|followed| followed.evaluate(self, progress));
+        self.followed = all;
     }
 
     /// The second half of a kick, after forces have been evaluated.
     pub(super) fn kick_slopes(&mut self, weighed: bool, step: f64) {
-        if let Some(tangent) = &mut self.tangent {
-            let particles = &self.state.particles;
-            let weight = |slot: usize| if weighed { self.fields.weight_of(particles, slot) } else { [0.0; 3] };
-            slopes::sum_groups(&self.scene, &self.state, tangent, weight);
-            tangent.follow_bonds(&self.state);
-            let particles = &mut tangent.particles;
-            self.fields.damp_slopes(&self.state.particles, &mut particles.force, &mut particles.torque);
-            tangent.kick(&self.state, step);
-            slopes::kick_again(&self.bodies, &self.state, tangent, step);
-            for boundary in &mut tangent.boundaries {
-                boundary.book(0.5 * step);
-            }
-        }
+        let mut all = std::mem::take(&mut self.followed);
+        all.iter_mut().for_each(|followed| followed.kick(self, weighed, step));
+        self.followed = all;
     }
 }
 
-/// What is told of a boundary after a communication step of this length \[s\].
-fn told(slopes: &BoundarySlopes, length: f64) -> BoundaryDerivatives {
-    let mean = |impulse: &[Slopes; 3]| impulse.map(|impulse| impulse.map(|impulse| impulse / length));
+/// Slopes by some inputs that go through the time steps of a simulation.
+pub(super) trait Followed: Send + Sync {
+    /// The first half of a kick and the drift.
+    fn drift(&mut self, state: &State, step: f64);
+
+    /// Motion of the boundaries and the forces, before these are evaluated.
+    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress);
+
+    /// The second half of a kick, after forces have been evaluated.
+    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64);
+
+    /// What is told of the boundaries after a communication step of this length \[s\], input by input.
+    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>>;
+}
+
+impl<I: Inputs> Followed for Tangent<I>
+where
+    dyn Pass: FollowPass<I>,
+{
+    fn drift(&mut self, state: &State, step: f64) {
+        for boundary in &mut self.boundaries {
+            boundary.book(0.5 * step);
+        }
+        self.drift_particles(state, step);
+    }
+
+    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress) {
+        let Simulation { scene, state, bodies, passes, .. } = simulation;
+        self.follow(state);
+        slopes::advance(scene, bodies, state, self, progress);
+        for pass in passes {
+            pass.add_slopes(state, self, Dual::constant(progress.step));
+        }
+    }
+
+    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64) {
+        let Simulation { scene, state, bodies, fields, .. } = simulation;
+        let weight = |slot: usize| if weighed { fields.weight_of(&state.particles, slot) } else { [0.0; 3] };
+        slopes::sum_groups(scene, state, self, weight);
+        self.follow_bonds(state);
+        fields.damp_slopes::<I>(&state.particles, &mut self.particles.force, &mut self.particles.torque);
+        self.kick_particles(state, step);
+        slopes::kick_again(bodies, state, self, step);
+        for boundary in &mut self.boundaries {
+            boundary.book(0.5 * step);
+        }
+    }
+
+    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
+        let of = |direction| self.boundaries.iter().map(|slopes| told(slopes, direction, length)).collect();
+        (0..I::COUNT).map(of).collect()
+    }
+}
+
+/// What is told of a boundary, by one of the inputs, after a communication step of this length \[s\].
+fn told<I: Inputs>(slopes: &BoundarySlopes<I>, direction: usize, length: f64) -> BoundaryDerivatives {
+    let of = |slopes: &[I::Each; 3]| slopes.map(|slopes| slopes[direction]);
+    let mean = |impulse: &[I::Each; 3]| impulse.map(|impulse| impulse[direction] / length);
     BoundaryDerivatives {
-        displacement: slopes.displacement,
-        velocity: slopes.velocity,
-        force: slopes.force,
-        moment: slopes.moment,
+        displacement: of(&slopes.displacement),
+        velocity: of(&slopes.velocity),
+        force: of(&slopes.force),
+        moment: of(&slopes.moment),
         mean_force: mean(&slopes.impulse),
         mean_moment: mean(&slopes.angular_impulse),
     }

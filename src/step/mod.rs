@@ -21,6 +21,7 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
+use derivatives::Followed;
 pub use derivatives::{BoundaryDerivatives, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
@@ -44,7 +45,6 @@ use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::ledger::{Loads, Source};
 use crate::state::{Foresight, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -84,8 +84,8 @@ pub struct Simulation {
     room: Room,
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
-    /// How the state changes with a few inputs, while that is followed.
-    tangent: Option<Box<Tangent>>,
+    /// How the state changes with some inputs, while that is followed.
+    followed: Vec<Box<dyn Followed>>,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -147,7 +147,7 @@ impl Simulation {
             state,
             room: Room::default(),
             way_back: WayBack::default(),
-            tangent: None,
+            followed: Vec::new(),
             stop: None,
             watch: None,
         };

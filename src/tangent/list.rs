@@ -1,19 +1,19 @@
 //! Slopes of what the entries of a list remember, which go with their bodies when lists are made anew.
 
-use super::NONE;
-use crate::dual::RowSlopes;
+use super::Inputs;
+use crate::dual::Slopes;
 
 /// How what a list remembers of its entries changes.
-pub(crate) struct ListSlopes {
+pub(crate) struct ListSlopes<I: Inputs> {
     /// Bodies of each entry, as the scene numbers them.
     bodies: Vec<[u32; 2]>,
     /// Slopes of each entry, a column for each row.
-    pub rows: Vec<Vec<RowSlopes>>,
+    pub rows: Vec<Vec<I::Row>>,
     /// Which numbers of each row change their sign where the bodies change places.
     odd: Vec<[bool; 4]>,
 }
 
-impl ListSlopes {
+impl<I: Inputs> ListSlopes<I> {
     /// An empty list of so many rows.
     pub(super) fn of(rows: usize) -> Self {
         Self { bodies: Vec::new(), rows: vec![Vec::new(); rows], odd: vec![[false; 4]; rows] }
@@ -45,8 +45,8 @@ impl ListSlopes {
         for (rows, odd) in self.rows.iter_mut().zip(&self.odd) {
             let moved = bodies.iter().zip(&before).map(|(pair, entry)| match entry {
                 Some(entry) if self.bodies[*entry] == *pair => rows[*entry],
-                Some(entry) => reversed(&rows[*entry], odd),
-                None => NONE,
+                Some(entry) => reversed::<I>(&rows[*entry], odd),
+                None => I::NONE,
             });
             *rows = moved.collect();
         }
@@ -55,25 +55,41 @@ impl ListSlopes {
 }
 
 /// Slopes as the other body sees them.
-fn reversed(row: &RowSlopes, odd: &[bool; 4]) -> RowSlopes {
-    std::array::from_fn(|place| if odd[place] { row[place].map(|slope| -slope) } else { row[place] })
+fn reversed<I: Inputs>(row: &I::Row, odd: &[bool; 4]) -> I::Row {
+    I::row([0, 1, 2, 3].map(|place| I::each(row, place).times(if odd[place] { -1.0 } else { 1.0 })))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dual::DIRECTIONS;
+    use crate::tangent::{EightInputs, OneInput};
+
+    /// Slopes that are the same in each number of a row.
+    fn of<I: Inputs>(slope: f64) -> I::Row {
+        let mut each = I::Each::none();
+        each[I::COUNT - 1] = slope;
+        I::row([each; 4])
+    }
+
+    /// The slopes of a row by the last of the inputs.
+    fn told<I: Inputs>(row: &I::Row) -> [f64; 4] {
+        [0, 1, 2, 3].map(|place| I::each(row, place)[I::COUNT - 1])
+    }
+
+    /// A list is made anew.
+    fn follow<I: Inputs>() {
+        let mut list = ListSlopes::<I>::of(1);
+        list.set_odd([[true, true, true, false]].into_iter());
+        list.follow([[0, 1], [2, 3]].into_iter());
+        list.rows[0] = vec![of::<I>(1.0), of::<I>(2.0)];
+        list.follow([[3, 2], [0, 4], [0, 1]].into_iter());
+        let found: Vec<[f64; 4]> = list.rows[0].iter().map(told::<I>).collect();
+        assert_eq!(found, [[-2.0, -2.0, -2.0, 2.0], [0.0; 4], [1.0; 4]]);
+    }
 
     #[test]
     fn slopes_go_with_their_bodies_and_change_sign_with_their_order() {
-        let mut list = ListSlopes::of(1);
-        list.set_odd([[true, true, true, false]].into_iter());
-        list.follow([[0, 1], [2, 3]].into_iter());
-        list.rows[0][0] = [[1.0; DIRECTIONS]; 4];
-        list.rows[0][1] = [[2.0; DIRECTIONS]; 4];
-        list.follow([[3, 2], [0, 4], [0, 1]].into_iter());
-        assert_eq!(list.rows[0][0], [-2.0, -2.0, -2.0, 2.0].map(|slope| [slope; DIRECTIONS]));
-        assert_eq!(list.rows[0][1], NONE);
-        assert_eq!(list.rows[0][2], [[1.0; DIRECTIONS]; 4]);
+        follow::<OneInput>();
+        follow::<EightInputs>();
     }
 }

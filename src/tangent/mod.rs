@@ -3,54 +3,63 @@
 //! Slopes have the places of what they belong to, row by row. What no input has reached yet has none and is passed over.
 
 mod boundary;
+mod group;
+mod inputs;
 mod list;
 mod particles;
 pub(crate) mod rotation;
 
 pub(crate) use boundary::BoundarySlopes;
+pub(crate) use group::{Group, Waiting};
+pub(crate) use inputs::{Alone, EightInputs, InLanes, Inputs, OneInput};
+pub(crate) use inputs::{alone, row_of, rows_at, slopes_of, spread, vector_of};
 pub(crate) use list::ListSlopes;
 pub(crate) use particles::ParticleSlopes;
 
-use crate::dual::{DIRECTIONS, Dual, RowSlopes, Slopes};
+use crate::dual::Dual;
 use crate::geometry::Quaternion;
 use crate::lanes::Width;
-use crate::number::{Number, Vector};
+use crate::number::Vector;
 use crate::state::State;
 
-/// No change.
-pub(crate) const NONE: RowSlopes = [[0.0; DIRECTIONS]; 4];
-
-/// How everything that changes does so with a few inputs.
-pub(crate) struct Tangent {
+/// How everything that changes does so with some inputs.
+pub(crate) struct Tangent<I: Inputs> {
     /// Of particles.
-    pub particles: ParticleSlopes,
+    pub particles: ParticleSlopes<I>,
     /// Of what contacts between particles remember, a list for each law.
-    pub contacts: Vec<ListSlopes>,
+    pub contacts: Vec<ListSlopes<I>>,
     /// Of what contacts with surfaces remember, a list for each surface and law.
-    pub walls: Vec<ListSlopes>,
+    pub walls: Vec<ListSlopes<I>>,
     /// Of the rows of bonds, a list for each law.
-    pub bonds: Vec<ListSlopes>,
+    pub bonds: Vec<ListSlopes<I>>,
     /// Of boundaries.
-    pub boundaries: Vec<BoundarySlopes>,
+    pub boundaries: Vec<BoundarySlopes<I>>,
     /// Registers that slopes are worked on in.
     pub width: Width,
     /// The time step in which the lists had been made whose order this follows.
     made_at: u64,
 }
 
+/// A pass of a time step that slopes by some inputs go through.
+pub(crate) trait FollowPass<I: Inputs> {
+    /// Adds the slopes of its forces and torques to those of the particles and boundaries, as the pass is about to find them
+    /// after a time step of this length \[s\], and brings those of what it remembers to the present.
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>);
+}
+
 /// A pass whose slopes are added to those of the particles and boundaries: the work of a kernel.
-pub(crate) struct AddSlopes<'a, P> {
+pub(crate) struct AddSlopes<'a, P, I: Inputs> {
     /// The pass.
     pub pass: P,
     /// The state.
     pub state: &'a State,
     /// How it changes.
-    pub tangent: &'a mut Tangent,
+    pub tangent: &'a mut Tangent<I>,
     /// The time step, or time itself.
-    pub step: Dual,
+    pub step: Alone<I>,
 }
 
-impl Tangent {
+impl<I: Inputs> Tangent<I> {
     /// Nothing changes yet. `turning` says whether torques turn the particles.
     pub(crate) fn of(state: &State, width: Width, turning: bool) -> Self {
         let mut tangent = Self {
@@ -96,44 +105,33 @@ impl Tangent {
             slopes.follow(list.first.iter().enumerate().map(|(bond, &slot)| [id(slot), second(bond)]));
         }
     }
+}
 
-    /// Everything goes on in time: the first of the directions is time itself.
+impl Tangent<OneInput> {
+    /// Everything goes on in time: time itself is what is followed.
     pub(crate) fn go_on(&mut self, state: &State) {
         let (slopes, particles) = (&mut self.particles, &state.particles);
         for slot in 0..particles.len() {
             let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
             for axis in 0..3 {
-                slopes.position[slot][axis][0] = velocity[axis];
+                slopes.position[slot][axis] = velocity[axis];
                 if particles.owner[slot] == 0 {
-                    slopes.velocity[slot][axis][0] = particles.force[slot][axis] / velocity[3];
-                    slopes.spin[slot][axis][0] = particles.torque[slot][axis] / spin[3];
+                    slopes.velocity[slot][axis] = particles.force[slot][axis] / velocity[3];
+                    slopes.spin[slot][axis] = particles.torque[slot][axis] / spin[3];
                 }
             }
             if let Some(row) = slopes.orientation.get_mut(slot) {
-                let passing = passing();
-                let orientation = Quaternion::from_row(<Dual>::row(particles.orientation[slot], &NONE));
-                *row = Dual::slopes_of(orientation.turned(Vector::of_row(spin.map(Dual::splat)), passing).to_row());
+                let orientation = Quaternion::from_row(particles.orientation[slot].map(Dual::constant));
+                let turned = orientation.turned(Vector::of_row(spin.map(Dual::constant)), PASSING);
+                *row = row_of::<OneInput>(turned.to_row());
             }
         }
-        slopes.reached.fill(true);
+        slopes.is_reached.fill(true);
         for (slopes, boundary) in self.boundaries.iter_mut().zip(&state.boundaries) {
-            for axis in 0..3 {
-                slopes.displacement[axis][0] = boundary.velocity[axis];
-            }
+            slopes.displacement = boundary.velocity.map(|velocity| [velocity]);
         }
     }
 }
 
-/// Time as the first of the directions.
-pub(crate) fn passing() -> Dual {
-    Dual::new(0.0, &std::array::from_fn(|direction| if direction == 0 { 1.0 } else { 0.0 }))
-}
-
-/// Adds the slopes of a vector to those of a row or of another vector.
-pub(crate) fn add_vector(sums: &mut [Slopes], parts: &[Slopes; 3]) {
-    for (sum, part) in sums.iter_mut().zip(parts) {
-        for (sum, part) in sum.iter_mut().zip(part) {
-            *sum += part;
-        }
-    }
-}
+/// Time as what is followed.
+pub(crate) const PASSING: Dual = Dual { value: 0.0, slopes: [1.0] };

@@ -1,64 +1,61 @@
 //! How particles change with a few inputs.
 
-use super::{NONE, Tangent};
-use crate::dual::{DIRECTIONS, Dual, RowSlopes, Slopes};
+use super::inputs::vectors_at;
+use super::{InLanes, Inputs, Tangent, alone, row_of, rows_at};
 use crate::geometry::Quaternion;
-use crate::lanes::{Kernel, Lane, add_eight, run};
+use crate::lanes::{Kernel, Lane, Places};
 use crate::number::{Number, Vector};
 use crate::state::{Particles, State};
 
-/// The slopes of a vector that does not change.
-const NO_VECTOR: VectorSlopes = [[0.0; DIRECTIONS]; 3];
-
-/// How a vector changes.
-type VectorSlopes = [Slopes; 3];
-
 /// How the vectors of particles change.
-pub(crate) struct ParticleSlopes {
+pub(crate) struct ParticleSlopes<I: Inputs> {
     /// Of positions.
-    pub position: Vec<VectorSlopes>,
+    pub position: Vec<I::Row>,
     /// Of velocities.
-    pub velocity: Vec<VectorSlopes>,
+    pub velocity: Vec<I::Row>,
     /// Of angular velocities, where torques change them.
-    pub spin: Vec<VectorSlopes>,
+    pub spin: Vec<I::Row>,
     /// Of forces.
-    pub force: Vec<VectorSlopes>,
+    pub force: Vec<I::Row>,
     /// Of torques, where there are any.
-    pub torque: Vec<VectorSlopes>,
+    pub torque: Vec<I::Row>,
     /// Of orientations; empty where there are none.
-    pub orientation: Vec<RowSlopes>,
+    pub orientation: Vec<I::Row>,
     /// Whether an input has reached the particle.
-    pub reached: Vec<bool>,
+    pub is_reached: Vec<bool>,
+    /// Whether an input has reached every particle.
+    all_reached: bool,
     /// Whether torques turn the particles.
     turning: bool,
     /// Which of the scene's particles each is.
     id: Vec<u32>,
 }
 
-impl Tangent {
+impl<I: Inputs> Tangent<I> {
     /// Half a kick and the drift of free particles, by the loads and motions before it. Loads begin anew.
-    pub(crate) fn drift(&mut self, state: &State, step: f64) {
-        run(self.width, Drift { slopes: &mut self.particles, particles: &state.particles, step });
+    pub(crate) fn drift_particles(&mut self, state: &State, step: f64) {
+        I::run(self.width, Drift { slopes: &mut self.particles, particles: &state.particles, step });
     }
 
     /// The second half of the kick of free particles.
-    pub(crate) fn kick(&mut self, state: &State, step: f64) {
-        run(self.width, Kick { slopes: &mut self.particles, particles: &state.particles, half: 0.5 * step });
+    pub(crate) fn kick_particles(&mut self, state: &State, step: f64) {
+        I::run(self.width, Kick { slopes: &mut self.particles, particles: &state.particles, half: 0.5 * step });
     }
 }
 
-impl ParticleSlopes {
+impl<I: Inputs> ParticleSlopes<I> {
     /// Nothing changes yet.
     pub(super) fn of(particles: &Particles, turning: bool) -> Self {
-        let vectors = || vec![NO_VECTOR; particles.len()];
+        let rows = || vec![I::NONE; particles.len()];
         Self {
-            position: vectors(),
-            velocity: vectors(),
-            spin: vectors(),
-            force: vectors(),
-            torque: vectors(),
-            orientation: vec![NONE; particles.orientation.len()],
-            reached: vec![false; particles.len()],
+            position: rows(),
+            velocity: rows(),
+            spin: rows(),
+            force: rows(),
+            torque: rows(),
+            orientation: vec![I::NONE; particles.orientation.len()],
+            is_reached: vec![false; particles.len()],
+            all_reached: false,
             turning,
             id: particles.id.clone(),
         }
@@ -68,15 +65,15 @@ impl ParticleSlopes {
     #[inline(always)]
     fn kick(&mut self, particles: &Particles, slot: usize, half: f64) {
         let (mass, inertia) = (particles.velocity[slot][3], particles.angular_velocity[slot][3]);
-        add(&mut self.velocity[slot], &self.force[slot], half / mass);
+        I::add_times(&mut self.velocity[slot], &self.force[slot], half / mass);
         if self.turning {
-            add(&mut self.spin[slot], &self.torque[slot], half / inertia);
+            I::add_times(&mut self.spin[slot], &self.torque[slot], half / inertia);
         }
     }
 
     /// Turns an orientation as the drift does; the angular velocity has had its half kick, that of the state not yet.
     #[inline(always)]
-    fn turn<N: Lane>(&mut self, particles: &Particles, slot: usize, step: f64) {
+    fn turn(&mut self, particles: &Particles, slot: usize, step: f64) {
         let (mut spin, torque) = (particles.angular_velocity[slot], particles.torque[slot]);
         if particles.owner[slot] == 0 {
             let factor = 0.5 * step / spin[3];
@@ -84,9 +81,9 @@ impl ParticleSlopes {
                 spin[axis] += factor * torque[axis];
             }
         }
-        let spin = Dual::<N>::vector(Vector::from(spin), &self.spin[slot]);
-        let orientation = Quaternion::from_row(Dual::row(particles.orientation[slot], &self.orientation[slot]));
-        self.orientation[slot] = Dual::slopes_of(orientation.turned(spin, Dual::splat(step)).to_row());
+        let spin = Vector::of_row(alone::<I>(spin, &self.spin[slot]));
+        let orientation = Quaternion::from_row(alone::<I>(particles.orientation[slot], &self.orientation[slot]));
+        self.orientation[slot] = row_of::<I>(orientation.turned(spin, Number::splat(step)).to_row());
     }
 
     /// Takes over the order of the particles.
@@ -96,124 +93,141 @@ impl ParticleSlopes {
             before[id as usize] = slot as u32;
         }
         let came_from: Vec<usize> = particles.id.iter().map(|&id| before[id as usize] as usize).collect();
-        let move_all = |column: &mut Vec<VectorSlopes>| *column = came_from.iter().map(|&slot| column[slot]).collect();
+        let move_all = |column: &mut Vec<I::Row>| *column = came_from.iter().map(|&slot| column[slot]).collect();
         [&mut self.position, &mut self.velocity, &mut self.force].into_iter().for_each(move_all);
         if self.turning {
             [&mut self.spin, &mut self.torque].into_iter().for_each(move_all);
         }
         if !self.orientation.is_empty() {
-            self.orientation = came_from.iter().map(|&slot| self.orientation[slot]).collect();
+            move_all(&mut self.orientation);
         }
-        self.reached = came_from.iter().map(|&slot| self.reached[slot]).collect();
+        self.is_reached = came_from.iter().map(|&slot| self.is_reached[slot]).collect();
         self.id.clone_from(&particles.id);
     }
 
-    /// Position with radius and velocity with mass of a particle, with their slopes.
+    /// Positions with radii and velocities with masses of a register's worth of particles, with their slopes.
     #[inline(always)]
-    pub(crate) fn body<N: Lane>(&self, particles: &Particles, slot: usize) -> [[Dual<N>; 4]; 2] {
-        let position = row_of(particles.position[slot], &self.position[slot]);
-        [position, row_of(particles.velocity[slot], &self.velocity[slot])]
+    pub(crate) fn bodies<N: Lane>(&self, particles: &Particles, slots: &Places) -> [[InLanes<I, N>; 4]; 2] {
+        let position = vectors_at::<I, N>(&particles.position, &self.position, slots);
+        [position, vectors_at::<I, N>(&particles.velocity, &self.velocity, slots)]
     }
 
-    /// Angular velocity with inertia of a particle, with its slopes.
+    /// Angular velocities with inertias of a register's worth of particles, with their slopes.
     #[inline(always)]
-    pub(crate) fn spin<N: Lane>(&self, particles: &Particles, slot: usize) -> [Dual<N>; 4] {
-        row_of(particles.angular_velocity[slot], &self.spin[slot])
+    pub(crate) fn spins<N: Lane>(&self, particles: &Particles, slots: &Places) -> [InLanes<I, N>; 4] {
+        vectors_at::<I, N>(&particles.angular_velocity, &self.spin, slots)
     }
 
-    /// Adds to the slopes of the force on a particle, which is reached then.
+    /// Orientations of a register's worth of particles with their slopes, where there are any.
     #[inline(always)]
-    pub(crate) fn press<N: Lane>(&mut self, slot: usize, force: Vector<Dual<N>>) {
-        raise(&mut self.force[slot], force);
-        self.reached[slot] = true;
+    pub(crate) fn orientations<N: Lane>(&self, particles: &Particles, slots: &Places) -> Quaternion<InLanes<I, N>> {
+        match self.orientation.is_empty() {
+            true => Quaternion::identity(),
+            false => Quaternion::from_row(rows_at::<I, N>(&particles.orientation, &self.orientation, slots)),
+        }
     }
 
-    /// Adds to the slopes of force and torque on a particle, which is reached then.
+    /// Which of some particles an input has reached, a bit for each.
     #[inline(always)]
-    pub(crate) fn load<N: Lane>(&mut self, slot: usize, force: Vector<Dual<N>>, torque: Vector<Dual<N>>) {
-        self.press(slot, force);
-        raise(&mut self.torque[slot], torque);
+    pub(crate) fn reached(&self, slots: &[u32]) -> u32 {
+        if self.all_reached {
+            return (1 << slots.len()) - 1;
+        }
+        let mut bits = 0;
+        for (lane, &slot) in slots.iter().enumerate() {
+            bits |= u32::from(self.is_reached[slot as usize]) << lane;
+        }
+        bits
     }
-}
 
-/// A vector with its slopes, and behind it a number that does not change.
-#[inline(always)]
-fn row_of<N: Lane>([x, y, z, rest]: [f64; 4], [dx, dy, dz]: &VectorSlopes) -> [Dual<N>; 4] {
-    [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::splat(rest)]
-}
+    /// Adds to the slopes of the forces on some particles, which are reached then.
+    #[inline(always)]
+    pub(crate) fn press<N: Lane>(&mut self, slots: &[u32], force: Vector<InLanes<I, N>>) {
+        I::add::<N>(force.slopes(), &mut self.force, slots);
+        for &slot in slots {
+            self.is_reached[slot as usize] = true;
+        }
+    }
 
-/// Adds the slopes of a vector.
-#[inline(always)]
-fn raise<N: Lane>(sums: &mut VectorSlopes, vector: Vector<Dual<N>>) {
-    let [x, y, z] = sums;
-    add_eight::<N>(x, vector.x.slopes);
-    add_eight::<N>(y, vector.y.slopes);
-    add_eight::<N>(z, vector.z.slopes);
+    /// Adds to the slopes of the forces on the first ones of some pairs of particles, and takes from those on the second ones, pair by
+    /// pair; both are reached then.
+    #[inline(always)]
+    pub(crate) fn press_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], force: Vector<InLanes<I, N>>) {
+        I::add_opposite::<N>(force.slopes(), &mut self.force, slots);
+        for &slot in slots.into_iter().flatten() {
+            self.is_reached[slot as usize] = true;
+        }
+    }
+
+    /// Adds to the slopes of the torques on both particles of some pairs, pair by pair.
+    #[inline(always)]
+    pub(crate) fn twist_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], torques: [Vector<InLanes<I, N>>; 2]) {
+        let [first, second] = torques;
+        I::add_pairs::<N>([first.slopes(), second.slopes()], &mut self.torque, slots);
+    }
+
+    /// Adds to the slopes of the torques on some particles.
+    #[inline(always)]
+    pub(crate) fn twist<N: Lane>(&mut self, slots: &[u32], torque: Vector<InLanes<I, N>>) {
+        I::add::<N>(torque.slopes(), &mut self.torque, slots);
+    }
 }
 
 /// Half a kick and the drift of particles.
-struct Drift<'a> {
+struct Drift<'a, I: Inputs> {
     /// What changes.
-    slopes: &'a mut ParticleSlopes,
+    slopes: &'a mut ParticleSlopes<I>,
     /// The particles.
     particles: &'a Particles,
     /// Length of the time step \[s\].
     step: f64,
 }
 
-impl Kernel for Drift<'_> {
+impl<I: Inputs> Kernel for Drift<'_, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { slopes, particles, step } = self;
+        slopes.all_reached = true;
         for slot in 0..particles.len() {
             // Nothing has ever been written of a particle that is not reached.
-            if !slopes.reached[slot] {
+            if !slopes.is_reached[slot] {
+                slopes.all_reached = false;
                 continue;
             }
             if particles.owner[slot] == 0 {
                 slopes.kick(particles, slot, 0.5 * step);
                 let velocity = slopes.velocity[slot];
-                add(&mut slopes.position[slot], &velocity, step);
+                I::add_times(&mut slopes.position[slot], &velocity, step);
             }
             if !slopes.orientation.is_empty() {
-                slopes.turn::<N>(particles, slot, step);
+                slopes.turn(particles, slot, step);
             }
-            slopes.force[slot] = NO_VECTOR;
+            slopes.force[slot] = I::NONE;
             if slopes.turning {
-                slopes.torque[slot] = NO_VECTOR;
+                slopes.torque[slot] = I::NONE;
             }
         }
     }
 }
 
 /// Half a kick of particles.
-struct Kick<'a> {
+struct Kick<'a, I: Inputs> {
     /// What changes.
-    slopes: &'a mut ParticleSlopes,
+    slopes: &'a mut ParticleSlopes<I>,
     /// The particles.
     particles: &'a Particles,
     /// Its length \[s\].
     half: f64,
 }
 
-impl Kernel for Kick<'_> {
+impl<I: Inputs> Kernel for Kick<'_, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { slopes, particles, half } = self;
         for slot in 0..particles.len() {
-            if particles.owner[slot] == 0 && slopes.reached[slot] {
+            if particles.owner[slot] == 0 && slopes.is_reached[slot] {
                 slopes.kick(particles, slot, half);
             }
-        }
-    }
-}
-
-/// Adds a multiple of slopes.
-#[inline(always)]
-fn add(row: &mut [Slopes], other: &[Slopes], factor: f64) {
-    for (sum, part) in row.iter_mut().zip(other) {
-        for (sum, part) in sum.iter_mut().zip(part) {
-            *sum += factor * part;
         }
     }
 }

@@ -229,7 +229,8 @@ impl Instance {
 
     /// Forgets what has been found of the simulation.
     fn changed(&mut self) {
-        (self.findings, self.derivatives) = (Findings::default(), Derivatives::default());
+        self.findings = Findings::default();
+        self.derivatives.forget();
     }
 
     /// Before anything was set.

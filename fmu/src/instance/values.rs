@@ -159,14 +159,16 @@ impl Instance {
         direction: Items<f64>,
     ) -> Result<Vec<f64>, Refusal> {
         self.unit.interface.check_derivatives(&self.unit.scene)?;
+        let index = |reference| Ok(self.variable(reference, "Real")?.0);
+        let inputs = knowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let outputs = unknowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let Self { unit, simulation, derivatives, .. } = self;
+        unit.interface.find_derivatives(simulation, derivatives, &inputs)?;
         let mut changes = Vec::new();
-        for unknown in unknowns.iter() {
-            let (output, _) = self.variable(unknown, "Real")?;
+        for output in outputs {
             let mut change = 0.0;
-            for (known, share) in knowns.iter().zip(direction.iter()) {
-                let (input, _) = self.variable(known, "Real")?;
-                let (interface, known) = (&self.unit.interface, &mut self.derivatives);
-                change += share * interface.derivative(&mut self.simulation, known, [output, input])?;
+            for (&input, share) in inputs.iter().zip(direction.iter()) {
+                change += share * unit.interface.derivative(simulation, derivatives, [output, input])?;
             }
             changes.push(change);
         }

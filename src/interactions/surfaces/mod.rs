@@ -18,7 +18,6 @@ use super::records::ContactRecord;
 use crate::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::batches::{CoefficientTable, Partners};
 use crate::contact::Response;
-use crate::dual::Dual;
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
@@ -26,7 +25,6 @@ use crate::scene::{Boundary, Scene, Shape};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
 use crate::surface::{self, Deforming};
-use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use features::{FeatureContacts, Spare};
 use plane::{AtPlane, Plane, PlaneList};
@@ -265,10 +263,6 @@ impl Pass for SurfacePass {
             result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
         }
         result
-    }
-
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        self.surfaces.iter().for_each(|surface| surface.add_slopes(state, tangent, step));
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {

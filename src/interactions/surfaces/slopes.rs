@@ -1,93 +1,116 @@
 //! How contacts with surfaces change with a few inputs.
 
 use super::plane::Plane;
-use super::{AtSurface, Touched};
-use crate::batches::ContactGeometry;
+use super::sphere::lanes;
+use super::{AtSurface, SurfacePass, Touched};
+use crate::batches::in_lanes;
 use crate::contact::{MOST_HISTORY, Reaction};
-use crate::dual::{Dual, Slopes};
-use crate::interactions::slopes::{Touching, beyond, needed, part, react};
-use crate::lanes::{Kernel, Lane, run};
+use crate::dual::Dual;
+use crate::interactions::slopes::{Touching, beyond, constants, materials, needed, part, react};
+use crate::lanes::{Kernel, Lane, columns_at};
 use crate::number::{Number, Vector};
 use crate::state::State;
-use crate::tangent::{AddSlopes, Tangent};
+use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, Tangent, Waiting, spread};
 
-/// A row of a particle as a boundary sees it whose own part has these slopes.
+/// Rows of particles as a boundary sees them whose own part has these slopes.
 #[inline(always)]
-fn seen<N: Lane>(mut row: [Dual<N>; 4], own: &[Slopes; 3]) -> [Dual<N>; 4] {
+fn seen<I: Inputs, N: Lane>(mut row: [InLanes<I, N>; 4], own: &[I::Each; 3]) -> [InLanes<I, N>; 4] {
     for (number, own) in row.iter_mut().zip(own) {
-        *number = *number - Dual::new(0.0, own);
+        *number = *number - spread::<I, N>(Dual::new(0.0, *own));
     }
     row
 }
 
-impl AtSurface {
-    /// Adds the slopes of its forces to those of the particles and of its boundary.
-    pub(super) fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        match &self.touched {
-            Touched::Plane(plane) => {
-                let boundary = &state.boundaries[self.list(state).boundary as usize];
-                let plane = plane.at(boundary);
-                if self.law.needs.torque {
-                    run(tangent.width, AddSlopes { pass: Touching::<_, true>((self, plane)), state, tangent, step });
-                } else {
-                    run(tangent.width, AddSlopes { pass: Touching::<_, false>((self, plane)), state, tangent, step });
+impl<I: Inputs> FollowPass<I> for SurfacePass {
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
+        for surface in &self.surfaces {
+            match &surface.touched {
+                Touched::Plane(plane) => {
+                    let plane = plane.at(&state.boundaries[surface.list(state).boundary as usize]);
+                    let pass = (surface, plane);
+                    if surface.law.needs.torque {
+                        I::run(tangent.width, AddSlopes { pass: Touching::<_, true>(pass), state, tangent, step });
+                    } else {
+                        I::run(tangent.width, AddSlopes { pass: Touching::<_, false>(pass), state, tangent, step });
+                    }
                 }
+                // Scenes with others are refused before.
+                Touched::Features(_) | Touched::Nodes(_) => {}
             }
-            // Scenes with others are refused before.
-            Touched::Features(_) | Touched::Nodes(_) => {}
         }
     }
 }
 
 /// A plane where it stands.
-impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<(&AtSurface, Plane), TURNING>> {
+impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurface, Plane), TURNING>, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { pass: Touching((surface, plane)), state, tangent, step } = self;
         let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
-        let (step, mut rows) = (Dual::<N>::new(step.value, &step.slopes), [[Dual::zero(); 4]; MOST_HISTORY]);
+        let (step, table) = (spread::<I, N>(step), &surface.table);
+        let uniform = table.uniform_with(surface.material).map(in_lanes::<I::Values<N>>);
         let Tangent { particles: moved, walls, boundaries, .. } = tangent;
         let (slopes, boundary) = (&mut walls[surface.index], &mut boundaries[list.boundary as usize]);
         let pivot = surface.reference + state.boundaries[list.boundary as usize].displacement.into();
-        let moves = boundary.is_moved();
-        for (entry, &slot) in list.particle.iter().enumerate() {
-            let slot = slot as usize;
-            if !moves && !moved.reached[slot] {
+        let (moves, mut waiting) = (boundary.is_moved(), Waiting::of([&list.particle]));
+        let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
+        while let Some(mut group) = waiting.look::<I::Values<N>>() {
+            let Group { entries, bodies: [slots], count } = group;
+            let wanted = if moves { (1 << count) - 1 } else { moved.reached(slots.first(count)) };
+            let mut touching = 0;
+            if wanted != 0 {
+                let position = columns_at::<I::Values<N>>(&particles.position, &slots);
+                let mut reach = position[3];
+                if let Some(beyond) = beyond(law, &list.flags, &list.pair_constant, &entries) {
+                    reach = reach + beyond;
+                }
+                touching = wanted & !I::Values::<N>::bits(plane.distance(position).greater(reach));
+                part(slopes, &entries, wanted & !touching);
+            }
+            if I::Values::<N>::WIDTH > 1 {
+                waiting.wait(&group, touching);
+                let Some(filled) = waiting.take::<I::Values<N>>() else { continue };
+                group = filled;
+            } else if touching == 0 {
                 continue;
             }
-            let constant = list.pair_constant.get(entry).copied().unwrap_or(0.0);
-            let reach = particles.position[slot][3] + beyond(law, list.flags[entry], constant).unwrap_or(0.0);
-            if plane.distance(particles.position[slot]) > reach {
-                part(slopes, entry);
-                continue;
-            }
-            let [position, velocity] = moved.body::<N>(particles, slot);
-            let spin = if TURNING { moved.spin(particles, slot) } else { [Dual::zero(); 4] };
-            let (position, velocity) = (seen(position, &boundary.displacement), seen(velocity, &boundary.velocity));
+            let Group { entries, bodies: [slots], count } = group;
+            let [position, velocity] = moved.bodies::<N>(particles, &slots);
+            let spin = if TURNING { moved.spins(particles, &slots) } else { [Dual::zero(); 4] };
+            let (place, speed) = (Dual::values_of(position), Dual::values_of(velocity));
+            let (position, velocity) =
+                (seen::<I, N>(position, &boundary.displacement), seen::<I, N>(velocity, &boundary.velocity));
+            let constant = constants::<I::Values<N>>(&list.pair_constant, &entries);
             let at = [plane.distance(position), position[3]];
-            let geometry = plane.meet(at, [velocity, spin], Dual::splat(constant));
-            let body = [particles.position[slot], particles.velocity[slot]];
-            let at = [plane.distance(body[0]), body[0][3]];
-            let values = plane.meet(at, [body[1], [0.0; 4]], constant).contact;
-            let ContactGeometry { mut contact, first_arm, .. } =
-                needed::<N, TURNING>(geometry, &values, surface.law.needs);
-            let row = surface.row(state, slot as u32);
+            let geometry = plane.meet(at, [velocity, spin], Dual::constant(constant));
+            let at = [plane.distance(place), place[3]];
+            let values = plane.meet(at, [speed, [Number::zero(); 4]], constant).contact;
+            let mut geometry = needed::<I, N, TURNING>(geometry, &values, surface.law.needs);
+            let gathered;
+            let row = match &uniform {
+                Some(row) => row,
+                None => {
+                    gathered = table.lanes(materials(particles, &slots), [surface.material; 8]);
+                    &gathered
+                }
+            };
+            let remembered = (&*list.history, &mut *slopes, (&entries, count));
             let Reaction { force, couple, rolling, .. } =
-                react::<N, TURNING>(law, row, &mut contact, (&list.history, slopes, entry), (&mut rows, step));
+                react::<I, N, TURNING>(law, row, &mut geometry.contact, remembered, (&mut rows, step));
+            moved.press(slots.first(count), force);
             if TURNING {
-                moved.load(slot, force, -(couple * first_arm) - rolling);
-            } else {
-                moved.press(slot, force);
+                moved.twist(slots.first(count), -(couple * geometry.first_arm) - rolling);
             }
-            let away = Vector::from(particles.position[slot]) - pivot;
+            let away = Vector::of_row(place) - lanes(pivot);
             let [x, y, z, _] = position;
             let away = Vector {
                 x: Dual { value: away.x, ..x },
                 y: Dual { value: away.y, ..y },
                 z: Dual { value: away.z, ..z },
             };
-            let moment = (away - contact.normal * first_arm).cross(force) - rolling;
-            boundary.add_load(&(-force).slopes(), &(-moment).slopes());
+            let moment = (away - geometry.contact.normal * geometry.first_arm).cross(force) - rolling;
+            I::sum::<N>((-force).slopes(), &mut boundary.force, count);
+            I::sum::<N>((-moment).slopes(), &mut boundary.moment, count);
         }
     }
 }

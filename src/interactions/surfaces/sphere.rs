@@ -1,9 +1,9 @@
 //! A sphere at a surface: geometry of the contact, and what it does to both.
 
-use crate::batches::{self, ContactGeometry, Lost};
+use crate::batches::{ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
 use crate::lanes::{Lane, Shared, vector};
-use crate::number::{Number, Vector};
+use crate::number::{Number, Vector, add, subtract};
 use crate::state::{Particles, Row};
 use std::f64::consts::PI;
 
@@ -133,13 +133,13 @@ impl<'a> Loaded<'a> {
     ) {
         // SAFETY: the caller's promise.
         unsafe {
-            batches::add(self.force.at(slot), force);
+            add(self.force.at(slot), force);
             if needs.torque {
                 let mut torque = couple.map(|part| -(part * arm));
                 if needs.spin {
-                    batches::subtract(&mut torque, rolling);
+                    subtract(&mut torque, rolling);
                 }
-                batches::add(self.torque.at(slot), &torque);
+                add(self.torque.at(slot), &torque);
             }
         }
         let point = Vector::from(self.position[slot]) - normal * arm;

@@ -1,7 +1,6 @@
 //! What a kind of variable says of itself, and what many kinds have in common.
 
 use crate::averages::Content;
-use crate::dual::Slopes;
 use crate::interface::{Findings, Quantity, Value, Variability};
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
@@ -159,7 +158,7 @@ pub(in crate::interface) struct Write {
 }
 
 /// Reads how a variable of a boundary changes with inputs.
-pub(in crate::interface) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> Slopes;
+pub(in crate::interface) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> f64;
 
 /// A kind of variable.
 pub(in crate::interface) struct Row {

@@ -1,15 +1,20 @@
 //! Four sub-models as one law: the functions of each, called one after another on one contact.
 
-use super::functions::{Acting, CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
+mod functions;
+mod number;
+mod slopes;
+
 #[cfg(test)]
 use super::pressing_force;
 use super::{
     Adhesion, Booked, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction,
     Response, RollingStiffness, Scheme, Switches,
 };
-use crate::dual::Dual;
-use crate::lanes::Lane;
+use crate::dual::{Dual, Slopes};
 use crate::number::{Number, Row, Vector};
+pub use functions::Acting;
+use functions::{CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
+pub use number::LawNumber;
 
 /// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
 /// the last evaluation, if the contact was then suppressed \[N\], and the overlap from which its normal force is taken \[m\].
@@ -65,13 +70,13 @@ pub struct CoefficientPlaces {
     pub count: usize,
 }
 
-/// The numbers that a law takes one contact at a time: alone or with slopes.
-pub trait OneContact: Number<Mask = bool> {
+/// Numbers that laws are evaluated in: those of one contact, or with slopes those of a register's worth.
+pub trait Evaluated: LawNumber {
     /// What the sub-models of a law do, in this kind of number.
     fn acting(law: &Law) -> Acting<Self>;
 }
 
-impl OneContact for f64 {
+impl Evaluated for f64 {
     #[inline(always)]
     fn acting(law: &Law) -> Acting<Self> {
         Acting {
@@ -83,7 +88,7 @@ impl OneContact for f64 {
     }
 }
 
-impl<N: Lane> OneContact for Dual<N> {
+impl<V: Number, S: Slopes<V>> Evaluated for Dual<V, S> {
     #[inline(always)]
     fn acting(law: &Law) -> Acting<Self> {
         Acting::with_slopes(&law.choice)
@@ -287,9 +292,9 @@ impl Law {
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\]. The velocities
     /// of `contact` become those that its dashpots see; with slopes it is too large to be copied.
     #[inline(always)]
-    pub fn react<N: OneContact>(
+    pub fn react<N: Evaluated>(
         &self,
-        row: &[f64],
+        row: &[N::Coefficient],
         contact: &mut Contact<N>,
         history: &mut [[N; 4]],
         step: N,
@@ -302,9 +307,9 @@ impl Law {
 
     /// How one contact was carried, and its normal force: all of [`Law::react`] where bodies feel no torque.
     #[inline(always)]
-    pub(crate) fn press<N: OneContact>(
+    pub(crate) fn press<N: Evaluated>(
         &self,
-        row: &[f64],
+        row: &[N::Coefficient],
         contact: &mut Contact<N>,
         history: &mut [[N; 4]],
         step: N,
@@ -358,7 +363,7 @@ impl Law {
 
     /// How a contact was carried, where the scheme asks for it; it gets the velocities that dashpots see.
     #[inline(always)]
-    fn carry<N: OneContact>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> Option<Carry<N>> {
+    fn carry<N: Evaluated>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> Option<Carry<N>> {
         if !self.scheme.carries() {
             return None;
         }
@@ -375,18 +380,18 @@ impl Law {
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
     #[inline(always)]
-    fn friction<N: OneContact>(
+    fn friction<N: Evaluated>(
         &self,
-        row: &[f64],
+        row: &[N::Coefficient],
         contact: &Contact<N>,
         normal: &NormalForce<N>,
         along: N,
         history: &mut [[N; 4]],
         (mut step, carry): (N, Option<Carry<N>>),
-    ) -> (Vector<N>, Vector<N>, bool) {
+    ) -> (Vector<N>, Vector<N>, N::Mask) {
         let force = contact.normal * along;
         if !self.tangential.active {
-            return (force, Vector::zero(), false);
+            return (force, Vector::zero(), N::zero().greater(N::zero()));
         }
         let place = self.history_places.tangential;
         let mut before = place.map_or([N::zero(); 4], |place| history[place]);
@@ -402,9 +407,9 @@ impl Law {
 
     /// Rolling torque from i to j.
     #[inline(always)]
-    fn roll<N: OneContact>(
+    fn roll<N: Evaluated>(
         &self,
-        row: &[f64],
+        row: &[N::Coefficient],
         contact: &Contact<N>,
         normal: &NormalForce<N>,
         history: &mut [[N; 4]],

@@ -1,33 +1,33 @@
 //! Each sub-model as functions of a row of coefficients: what a law keeps of it.
 
-use super::cohesion::TakeCohesion;
-use super::normal::TakeNormal;
-use super::rolling::TakeRolling;
-use super::tangential::TakeTangential;
-use super::{
+use super::number::LawNumber;
+use crate::contact::{
     Adhesion, Coefficients, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce,
-    NormalForm, Onset, Response, Rolling, RollingStiffness, Switches, Tangential,
+    NormalForm, Onset, Response, Rolling, RollingStiffness, Switches, Tangential, cohesion::TakeCohesion,
+    normal::TakeNormal, rolling::TakeRolling, tangential::TakeTangential,
 };
-use crate::number::{Number, Row, Vector};
+use crate::number::{Row, Vector};
 
 /// Coefficients that a sub-model has at most.
 const MOST: usize = 16;
 
 /// Normal force of coefficients, contact, history and step; the history goes on, where there is one.
-pub(super) type NormalFunction<N> = fn(&[f64], &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
+pub(super) type NormalFunction<N> = fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
 
 /// Friction of coefficients, contact, normal force, history and step.
-pub(super) type TangentialFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
+pub(super) type TangentialFunction<N> =
+    fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
 
 /// Rolling torque of coefficients, contact, normal force, history and step, and what is to be remembered.
-pub(super) type RollingFunction<N> = fn(&[f64], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
+pub(super) type RollingFunction<N> =
+    fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
 
 /// Adds the attraction of coefficients and contact to a normal force.
-pub(super) type CohesionFunction<N> = fn(&[f64], &Contact<N>, &mut NormalForce<N>);
+pub(super) type CohesionFunction<N> = fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &mut NormalForce<N>);
 
-/// What the sub-models of a law do to one contact, in one kind of number.
+/// What the sub-models of a law do to the contacts of a call, in one kind of number.
 #[derive(Clone, Copy)]
-pub struct Acting<N: Number> {
+pub struct Acting<N: LawNumber> {
     /// [`NormalForm::force`], of coefficients with the switches behind them.
     pub(super) normal: NormalFunction<N>,
     /// [`Tangential::force`].
@@ -40,19 +40,19 @@ pub struct Acting<N: Number> {
 
 /// The coefficients that stand first in a row, in this kind of number.
 #[inline(always)]
-pub(super) fn numbers<A: Coefficients, N: Number>(row: &[f64]) -> A::Lanes<N> {
+pub(super) fn numbers<A: Coefficients, N: LawNumber>(row: &[N::Coefficient]) -> A::Lanes<N> {
     const { assert!(A::COUNT <= MOST) };
     let mut numbers = [N::zero(); MOST];
-    for (number, value) in numbers.iter_mut().zip(row) {
-        *number = N::splat(*value);
+    for (number, value) in numbers[..A::COUNT].iter_mut().zip(&row[..A::COUNT]) {
+        *number = N::of(*value);
     }
     A::lanes(&numbers)
 }
 
 /// [`NormalForm::force`] of one contact.
 #[inline(always)]
-pub(super) fn normal<A: NormalForm, N: Number>(
-    row: &[f64],
+pub(super) fn normal<A: NormalForm, N: LawNumber>(
+    row: &[N::Coefficient],
     contact: &Contact<N>,
     history: &mut [N; 4],
     step: N,
@@ -69,8 +69,8 @@ pub(super) fn normal<A: NormalForm, N: Number>(
 
 /// [`Tangential::force`] of one contact.
 #[inline(always)]
-pub(super) fn tangential<B: Tangential, N: Number>(
-    row: &[f64],
+pub(super) fn tangential<B: Tangential, N: LawNumber>(
+    row: &[N::Coefficient],
     contact: &Contact<N>,
     normal: &NormalForce<N>,
     history: [N; 4],
@@ -81,8 +81,8 @@ pub(super) fn tangential<B: Tangential, N: Number>(
 
 /// [`Rolling::torque`] of one contact.
 #[inline(always)]
-pub(super) fn rolling<C: Rolling, N: Number>(
-    row: &[f64],
+pub(super) fn rolling<C: Rolling, N: LawNumber>(
+    row: &[N::Coefficient],
     contact: &Contact<N>,
     normal: &NormalForce<N>,
     history: [N; 4],
@@ -93,7 +93,11 @@ pub(super) fn rolling<C: Rolling, N: Number>(
 
 /// [`CohesionForm::force`] of one contact, added.
 #[inline(always)]
-pub(super) fn cohesion<D: CohesionForm, N: Number>(row: &[f64], contact: &Contact<N>, normal: &mut NormalForce<N>) {
+pub(super) fn cohesion<D: CohesionForm, N: LawNumber>(
+    row: &[N::Coefficient],
+    contact: &Contact<N>,
+    normal: &mut NormalForce<N>,
+) {
     let law = numbers::<D, N>(row);
     D::add(law, D::force(law, contact), normal);
 }

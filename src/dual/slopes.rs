@@ -1,0 +1,145 @@
+//! Slopes of numbers, in memory or in registers.
+//!
+//! Nothing here makes arrays by closures: those are not always compiled in line, and then not for the features of the registers.
+
+use crate::lanes::{Lane, Work, load_eight, store_eight};
+use crate::number::Number;
+
+/// How numbers `V` change with some inputs.
+pub trait Slopes<V: Number>: Copy + Send + Sync + 'static {
+    /// Not at all.
+    fn none() -> Self;
+
+    /// Their sums with others.
+    fn plus(self, other: Self) -> Self;
+
+    /// Their differences from others.
+    fn minus(self, other: Self) -> Self;
+
+    /// Multiples of them.
+    fn times(self, factor: V) -> Self;
+
+    /// Multiples of them and of others, added.
+    fn mixed(self, factor: V, other: Self, with: V) -> Self;
+
+    /// `yes` where the mask holds, otherwise `no`.
+    fn select(mask: V::Mask, yes: Self, no: Self) -> Self;
+
+    /// Does something with the features of the processor that the registers come from.
+    fn within<W: Work>(work: W) -> W::Output;
+}
+
+/// A number for each input.
+impl<V: Lane, const D: usize> Slopes<V> for [V; D] {
+    #[inline(always)]
+    fn none() -> Self {
+        [V::zero(); D]
+    }
+
+    #[inline(always)]
+    fn plus(mut self, other: Self) -> Self {
+        for d in 0..D {
+            self[d] = self[d] + other[d];
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn minus(mut self, other: Self) -> Self {
+        for d in 0..D {
+            self[d] = self[d] - other[d];
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn times(mut self, factor: V) -> Self {
+        for slope in &mut self {
+            *slope = *slope * factor;
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn mixed(mut self, factor: V, other: Self, with: V) -> Self {
+        for d in 0..D {
+            self[d] = self[d] * factor + other[d] * with;
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn select(mask: V::Mask, mut yes: Self, no: Self) -> Self {
+        for d in 0..D {
+            yes[d] = V::select(mask, yes[d], no[d]);
+        }
+        yes
+    }
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        V::within(work)
+    }
+}
+
+/// Slopes of one number by eight inputs, side by side in a register that has eight lanes.
+#[derive(Clone, Copy)]
+pub struct SideBySide<N>(N);
+
+impl<N: Lane> SideBySide<N> {
+    /// These slopes.
+    #[inline(always)]
+    pub fn new(slopes: &[f64; 8]) -> Self {
+        const { assert!(N::WIDTH == 8, "eight slopes stand in one register") };
+        Self(load_eight(slopes))
+    }
+
+    /// Writes the slopes.
+    #[inline(always)]
+    pub fn put(self, slopes: &mut [f64; 8]) {
+        store_eight(slopes, self.0);
+    }
+
+    /// Adds the slopes to others.
+    #[inline(always)]
+    pub fn add_to(self, slopes: &mut [f64; 8]) {
+        store_eight(slopes, load_eight::<N>(slopes) + self.0);
+    }
+}
+
+impl<N: Lane> Slopes<f64> for SideBySide<N> {
+    #[inline(always)]
+    fn none() -> Self {
+        Self(N::zero())
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+
+    #[inline(always)]
+    fn times(self, factor: f64) -> Self {
+        Self(self.0 * N::splat(factor))
+    }
+
+    #[inline(always)]
+    fn mixed(self, factor: f64, other: Self, with: f64) -> Self {
+        Self(self.0 * N::splat(factor) + other.0 * N::splat(with))
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn within<W: Work>(work: W) -> W::Output {
+        N::within(work)
+    }
+}
