@@ -3,6 +3,7 @@
 //! The width is chosen once, when a simulation is made, from what the processor offers. Every width gives
 //! the same bits: operations are exactly rounded and never fused, and results are added in the same order.
 
+mod eightfold;
 mod one;
 mod shared;
 mod table;
@@ -15,15 +16,17 @@ use crate::number::{Number, Vector};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Eight, Four, Two};
 
+pub use eightfold::{Eightfold, add_eight, load_eight, store_eight};
 pub use shared::Shared;
-pub use table::{
-    Places, Table, columns_at, columns_from, lanes_of, load_eight, rows_from, rows_of, store_eight, vectors_of,
-};
+pub use table::{Places, Table, columns_at, columns_from, lanes_of, rows_from, rows_of, vectors_of};
 
 /// A [`Number`] that knows how to be read from and written to rows of four.
 pub trait Lane: Number {
     /// Numbers side by side.
     const WIDTH: usize;
+
+    /// Eight numbers in registers of this kind.
+    type Eight: Eightfold<Self>;
 
     /// Does something with the features of the processor that these registers come from.
     fn within<W: Work>(work: W) -> W::Output;
@@ -227,25 +230,17 @@ pub fn run_seldom<K: Kernel>(width: Width, kernel: K) {
     }
 }
 
-/// Runs a kernel in registers of four or eight numbers.
-fn run_wide<K: Kernel>(width: Width, kernel: K) {
+/// Runs a kernel in registers of four or eight numbers, for work that is done in another way in narrower ones.
+pub fn run_wide<K: Kernel>(width: Width, kernel: K) {
     debug_assert!(width.offered(), "{width:?} is not offered by this processor");
     match width {
         // SAFETY: `Width::widest` and `Simulation::set_width` choose only what the processor offers.
         #[cfg(target_arch = "x86_64")]
         Width::Four => unsafe { x86::run_four(kernel) },
-        _ => run_eight(width, kernel),
-    }
-}
-
-/// Runs a kernel in registers of eight numbers, for work that is done in another way in narrower ones.
-pub fn run_eight<K: Kernel>(width: Width, kernel: K) {
-    debug_assert!(width.offered(), "{width:?} is not offered by this processor");
-    match width {
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
         Width::Eight => unsafe { x86::run_eight(kernel) },
-        _ => unreachable!("{width:?} has no registers of eight numbers"),
+        _ => unreachable!("{width:?} has no wide registers"),
     }
 }
 

@@ -163,25 +163,12 @@ pub fn lanes_of<N: Lane>(make: impl Fn(usize) -> f64) -> N {
         numbers[lane] = make(lane);
         lane += 1;
     }
-    load_eight(&numbers)
+    // SAFETY: no register has more than eight lanes.
+    unsafe { N::load(numbers.as_ptr()) }
 }
 
 /// A vector for each lane, as three columns.
 #[inline(always)]
 pub fn vectors_of<N: Lane>(make: impl Fn(usize) -> Vector) -> [N; 3] {
     [lanes_of(|lane| make(lane).x), lanes_of(|lane| make(lane).y), lanes_of(|lane| make(lane).z)]
-}
-
-/// The first of eight numbers, as many as there are lanes.
-#[inline(always)]
-pub fn load_eight<N: Lane>(numbers: &[f64; 8]) -> N {
-    // SAFETY: no register has more than eight lanes.
-    unsafe { N::load(numbers.as_ptr()) }
-}
-
-/// Writes over the first of eight numbers, as many as there are lanes.
-#[inline(always)]
-pub fn store_eight<N: Lane>(numbers: &mut [f64; 8], register: N) {
-    // SAFETY: no register has more than eight lanes.
-    unsafe { register.store(numbers.as_mut_ptr()) };
 }

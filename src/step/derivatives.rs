@@ -17,7 +17,7 @@ use crate::scene::Scene;
 use crate::state::State;
 use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, Inputs, OneInput, PASSING, Tangent};
 
-/// Up to so many inputs are followed one by one. More are followed together, which costs as much as four of them or five.
+/// Up to so many inputs are followed one by one. More are followed together, which costs as much as three to five of them.
 const FEW: usize = 3;
 
 /// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
@@ -73,7 +73,7 @@ impl Simulation {
             self.followed = inputs
                 .chunks(EightInputs::COUNT)
                 .flat_map(|inputs| match inputs.len() {
-                    count if count <= FEW || self.width != Width::Eight => {
+                    count if count <= FEW || self.width == Width::Least => {
                         inputs.iter().map(|input| self.follow::<OneInput>(&[*input], length)).collect()
                     }
                     _ => vec![self.follow::<EightInputs>(inputs, length)],

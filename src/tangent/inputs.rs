@@ -193,7 +193,7 @@ impl Inputs for OneInput {
     }
 }
 
-/// Eight inputs, where registers have eight lanes: elsewhere inputs are followed one by one, so that less is compiled.
+/// Eight inputs, in registers of four or eight numbers: in narrower ones inputs are followed one by one, so that less is compiled.
 pub(crate) struct EightInputs;
 
 impl Inputs for EightInputs {
@@ -205,7 +205,7 @@ impl Inputs for EightInputs {
     type Slopes<N: Lane> = SideBySide<N>;
 
     fn run<K: Kernel>(width: Width, kernel: K) {
-        lanes::run_eight(width, kernel);
+        lanes::run_wide(width, kernel);
     }
 
     #[inline(always)]
