@@ -3,8 +3,8 @@
 //! Laws are written over [`Number`]; over this one they give their values, bit for bit those of the numbers alone, and beside
 //! them the exact derivatives of what was computed. Decisions are made by values: which branch is taken does not change.
 //!
-//! Registers hold several contacts or bonds, with the slopes by one input in the same lanes, or the slopes of one by
-//! eight inputs.
+//! Where one input is followed, a register holds the same number of several contacts or bonds, and another one their slopes.
+//! Where eight are followed, a register holds the eight slopes of one number of a single contact or bond.
 
 mod slopes;
 

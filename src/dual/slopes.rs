@@ -5,21 +5,21 @@
 use crate::lanes::{Eightfold, Lane, Work, add_eight, load_eight, store_eight};
 use crate::number::Number;
 
-/// How numbers `V` change with some inputs.
+/// How a number, or a register of numbers `V`, changes with some inputs.
 pub trait Slopes<V: Number>: Copy + Send + Sync + 'static {
-    /// Not at all.
+    /// Those of numbers that do not change.
     fn none() -> Self;
 
-    /// Their sums with others.
+    /// The sums with other slopes.
     fn plus(self, other: Self) -> Self;
 
-    /// Their differences from others.
+    /// The differences from other slopes.
     fn minus(self, other: Self) -> Self;
 
-    /// Multiples of them.
+    /// Multiples of the slopes.
     fn times(self, factor: V) -> Self;
 
-    /// Multiples of them and of others, added.
+    /// Multiples of the slopes and of others, added.
     fn mixed(self, factor: V, other: Self, with: V) -> Self;
 
     /// `yes` where the mask holds, otherwise `no`.

@@ -11,10 +11,10 @@ use crate::step::{BoundaryDerivatives, Simulation};
 pub struct Derivatives {
     /// Inputs, by index, and how the boundaries change with each.
     found: Vec<(usize, Vec<BoundaryDerivatives>)>,
-    /// Inputs that were asked for.
+    /// Inputs that the host has asked for since the last communication step.
     asked: Vec<usize>,
-    /// Inputs that were asked for the last time before what was found was forgotten: those that are asked for again are followed
-    /// together.
+    /// Inputs that the host asked for after an earlier communication step, the last one of which it asked for any. It will
+    /// probably ask for them again, so they are followed together with those that it asks for now.
     before: Vec<usize>,
     /// Rates of the loads at the present time.
     rates: Option<Vec<BoundaryDerivatives>>,

@@ -113,7 +113,7 @@ impl Places {
         Self { places, last }
     }
 
-    /// So many places from one on; behind them the first one is repeated.
+    /// So many places from one on, at least one; behind them the first one is repeated.
     #[inline(always)]
     pub fn consecutive(first: usize, count: usize) -> Self {
         let first = first as u32;
@@ -121,7 +121,8 @@ impl Places {
         for (place, next) in places.iter_mut().zip(first..).take(count) {
             *place = next;
         }
-        Self { places, last: first + count as u32 - 1 }
+        // A last place before the first would let an index pass that is not there.
+        Self { places, last: first.saturating_add(count.max(1) as u32 - 1) }
     }
 
     /// The first of them.

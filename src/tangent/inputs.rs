@@ -7,8 +7,9 @@ use std::ops::IndexMut;
 
 /// Some inputs that are followed together.
 ///
-/// By one input, registers hold several contacts or bonds; by eight, they hold the slopes of one number of one. What is the same for both
-/// is written over the numbers [`InLanes`].
+/// With one input, a register holds the same number of several contacts or bonds, and another one their slopes. With eight, a
+/// register holds the eight slopes of one number of a single contact or bond. What is the same for both is written over the
+/// numbers [`InLanes`].
 pub(crate) trait Inputs: Send + Sync + 'static {
     /// How many there are.
     const COUNT: usize;
@@ -25,7 +26,7 @@ pub(crate) trait Inputs: Send + Sync + 'static {
     /// Numbers that are worked on at a time.
     type Values<N: Lane>: Lane;
 
-    /// Their slopes.
+    /// The slopes of these numbers.
     type Slopes<N: Lane>: Slopes<Self::Values<N>>;
 
     /// Runs a kernel in this lane width, which slopes by so many inputs are worked on in.
@@ -34,7 +35,7 @@ pub(crate) trait Inputs: Send + Sync + 'static {
     /// The slopes of the rows at these places, a column each.
     fn rows_at<N: Lane>(rows: &[Self::Row], places: &Places) -> [Self::Slopes<N>; 4];
 
-    /// The same for all that are worked on.
+    /// Slopes that are the same for all contacts or bonds that are worked on at a time.
     fn spread<N: Lane>(each: Self::Each) -> Self::Slopes<N>;
 
     /// Writes slopes to the rows at these places.
