@@ -269,19 +269,21 @@ normal_stiffness = 1.0e12
 tangential_stiffness = 4.0e11
 "#;
 
+/// Dashpots of a bond law.
+const DASHPOTS: &str =
+    "damping.viscous = { normal_force = 0.1, tangential_force = 0.1, normal_torque = 0.1, tangential_torque = 0.1 }";
+
 #[test]
 fn bonds_of_every_formulation_have_the_derivatives_of_their_differences() {
     let mut wrong = Vec::new();
     for formulation in ["finite_rotation", "incremental", "engine_exact"] {
-        for damping in [
-            "",
-            "damping.viscous = { normal_force = 0.1, tangential_force = 0.1, normal_torque = 0.1, tangential_torque = 0.1 }",
-        ] {
+        for (damping, scheme) in [("", "engine"), (DASHPOTS, "engine"), (DASHPOTS, "predicted")] {
             let law = format!("formulation = \"{formulation}\"\n{damping}");
             if formulation == "engine_exact" && !damping.is_empty() {
                 continue;
             }
-            let mut simulation = start(&BONDED.replace("LAW", &law));
+            let text = BONDED.replace("[run]", &format!("[run]\nscheme = \"{scheme}\""));
+            let mut simulation = start(&text.replace("LAW", &law));
             let grip = named(&simulation, "grip");
             for number in 1..=10 {
                 simulation.set_input(grip, 2, 1.0e-6 * f64::from(number));
@@ -291,7 +293,7 @@ fn bonds_of_every_formulation_have_the_derivatives_of_their_differences() {
             for axis in [0, 2] {
                 let found = distance(&mut simulation, ("grip", axis), 1.0e-5, 1.0e-8);
                 if found.is_nan() || found > 1e-8 {
-                    wrong.push(format!("{formulation} {damping}: {found:e}"));
+                    wrong.push(format!("{formulation} {damping} {scheme}: {found:e}"));
                 }
             }
         }
@@ -301,8 +303,7 @@ fn bonds_of_every_formulation_have_the_derivatives_of_their_differences() {
 
 #[test]
 fn derivatives_are_the_same_in_every_lane_width_and_beside_other_inputs() {
-    let damping = "damping.viscous = { normal_force = 0.1, tangential_force = 0.1, normal_torque = 0.1, tangential_torque = 0.1 }";
-    let mut bonded = start(&BONDED.replace("LAW", damping));
+    let mut bonded = start(&BONDED.replace("LAW", DASHPOTS).replace("[run]", "[run]\nscheme = \"predicted\""));
     let grip = named(&bonded, "grip");
     bonded.set_input(grip, 2, 1.0e-6);
     bonded.advance_or_return(1.0e-5).unwrap_or_else(|error| panic!("{error}"));

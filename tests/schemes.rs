@@ -40,9 +40,26 @@ material = "a"
 motion = { prescribed = { "rotation.y" = 3.0 } }
 "#;
 
-/// The scene with these lines in `[run]` and this tangential model.
-fn scene(run: &str, tangential: &str) -> Scene {
-    let text = SCENE.replace("RUN", run).replace("TANGENTIAL", tangential);
+/// Bonds with dashpots between the spheres of the cloud, and to the floor.
+const BONDS: &str = r#"
+[bond.block]
+between = ["heavy", "heavy"]
+create_distance = 8.1e-3
+normal_stiffness = 3.0e8
+tangential_stiffness = 1.0e8
+damping.viscous = { normal_force = 0.2, tangential_force = 0.3, normal_torque = 0.1, tangential_torque = 0.4 }
+[bond.foot]
+formulation = "incremental"
+between = ["heavy", "floor"]
+create_distance = 8.1e-3
+normal_stiffness = 3.0e8
+tangential_stiffness = 1.0e8
+damping.viscous = { normal_force = 0.2, tangential_force = 0.3, normal_torque = 0.1, tangential_torque = 0.4 }
+"#;
+
+/// The scene with these lines in `[run]`, this tangential model and more tables.
+fn scene(run: &str, tangential: &str, more: &str) -> Scene {
+    let text = format!("{SCENE}{more}").replace("RUN", run).replace("TANGENTIAL", tangential);
     let source = Source { name: "scene.toml".into(), text, files: Default::default() };
     Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
 }
@@ -66,9 +83,9 @@ fn hash(scene: Scene, width: Width, restored: bool) -> u64 {
 #[test]
 fn every_scheme_has_the_same_bits_in_every_lane_width_on_any_threads_and_after_a_restart() {
     let mut seen = Vec::new();
-    for tangential in ["history", "turned_history", "no_history"] {
+    for (tangential, more) in [("history", ""), ("turned_history", ""), ("no_history", ""), ("history", BONDS)] {
         for scheme in ["engine", "midway", "predicted"] {
-            let of = |threads: u32| scene(&format!("threads = {threads}\nscheme = \"{scheme}\""), tangential);
+            let of = |threads: u32| scene(&format!("threads = {threads}\nscheme = \"{scheme}\""), tangential, more);
             let expected = hash(of(1), Width::Least, false);
             for width in Width::ALL.into_iter().filter(|width| width.offered()) {
                 assert_eq!(hash(of(1), width, false), expected, "{tangential}, {scheme}, {width:?}");
@@ -80,7 +97,7 @@ fn every_scheme_has_the_same_bits_in_every_lane_width_on_any_threads_and_after_a
     }
     seen.sort_unstable();
     seen.dedup();
-    assert_eq!(seen.len(), 9, "each scheme moves particles in its own way");
+    assert_eq!(seen.len(), 12, "each scheme moves particles in its own way");
 }
 
 #[test]

@@ -90,13 +90,14 @@ impl<N: Number> Coefficients<N> {
         [one - normal, one - shear, one - torsion, one - bending]
     }
 
-    /// Normal stiffness per unit area at this compression u (0 inside the dead band) \[Pa/m\].
+    /// Normal stiffness per unit area at this compression u (0 inside the dead band) \[Pa/m\]. Without a dead band a bond of its
+    /// free length has that of compression: its dashpot acts there, too.
     #[inline(always)]
     pub fn normal_stiffness(&self, compression: N) -> N {
         let Elasticity { tension, compression: pushing, dead_band, .. } = self.elastic;
         let stretched = (-compression).greater(dead_band);
-        let compressed = compression.greater(dead_band);
-        N::select(stretched, tension, N::select(compressed, pushing, N::zero()))
+        let inside = dead_band.greater(compression);
+        N::select(stretched, tension, N::select(inside, N::zero(), pushing))
     }
 
     /// The cross-section of a bond between bodies whose smaller radius is this \[m\].

@@ -1,11 +1,11 @@
 //! A bond law, whole, and what it does to one bond.
 
-use super::breakage::{Breakage, Loaded, Rule, Stress, TakeRule};
-use super::damping::{Damping, DampingChoice, DampingLoad, TakeDamping};
+use super::breakage::{Breakage, Loaded, Rule, TakeRule};
+use super::damping::{Damping, DampingChoice, DampingLoad, LastDamping, TakeDamping};
 use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
 use super::keys::{KeyError, Keys};
-use super::{Coefficients, Elastic, Elasticity, Motion, Pair, Rows};
+use super::{Coefficients, Elastic, Elasticity, Motion, Pair, RateRows, Rates, Rows};
 use crate::number::Vector;
 use crate::quantity::Positive;
 
@@ -21,6 +21,8 @@ pub struct Law {
     pub elasticity: Elasticity,
     /// Damping, if there is any.
     pub damping: Option<DampingChoice>,
+    /// Whether dashpots see the rates at the end of the step, extrapolated from those of the middle of this step and of the one before.
+    pub foresees: bool,
     /// Rules of breakage, in the order of their list.
     pub breakage: Vec<Rule>,
     /// What compression adds to the reported normal stress of a bond, over |N|/A: 1 where compression breaks, −1 where
@@ -39,8 +41,8 @@ pub struct Reaction {
     pub torque_j: Vector,
     /// Elastic energy that relaxation took in this evaluation \[J\].
     pub relaxed: f64,
-    /// What damping does, as part of that.
-    pub damping: DampingLoad,
+    /// What damping does, as part of that, and what it remembers.
+    pub damping: LastDamping,
     /// Energy that damping took since the last evaluation \[J\].
     pub damped: f64,
     /// 0, or why the bond broke: the code of [`super::breakage::cause_name`].
@@ -49,38 +51,6 @@ pub struct Reaction {
     pub overbent: bool,
     /// The state to remember.
     pub rows: Rows,
-}
-
-/// What a bond carries, for outputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Carried {
-    /// Distance of the centres at which it bears no normal force \[m\].
-    pub rest: f64,
-    /// Unit vector from j to i.
-    pub axis: [f64; 3],
-    /// From the centre of i to the middle of the cross-section \[m\].
-    pub arm: [f64; 3],
-    /// Area of the cross-section \[m²\].
-    pub area: f64,
-    /// Force on i without damping: the gradient of the stored energy, which differs from normal and shear force in the second order of
-    /// the strains where a formulation says so \[N\].
-    pub force: [f64; 3],
-    /// Normal force, above 0 when it pushes \[N\].
-    pub normal: f64,
-    /// Shear force on i \[N\].
-    pub shear: [f64; 3],
-    /// Torsion on i along the axis \[N m\].
-    pub torsion: f64,
-    /// Bending torque on i \[N m\].
-    pub bending: [f64; 3],
-    /// Normal stress with the law's rule for compression \[Pa\].
-    pub normal_stress: f64,
-    /// Shear stress \[Pa\].
-    pub shear_stress: f64,
-    /// Elastic energy \[J\].
-    pub energy: f64,
-    /// Rate at which its elastic force and torques work on the bodies \[W\].
-    pub power: f64,
 }
 
 /// What a formulation makes of the law at a step, the bodies and the rows of a bond.
@@ -95,6 +65,8 @@ pub struct OneBond {
     pub fixed_rows: usize,
     /// [`Formulation::NEEDS_ORIENTATIONS`]
     pub needs_orientations: bool,
+    /// [`Formulation::RATES`]
+    pub rates: Rates,
     /// [`Formulation::create`]
     pub create: fn(&Coefficients, &Pair) -> Rows,
     /// [`Formulation::respond`]
@@ -102,7 +74,7 @@ pub struct OneBond {
 }
 
 /// Takes the functions of a formulation.
-struct TakeFunctions;
+pub(super) struct TakeFunctions;
 
 impl TakeFormulation for TakeFunctions {
     type Output = OneBond;
@@ -111,6 +83,7 @@ impl TakeFormulation for TakeFunctions {
             rows: F::ROWS,
             fixed_rows: F::FIXED_ROWS,
             needs_orientations: F::NEEDS_ORIENTATIONS,
+            rates: F::RATES,
             create: F::create::<f64>,
             respond: F::respond::<f64>,
         }
@@ -150,8 +123,9 @@ pub fn remembered() -> String {
 }
 
 impl Keys {
-    /// The law in numbers, or every contradiction among the keys.
-    pub fn law(&self) -> Result<Law, Vec<KeyError>> {
+    /// The law in numbers, or every contradiction among the keys. Dashpots see the rates at the middle of the step, or those at
+    /// its end where the time integration predicts them (`[run] scheme = "predicted"`).
+    pub fn law(&self, predicts: bool) -> Result<Law, Vec<KeyError>> {
         let wrong = self.contradictions();
         if !wrong.is_empty() {
             return Err(wrong);
@@ -171,6 +145,7 @@ impl Keys {
                 relaxation_rate: self.relaxation.map_or([0.0; 4], |keys| keys.parts(|time| 1.0 / time.get())),
             },
             damping: self.damping,
+            foresees: predicts && self.damping.is_some_and(|damping| damping.is_dashpots()),
             breakage: self.breakage.map_or_else(Vec::new, |keys| keys.rules(self.formulation)),
             compression_share: self.breakage.unwrap_or_default().stress.compression_share(self.formulation),
         })
@@ -181,13 +156,33 @@ impl Law {
     /// What a bond of this pair is to the stable time step: stiffness \[N/m, N m\] and dashpots \[kg/s, N m s\] of each part.
     pub fn linear(&self, pair: &Pair) -> [Parts; 2] {
         let stiffness = self.elasticity.stiffness(pair.least_radius);
-        self.damping.map_or([stiffness, [0.0; 4]], |damping| damping.visit(TakeLinear(pair, stiffness)))
+        let Some(damping) = self.damping else { return [stiffness, [0.0; 4]] };
+        let [stiffness, dashpots] = damping.visit(TakeLinear(pair, stiffness));
+        // Rates that are extrapolated count twice, as at contacts ([`crate::contact::Scheme::damping_factor`]).
+        [stiffness, dashpots.map(|dashpot| if self.foresees { 2.0 * dashpot } else { dashpot })]
+    }
+
+    /// How many rows a bond remembers of its damping.
+    pub fn damping_rows(&self) -> usize {
+        let of_rates = if self.foresees { LastDamping::default().rates.len() } else { 0 };
+        self.damping.map_or(0, |_| LastDamping::default().load.len() + of_rates)
+    }
+
+    /// What a new bond remembers of its damping: no load, and the rates with which it begins.
+    pub fn first_damping(&self, law: &Coefficients, pair: &Pair) -> LastDamping {
+        let rates = if self.foresees { self.rates(law, pair) } else { RateRows::default() };
+        LastDamping { rates, ..LastDamping::default() }
+    }
+
+    /// The rates of a bond at the middle of the step.
+    fn rates(&self, law: &Coefficients, pair: &Pair) -> RateRows {
+        Motion::of(self.one_bond().rates, law, pair).settled().rates()
     }
 
     /// A conservative bond that does not break.
     pub fn elastic(formulation: FormulationChoice, elasticity: Elasticity) -> Self {
         let compression_share = if formulation.is_engine() { 1.0 } else { -1.0 };
-        Self { formulation, elasticity, damping: None, breakage: Vec::new(), compression_share }
+        Self { formulation, elasticity, damping: None, foresees: false, breakage: Vec::new(), compression_share }
     }
 
     /// What it asks of its formulation.
@@ -205,16 +200,16 @@ impl Law {
         self.formulation.visit(self.asked(), TakeFunctions)
     }
 
-    /// Force, torque, breakage and new state of one bond, on which damping had this load in the last evaluation.
-    pub fn react(&self, law: &Coefficients, pair: &Pair, rows: &Rows, last: &DampingLoad) -> Reaction {
+    /// Force, torque, breakage and new state of one bond, whose damping left this in the last evaluation.
+    pub fn react(&self, law: &Coefficients, pair: &Pair, rows: &Rows, last: &LastDamping) -> Reaction {
         let (motion, elastic) = (self.one_bond().respond)(law, pair, rows);
         let mut reaction = Reaction {
             force: elastic.force,
             torque_i: elastic.torque_i,
             torque_j: elastic.torque_j,
             relaxed: elastic.relaxed,
-            damping: DampingLoad::none(),
-            damped: last.taken(pair, law.step),
+            damping: LastDamping { load: [[0.0; 4]; 3], ..*last },
+            damped: DampingLoad::from_rows(last.load).taken(pair, law.step),
             cause: self.judge(&elastic.loaded(&motion)),
             overbent: elastic.overbent,
             rows: elastic.rows,
@@ -222,12 +217,15 @@ impl Law {
         if reaction.cause != 0.0 {
             [reaction.force, reaction.torque_i, reaction.torque_j] = [Vector::zero(); 3];
         } else if let Some(damping) = &self.damping {
-            let load = damping.visit(DampOne { law, pair, motion: &motion.settled(), elastic: &elastic });
+            let settled = motion.settled();
+            let motion = if self.foresees { settled.foreseen(last.rates) } else { settled };
+            let load = damping.visit(DampOne { law, pair, motion: &motion, elastic: &elastic });
             reaction.force += load.force;
             reaction.torque_i += load.torque_i;
             reaction.torque_j += load.torque_j;
             reaction.damped += load.taken(pair, law.step);
-            reaction.damping = load;
+            let rates = if self.foresees && law.step > 0.0 { settled.rates() } else { last.rates };
+            reaction.damping = LastDamping { load: load.to_rows(), rates };
         }
         reaction
     }
@@ -235,32 +233,6 @@ impl Law {
     /// 0, or the code of the first cause for which a bond under this load breaks.
     pub fn judge(&self, loaded: &Loaded) -> f64 {
         self.breakage.iter().map(|rule| rule.visit(JudgeOne(loaded))).find(|cause| *cause != 0.0).unwrap_or(0.0)
-    }
-
-    /// What a bond carries at this moment, for outputs: nothing advances, nothing breaks.
-    pub fn carried(&self, pair: &Pair, rows: &Rows) -> Carried {
-        let law = self.elasticity.at_step::<f64>(0.0);
-        let functions = self.formulation.visit(Asked { rates: true, ..self.asked() }, TakeFunctions);
-        let (motion, elastic) = (functions.respond)(&law, pair, rows);
-        let loaded = elastic.loaded(&motion);
-        let stress: Stress = loaded.stress();
-        Carried {
-            rest: elastic.compression + motion.distance,
-            axis: motion.axis.to_array(),
-            arm: (pair.connection * -pair.share_i).to_array(),
-            area: motion.section.area,
-            force: elastic.force.to_array(),
-            normal: elastic.normal,
-            shear: elastic.shear.to_array(),
-            torsion: elastic.torsion,
-            bending: elastic.bending.to_array(),
-            normal_stress: loaded.normal_stress(&stress, self.compression_share),
-            shear_stress: stress.shear,
-            energy: elastic.energy,
-            power: elastic.force.dot(pair.velocity)
-                + elastic.torque_i.dot(pair.spin_i)
-                + elastic.torque_j.dot(pair.spin_j),
-        }
     }
 }
 

@@ -23,6 +23,7 @@
 
 pub mod angle;
 pub mod breakage;
+mod carried;
 pub mod creation;
 pub mod damping;
 pub mod elasticity;
@@ -37,12 +38,13 @@ mod part_keys;
 mod slopes;
 
 pub use crate::geometry::Quaternion;
+pub use carried::Carried;
 pub use elasticity::{Coefficients, Elasticity};
 pub use formulation::Formulation;
-pub use law::{Carried, Law, OneBond, Reaction, remembered, rows};
-pub use motion::{Lengths, Motion, Opening, Rates};
+pub use law::{Law, OneBond, Reaction, remembered, rows};
+pub use motion::{Lengths, Motion, Opening, RateRows, Rates};
 pub use pair::{Body, Pair, Section};
-pub use slopes::Sloped;
+pub use slopes::{Remembered, Sloped};
 
 use crate::number::{Number, Vector};
 

@@ -71,6 +71,9 @@ pub struct Motion<N: Number = f64> {
     pub section: Section<N>,
 }
 
+/// The rates of a bond at the middle of a time step, as it remembers them: v_s and v_n \[m/s\], w_t and w_n \[rad/s\].
+pub type RateRows<N = f64> = [[N; 4]; 2];
+
 /// About which axis a law takes its rates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rates {
@@ -239,6 +242,29 @@ impl<N: Number> Motion<N> {
         Self {
             slip: self.turn.onwards(self.slip, self.axis),
             bending_rate: self.turn.onwards(self.bending_rate, self.axis),
+            ..*self
+        }
+    }
+
+    /// The rates of a settled motion, to be remembered.
+    #[inline(always)]
+    pub fn rates(&self) -> RateRows<N> {
+        [self.slip.row_with(self.normal_velocity), self.bending_rate.row_with(self.twist_rate)]
+    }
+
+    /// A settled motion with the rates at the end of the step: those at its middle and half of what they gained since the
+    /// middle of the step before, which turned with the axis. They do not turn about it: half of that turn for this step's and
+    /// one and a half for those before would cancel, to the second order.
+    #[inline(always)]
+    pub fn foreseen(&self, [across, about]: RateRows<N>) -> Self {
+        let (half, axis) = (N::splat(0.5), self.axis);
+        let slip = self.turn.onwards(Vector::of_row(across), axis);
+        let bending_rate = self.turn.onwards(Vector::of_row(about), axis);
+        Self {
+            normal_velocity: self.normal_velocity + (self.normal_velocity - across[3]) * half,
+            slip: self.slip + (self.slip - slip) * half,
+            twist_rate: self.twist_rate + (self.twist_rate - about[3]) * half,
+            bending_rate: self.bending_rate + (self.bending_rate - bending_rate) * half,
             ..*self
         }
     }

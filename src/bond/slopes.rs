@@ -3,7 +3,7 @@
 use super::breakage::{Breakage, Loaded, TakeRule};
 use super::damping::{Damping, DampingLoad, TakeDamping};
 use super::formulation::{Formulation, TakeFormulation};
-use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, Rows};
+use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, RateRows, Rows};
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{Lane, Work};
 use crate::number::{Number, Vector};
@@ -22,21 +22,41 @@ pub struct Sloped<V: Lane, S: Slopes<V>> {
     pub broken: u32,
 }
 
+/// What some bonds remember.
+#[derive(Clone, Copy)]
+pub struct Remembered<N: Number> {
+    /// The rows of their law.
+    pub rows: Rows<N>,
+    /// Their rates at the middle of the last step, if dashpots see those of the end of the step.
+    pub rates: RateRows<N>,
+}
+
+impl<N: Number> Remembered<N> {
+    /// Room for it.
+    #[inline(always)]
+    pub fn room() -> Self {
+        Self { rows: [[N::zero(); 4]; MOST_ROWS], rates: [[N::zero(); 4]; 2] }
+    }
+}
+
 impl Law {
-    /// Loads of some bonds, with slopes. `rows`, what they remember, go on. Called where the features of the registers are there.
+    /// Loads of some bonds, with slopes. What they remember goes on. Called where the features of the registers
+    /// are there.
     #[inline(always)]
     pub fn react_with_slopes<V: Lane, S: Slopes<V>>(
         &self,
         law: &Coefficients<Dual<V, S>>,
         pair: &Pair<Dual<V, S>>,
-        rows: &mut Rows<Dual<V, S>>,
+        remembered: &mut Remembered<Dual<V, S>>,
     ) -> Sloped<V, S> {
         let respond = self.formulation.visit(self.asked(), TakeSloped(PhantomData));
+        let Remembered { rows, rates } = remembered;
         let (motion, elastic) = respond(law, pair, rows);
         let mut found =
             Sloped { force: elastic.force, torque_i: elastic.torque_i, torque_j: elastic.torque_j, broken: 0 };
         if let Some(damping) = &self.damping {
-            let load = damping.visit(Damp { law, pair, motion: &motion, elastic: &elastic });
+            let rates = self.foresees.then_some(rates);
+            let load = damping.visit(Damp { law, pair, motion: &motion, elastic: &elastic, rates });
             found.force += load.force;
             found.torque_i += load.torque_i;
             found.torque_j += load.torque_j;
@@ -132,6 +152,8 @@ struct Damp<'a, V: Lane, S: Slopes<V>> {
     motion: &'a Motion<Dual<V, S>>,
     /// What the formulation answers.
     elastic: &'a Elastic<Dual<V, S>>,
+    /// The rates that they remember, where dashpots see those of the end of the step.
+    rates: Option<&'a mut RateRows<Dual<V, S>>>,
 }
 
 impl<V: Lane, S: Slopes<V>> TakeDamping for Damp<'_, V, S> {
@@ -153,8 +175,12 @@ impl<M: Damping, V: Lane, S: Slopes<V>> Work for Damped<'_, M, V, S> {
     type Output = DampingLoad<Dual<V, S>>;
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Damp { law, pair, motion, elastic } = self.bond;
-        let motion = &motion.settled();
-        self.damping.damp(law, pair, motion, elastic).load(pair, motion)
+        let Damp { law, pair, motion, elastic, rates } = self.bond;
+        let mut motion = motion.settled();
+        if let Some(rates) = rates {
+            let now = motion.rates();
+            motion = motion.foreseen(std::mem::replace(rates, now));
+        }
+        self.damping.damp(law, pair, &motion, elastic).load(pair, &motion)
     }
 }

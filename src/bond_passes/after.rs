@@ -13,6 +13,8 @@ pub(super) struct After {
     pub(super) damping: Option<Box<dyn OnLanes>>,
     /// Whether it looks at masses and moments of inertia.
     pub(super) needs_masses: bool,
+    /// [`Law::foresees`]
+    pub(super) foresees: bool,
     /// Rules of breakage, in the order of their list.
     pub(super) breakage: Vec<Box<dyn OnLanes>>,
 }
@@ -42,7 +44,8 @@ impl After {
     pub(super) fn of(law: &Law) -> Self {
         let damping = law.damping.map(|damping| damping.visit(BoxDamping));
         let (damping, needs_masses) = damping.map_or((None, false), |(damping, needs)| (Some(damping), needs));
-        Self { damping, needs_masses, breakage: law.breakage.iter().map(|rule| rule.visit(BoxRule)).collect() }
+        let breakage = law.breakage.iter().map(|rule| rule.visit(BoxRule)).collect();
+        Self { damping, needs_masses, foresees: law.foresees, breakage }
     }
 
     /// Whether anything follows.

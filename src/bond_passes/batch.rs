@@ -15,7 +15,7 @@
 use super::after::{After, Bonds};
 use super::book::{Broken, Done};
 use super::pipeline_buffer::{PipelineBuffer, start_of};
-use crate::bond::damping::DampingLoad;
+use crate::bond::damping::{DampingLoad, LastDamping};
 use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
     Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
@@ -42,8 +42,8 @@ pub(super) struct Work<'a> {
     pub(crate) second: &'a [u32],
     /// State of each bond, row by row.
     pub(crate) rows: [Shared<Row>; MOST_ROWS],
-    /// Load of damping in the last evaluation, row by row; empty where nothing damps.
-    pub(crate) damping: [Shared<Row>; 3],
+    /// What damping left in the last evaluation, row by row; empty where there is nothing.
+    pub(crate) damping: [Shared<Row>; LastDamping::MOST_ROWS],
     /// Energy that each bond lost; empty where none does.
     pub(crate) lost: Shared<f64>,
     /// Positions and radii.
@@ -328,13 +328,25 @@ impl<F: Formulation> Slab<'_, '_, F> {
         let Work { after, elasticity, step, .. } = *self.work;
         let (start, bond) = (start_of::<F>(turn), self.bond::<N>(turn));
         if let (Some(damping), true) = (&after.damping, F::RATES != Rates::Unseen) {
+            let [force, torque_i, torque_j, across, about] = self.work.damping;
+            let mut motion = motion.settled();
             // SAFETY: the caller's promise; a bond that is damped has these rows.
-            let last = unsafe { self.work.damping.map(|column| self.load::<N>(column, bond)) };
+            let last = unsafe {
+                if after.foresees {
+                    let rates = motion.rates();
+                    motion = motion.foreseen([self.load(across, bond), self.load(about, bond)]);
+                    if step > 0.0 {
+                        self.store(rates[0], across, bond);
+                        self.store(rates[1], about, bond);
+                    }
+                }
+                [force, torque_i, torque_j].map(|column| self.load::<N>(column, bond))
+            };
             self.buffer.answer.put_damping(&DampingLoad::from_rows(last));
-            self.buffer.answer.put_motion(&motion.settled(), elastic);
+            self.buffer.answer.put_motion(&motion, elastic);
             damping.run(self.width, Bonds { elasticity, step, buffer: self.buffer, turn, start });
             let rows = self.buffer.answer.damping::<N>().to_rows();
-            for (column, row) in self.work.damping.into_iter().zip(rows) {
+            for (column, row) in [force, torque_i, torque_j].into_iter().zip(rows) {
                 // SAFETY: as above.
                 unsafe { self.store(row, column, bond) };
             }

@@ -14,7 +14,8 @@ pub(crate) mod walls;
 pub(crate) use book::{Done, book};
 
 use crate::bond::creation::{Creation, Moment, near_pair};
-use crate::bond::{Body, Carried, Law, OneBond, Pair, Quaternion, Rows};
+use crate::bond::damping::LastDamping;
+use crate::bond::{Body, Carried, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link};
@@ -202,7 +203,7 @@ impl Pass for BondPass {
             let rows = (self.one_bond.create)(&law, &pair);
             list.first.push(i);
             list.second.push(j);
-            begin_losses(list, &self.law);
+            begin_losses(list, &self.law, &law, &pair);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
             }
@@ -215,7 +216,7 @@ impl Pass for BondPass {
 
     fn check(&self, state: &State) -> Result<(), StateFault> {
         state.bonds[self.index].check_columns(self.one_bond.rows, self.law.dissipates(), false)?;
-        state.bonds[self.index].check_damping(self.law.damping.is_some())
+        state.bonds[self.index].check_damping(self.law.damping_rows())
     }
 
     fn has_torque(&self) -> bool {
@@ -273,10 +274,10 @@ impl Pass for BondPass {
     }
 }
 
-/// The columns of the load of damping.
-pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; 3] {
+/// The columns of what damping leaves.
+pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; LastDamping::MOST_ROWS] {
     let mut columns = columns.iter_mut();
-    [(); 3].map(|()| columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column)))
+    [(); LastDamping::MOST_ROWS].map(|()| columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column)))
 }
 
 /// Force on body i of a bond that carries this, with that of damping in the last evaluation \[N\].
@@ -300,15 +301,13 @@ pub(crate) fn sum(pairs: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 }
 
 /// Adds to a list what is kept of a new bond where its law loses energy.
-pub(crate) fn begin_losses(list: &mut BondList, law: &Law) {
+pub(crate) fn begin_losses(list: &mut BondList, law: &Law, coefficients: &Coefficients, pair: &Pair) {
     if law.dissipates() {
         list.lost.push(0.0);
     }
-    if law.damping.is_some() {
-        list.damping.resize(3, Vec::new());
-        for column in &mut list.damping {
-            column.push([0.0; 4]);
-        }
+    list.damping.resize(law.damping_rows(), Vec::new());
+    for (column, row) in list.damping.iter_mut().zip(law.first_damping(coefficients, pair).to_rows()) {
+        column.push(row);
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::BondPass;
 use super::walls::WallBondPass;
-use crate::bond::{Body, Coefficients, Law, MOST_ROWS, Pair, Quaternion, Rows, Sloped};
+use crate::bond::{Body, Coefficients, Law, Pair, Quaternion, Remembered, Sloped};
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of, vectors_of};
-use crate::number::{Number, Vector};
+use crate::number::Vector;
 use crate::state::{BondList, Particles, State};
 use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, ParticleSlopes, Tangent};
 use crate::tangent::{rows_at, slopes_of, spread};
@@ -38,24 +38,28 @@ fn moving<I: Inputs, N: Lane>([x, y, z]: [I::Values<N>; 3], [dx, dy, dz]: [I::Ea
     Dual::vector(Vector::new(x, y, z), slopes)
 }
 
-/// What bonds do, with slopes; those of their rows go on. The first so many `fixed` of the `rows`, which are room for
-/// them, never change.
+/// What bonds do, with slopes; those of what they remember go on. The first so many `fixed` of their rows never change.
 #[inline(always)]
 fn react<I: Inputs, N: Lane>(
     law: &Law,
     coefficients: &Coefficients<InLanes<I, N>>,
     pair: &Pair<InLanes<I, N>>,
     (list, slopes, bonds, count): (&BondList, &mut ListSlopes<I>, &Places, usize),
-    (rows, fixed): (&mut Rows<InLanes<I, N>>, usize),
+    (remembered, fixed): (&mut Remembered<InLanes<I, N>>, usize),
 ) -> Sloped<I::Values<N>, I::Slopes<N>> {
-    for (place, (row, values)) in rows.iter_mut().zip(&list.rows).enumerate() {
+    let (of_rows, of_rates) = slopes.rows.split_at_mut(list.rows.len());
+    for (place, (row, values)) in remembered.rows.iter_mut().zip(&list.rows).enumerate() {
         *row = match place < fixed {
             true => Dual::constants(columns_at(values, bonds)),
-            false => rows_at::<I, N>(values, &slopes.rows[place], bonds),
+            false => rows_at::<I, N>(values, &of_rows[place], bonds),
         };
     }
-    let found = law.react_with_slopes(coefficients, pair, rows);
-    for (slopes, row) in slopes.rows.iter_mut().zip(&*rows).skip(fixed) {
+    for (row, (values, slopes)) in remembered.rates.iter_mut().zip(list.rate_columns().iter().zip(&*of_rates)) {
+        *row = rows_at::<I, N>(values, slopes, bonds);
+    }
+    let found = law.react_with_slopes(coefficients, pair, remembered);
+    let of_rows = of_rows.iter_mut().zip(&remembered.rows).skip(fixed);
+    for (slopes, row) in of_rows.chain(of_rates.iter_mut().zip(&remembered.rates)) {
         I::put::<N>(slopes_of::<I, N>(*row), slopes, bonds.first(count));
     }
     let mut broken = found.broken & ((1 << count) - 1);
@@ -86,7 +90,7 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
         let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let (slopes, moved) = (&mut tangent.bonds[pass.index], &mut tangent.particles);
         let (coefficients, fixed) = (at_step::<I, N>(&pass.law, step), pass.law.one_bond().fixed_rows);
-        let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
+        let mut remembered = Remembered::room();
         for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
             let Group { entries, bodies: [i, j], count } =
                 Group::from::<I::Values<N>>([&list.first, &list.second], first);
@@ -95,7 +99,7 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
             }
             let pair = Pair::of_spheres(&bodies::<I, N>(moved, particles, &i), &bodies::<I, N>(moved, particles, &j));
             let bonds = (list, &mut *slopes, &entries, count);
-            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut rows, fixed));
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut remembered, fixed));
             let slots = [i.first(count), j.first(count)];
             moved.press_pairs(slots, found.force);
             moved.twist_pairs(slots, [found.torque_i, found.torque_j]);
@@ -112,7 +116,7 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
         let (slopes, boundary) = (&mut bonds[pass.index], &mut boundaries[pass.boundary.index()]);
         let (coefficients, moves) = (at_step::<I, N>(&pass.law, step), boundary.is_moved());
         let fixed = pass.law.one_bond().fixed_rows;
-        let mut rows = [[Dual::zero(); 4]; MOST_ROWS];
+        let mut remembered = Remembered::room();
         for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
             let Group { entries, bodies: [slots], count } = Group::from::<I::Values<N>>([&list.first], first);
             if !moves && moved.reached(slots.first(count)) == 0 {
@@ -134,7 +138,7 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
             };
             let pair = Pair::at_wall(&bodies::<I, N>(moved, particles, &slots), &foot);
             let bonds = (list, &mut *slopes, &entries, count);
-            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut rows, fixed));
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut remembered, fixed));
             moved.press(slots.first(count), found.force);
             moved.twist(slots.first(count), found.torque_i);
             let arm = |lane: usize| Vector::from(list.foot[entries.at(lane)]) - pass.reference;

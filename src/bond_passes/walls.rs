@@ -5,7 +5,7 @@
 
 use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, stretched, sum, whole_force};
 use crate::bond::creation::{Creation, Moment, near_plane};
-use crate::bond::damping::DampingLoad;
+use crate::bond::damping::LastDamping;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
@@ -149,8 +149,8 @@ struct Work<'a> {
     coefficients: Coefficients,
     /// Rows of the list, each a column.
     rows: [Shared<Row>; MOST_ROWS],
-    /// Load of damping in the last evaluation, row by row; empty where nothing damps.
-    damping: [Shared<Row>; 3],
+    /// What damping left in the last evaluation, row by row; empty where there is nothing.
+    damping: [Shared<Row>; LastDamping::MOST_ROWS],
     /// Energy that each bond lost; empty where none does.
     lost: Shared<f64>,
     /// Forces.
@@ -188,7 +188,7 @@ impl Work<'_> {
             let pair = Pair::at_wall(&body_of(self.particles, slot), &self.pass.foot(self.foot[bond], self.plane));
             // SAFETY: pieces do not overlap.
             let (rows, last) = unsafe { (rows_of(&self.rows, bond), rows_of(&self.damping, bond)) };
-            let reaction = law.react(&self.coefficients, &pair, &rows, &DampingLoad::from_rows(last));
+            let reaction = law.react(&self.coefficients, &pair, &rows, &LastDamping::from_rows(last));
             let damping = reaction.damping.to_rows();
             for (row, column) in damping.iter().zip(&self.damping).filter(|(_, column)| column.length() > 0) {
                 // SAFETY: as above.
@@ -277,7 +277,7 @@ impl Pass for WallBondPass {
             list.rows.resize(self.one_bond.rows, Vec::new());
             list.first.push(slot);
             list.foot.push(foot);
-            begin_losses(list, &self.law);
+            begin_losses(list, &self.law, &law, &pair);
             state.particles.count_bond([state.particles.id[slot as usize]]);
             for (column, row) in list.rows.iter_mut().zip(rows) {
                 column.push(row);
@@ -289,7 +289,7 @@ impl Pass for WallBondPass {
 
     fn check(&self, state: &State) -> Result<(), StateFault> {
         state.bonds[self.index].check_columns(self.one_bond.rows, self.law.dissipates(), true)?;
-        state.bonds[self.index].check_damping(self.law.damping.is_some())
+        state.bonds[self.index].check_damping(self.law.damping_rows())
     }
 
     fn has_torque(&self) -> bool {

@@ -104,6 +104,6 @@ impl Scene {
                 *strength.value = value;
             }
         }
-        keys.law()
+        keys.law(self.run.scheme.predicts())
     }
 }

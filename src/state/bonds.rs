@@ -2,6 +2,7 @@
 
 use super::in_place::clone_in_place;
 use super::{Row, plain};
+use crate::bond::damping::LoadRows;
 use serde::{Deserialize, Serialize};
 
 /// Living bonds of one law: between particles ordered by slab and first particle, at a plane by particle.
@@ -23,7 +24,8 @@ pub struct BondList {
     /// State of the bonds: the rows of the law, each a column here.
     pub rows: Vec<Vec<Row>>,
     /// Load of damping on each bond in the last evaluation: force on i, torque on i, torque on j, each a column; empty where
-    /// the law has no damping. What it takes of the bodies is known half a step later.
+    /// the law has no damping. What it takes of the bodies is known half a step later. Two more columns are the rates at the
+    /// middle of the last step, where dashpots see those at the end of the step.
     pub damping: Vec<Vec<Row>>,
     /// Energy that damping and relaxation took of each bond so far \[J\]; empty where the law takes none.
     #[serde(with = "plain")]
@@ -64,6 +66,11 @@ impl BondList {
         (self.made, self.broken, self.removed) = (self.first.len() as u64, 0, 0);
         (self.relaxed, self.damped, self.released) = (0.0, 0.0, 0.0);
         self.lost.fill(0.0);
+    }
+
+    /// The columns of rates at the middle of the last step, behind those of loads.
+    pub(crate) fn rate_columns(&self) -> &[Vec<Row>] {
+        self.damping.get(LoadRows::<f64>::default().len()..).unwrap_or_default()
     }
 
     /// Energy that left the bonds so far: by damping, by relaxation, and with those that broke \[J\].

@@ -462,11 +462,11 @@ impl BondList {
         self.rows.iter().try_for_each(|row| column(row, count, true, "rows"))
     }
 
-    /// Whether it has the columns of the load of damping, if its law has one.
-    pub(crate) fn check_damping(&self, damped: bool) -> Result<(), StateFault> {
-        let fits = self.damping.len() == 3 || self.damping.is_empty() && (!damped || self.first.is_empty());
-        demand(fits, "damping", self.damping.len(), "three columns where the law has damping")?;
-        self.damping.iter().try_for_each(|row| column(row, self.first.len(), damped, "damping"))
+    /// Whether it has as many columns of what damping leaves as its law has rows.
+    pub(crate) fn check_damping(&self, rows: usize) -> Result<(), StateFault> {
+        let fits = self.damping.len() == rows || self.damping.is_empty() && self.first.is_empty();
+        demand(fits, "damping", self.damping.len(), "a column for each row of the law's damping")?;
+        self.damping.iter().try_for_each(|row| column(row, self.first.len(), true, "damping"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;
-use crate::bond_passes::begin_losses;
+use crate::bond_passes::{begin_losses, pair_of};
 use crate::boundaries::placing;
 use crate::contact::Law;
 use crate::interactions::PlacedSpring;
@@ -114,7 +114,9 @@ fn put_bond(scene: &Scene, state: &mut State, bond: &PlacedBond) {
     for (column, row) in list.rows.iter_mut().zip(bond.rows) {
         column.push(row);
     }
-    begin_losses(list, &law.law);
+    let [i, j] = bond.bodies.map(|slot| slot as usize);
+    let pair = pair_of(&state.particles, i, j);
+    begin_losses(list, &law.law, &law.law.elasticity.at_step(0.0), &pair);
     list.made += 1;
     state.particles.count_bond(bond.bodies);
 }

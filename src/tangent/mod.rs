@@ -66,7 +66,7 @@ impl<I: Inputs> Tangent<I> {
             particles: ParticleSlopes::of(&state.particles, turning),
             contacts: state.contacts.iter().map(|list| ListSlopes::of(list.history.len())).collect(),
             walls: state.walls.iter().map(|list| ListSlopes::of(list.history.len())).collect(),
-            bonds: state.bonds.iter().map(|list| ListSlopes::of(list.rows.len())).collect(),
+            bonds: state.bonds.iter().map(|list| ListSlopes::of(list.rows.len() + list.rate_columns().len())).collect(),
             boundaries: state.boundaries.iter().map(|_| BoundarySlopes::default()).collect(),
             width,
             made_at: state.neighbours.made_at,

@@ -1,7 +1,7 @@
 //! Dashpots in a bond that turns: their rates are those of mid-step, and so is the axis about which they are taken.
 
 use crate::bond_laws::placement::{RADII, turn};
-use cograin::bond::damping::DampingLoad;
+use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;
 use cograin::bond::keys::{DampingChoice, PartKeys};
 use cograin::bond::{Body, Elasticity, Law, Pair};
@@ -41,7 +41,7 @@ fn error(formulation: FormulationChoice, step: f64) -> f64 {
     let damped = Law { damping: Some(DampingChoice::Viscous(ratios)), ..bare.clone() };
     let rows = (damped.one_bond().create)(&elasticity.at_step(0.0), &pair(0.0, step));
     let now = pair(1.0, step);
-    let force = |law: &Law| law.react(&elasticity.at_step(step), &now, &rows, &DampingLoad::none()).force;
+    let force = |law: &Law| law.react(&elasticity.at_step(step), &now, &rows, &LastDamping::default()).force;
     let axis = now.connection * (1.0 / now.connection.length());
     // 2 ζ √(k_n A M) with r_b = 0.6 and M = 3/2.
     let dashpot = 0.2 * (10.0 * 0.36 * std::f64::consts::PI * 1.5_f64).sqrt();

@@ -19,12 +19,12 @@ fn with(more: &str) -> Keys {
 
 /// The law that keys mean.
 fn law(more: &str) -> Law {
-    with(more).law().unwrap()
+    with(more).law(false).unwrap()
 }
 
 /// Keys of the contradictions.
 fn wrong(more: &str) -> Vec<&'static str> {
-    with(more).law().unwrap_err().into_iter().map(|error| error.key).collect()
+    with(more).law(false).unwrap_err().into_iter().map(|error| error.key).collect()
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn the_least_table_is_a_conservative_bond() {
     assert_eq!(keys.formulation, FormulationChoice::FiniteRotation);
     assert_eq!((keys.create.clone(), keys.contact), (Creation::Start, ContactPolicy::Parallel));
     let elasticity = Elasticity::of(1.0, 1e12, 4e11);
-    assert_eq!(keys.law().unwrap(), Law::elastic(FormulationChoice::FiniteRotation, elasticity));
+    assert_eq!(keys.law(false).unwrap(), Law::elastic(FormulationChoice::FiniteRotation, elasticity));
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_strength_can_be_changed_by_its_name() {
         *strength.value = cograin::quantity::Positive::new(2.0 * strength.value.get()).unwrap();
     }
     keys.breakage = Some(breakage);
-    let rules = keys.law().unwrap().breakage;
+    let rules = keys.law(false).unwrap().breakage;
     let [Rule::Distance(distance), Rule::ByStress(stress)] = rules[..] else { panic!("{rules:?}") };
     assert_eq!((distance.most, stress.shear_strength), (6e-3, 6e7));
 }
@@ -131,9 +131,9 @@ fn contradictions_name_their_key() {
     );
     let mut keys = with("");
     keys.create_distance = None;
-    assert_eq!(keys.law().unwrap_err()[0].key, "create_distance");
+    assert_eq!(keys.law(false).unwrap_err()[0].key, "create_distance");
     keys.create = Creation::Pairs(vec![[1, 2]]);
-    assert!(keys.law().is_ok());
+    assert!(keys.law(false).is_ok());
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn laws_that_look_at_the_step_say_so() {
 #[test]
 fn a_bond_pays_for_what_it_names() {
     let constants = |more: &str| {
-        let law = with(more).law().unwrap();
+        let law = with(more).law(false).unwrap();
         let one = law.one_bond();
         (
             one.rows,

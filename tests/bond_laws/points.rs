@@ -2,7 +2,7 @@
 
 use crate::bond_laws::placement::RADII;
 use cograin::bond::breakage::{Rule, cause_name, distance::Distance, stress::ByStress};
-use cograin::bond::damping::DampingLoad;
+use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;
 use cograin::bond::keys::{DampingChoice, PartKeys};
 use cograin::bond::{Body, Elasticity, Law, Pair, Quaternion, Reaction, Rows};
@@ -36,7 +36,7 @@ fn elasticity() -> Elasticity {
 
 /// What a bond of this formulation without damping and breakage does.
 fn react(formulation: FormulationChoice, law: Elasticity, step: f64, pair: &Pair, rows: &Rows) -> Reaction {
-    Law::elastic(formulation, law).react(&law.at_step(step), pair, rows, &DampingLoad::none())
+    Law::elastic(formulation, law).react(&law.at_step(step), pair, rows, &LastDamping::default())
 }
 
 /// The engine's.
@@ -119,7 +119,7 @@ fn broken_by(breakage: Vec<Rule>, distance: f64, [shear, torsion, bending]: [f64
     let rows = stored([0.0, shear, 0.0], torsion, [0.0, bending, 0.0]);
     let pair = pair(distance, [0.0; 3], [0.0; 3]);
     let law = Law { breakage, ..Law::elastic(ENGINE, elasticity()) };
-    let found = law.react(&elasticity().at_step(0.0), &pair, &rows, &DampingLoad::none());
+    let found = law.react(&elasticity().at_step(0.0), &pair, &rows, &LastDamping::default());
     let cause = cause_name(found.cause);
     assert_eq!(cause.is_some(), found.cause != 0.0);
     if cause.is_some() {
@@ -195,7 +195,7 @@ fn damped(damping: DampingChoice, velocity: [f64; 3], spin: [f64; 3]) -> (Vector
     let bare = Law::elastic(ENGINE, elasticity());
     let law = Law { damping: Some(damping), ..bare.clone() };
     let [with, without] =
-        [law, bare].map(|law| law.react(&elasticity().at_step(0.0), &pair, &rows, &DampingLoad::none()));
+        [law, bare].map(|law| law.react(&elasticity().at_step(0.0), &pair, &rows, &LastDamping::default()));
     assert_eq!(with.rows, without.rows, "the state does not see damping");
     // Force and torques on both bodies: no torque is left over about the second body.
     let torques = with.torque_i - without.torque_i + (with.torque_j - without.torque_j);
@@ -234,7 +234,7 @@ fn the_smooth_threshold_is_that_of_the_engine() {
     let force = |speed: f64, distance: f64| {
         let bare = Law::elastic(ENGINE, elasticity());
         let pair = pair(distance, [speed, 0.0, 0.0], [0.0; 3]);
-        let of = |law: &Law| law.react(&elasticity().at_step(step), &pair, &rows, &DampingLoad::none()).force.x;
+        let of = |law: &Law| law.react(&elasticity().at_step(step), &pair, &rows, &LastDamping::default()).force.x;
         of(&Law { damping, ..bare.clone() }) - of(&bare)
     };
     // Stretched: N < 0 along x, so 1e-5 R_min/Δt = 6e-3 m/s decides.

@@ -3,6 +3,7 @@
 mod axial_chain;
 mod bending_frequencies;
 mod bond_energy;
+mod bond_orders;
 mod cantilever;
 mod chain;
 mod chung_ooi;

@@ -15,17 +15,17 @@ const R: f64 = 5e-3;
 const ROLLING: f64 = 0.5;
 
 /// One motion, for a time, with a wanted number of steps.
-struct Case {
+pub(super) struct Case {
     /// What is claimed of it.
-    name: &'static str,
+    pub(super) name: &'static str,
     /// The scene of phase 0 to 1, without its step.
-    scene: fn(Scheme, f64) -> Scene,
+    pub(super) scene: fn(Scheme, f64) -> Scene,
     /// How long it runs \[s\].
-    time: f64,
+    pub(super) time: f64,
     /// Coarsest number of steps; three halvings follow.
-    steps: u64,
+    pub(super) steps: u64,
     /// How many phases.
-    phases: u32,
+    pub(super) phases: u32,
 }
 
 /// Velocities and spins of all spheres at the end, as speeds \[m/s\].
@@ -60,7 +60,7 @@ fn errors(case: &Case, scheme: Scheme) -> [f64; 4] {
     clippy::print_stdout,
     reason = "the figures of docs/speed-and-accuracy.md are what this test prints with --nocapture"
 )]
-fn order(case: &Case, scheme: Scheme) -> f64 {
+pub(super) fn order(case: &Case, scheme: Scheme) -> f64 {
     let errors = errors(case, scheme);
     let order = (errors[0] / errors[3]).log2() / 3.0;
     let each = [0, 1, 2].map(|at| (errors[at] / errors[at + 1]).log2());

@@ -142,6 +142,19 @@ fn of_bond_dashpots() {
 }
 
 #[test]
+fn of_predicted_bond_dashpots() {
+    for ratio in [0.3, 1.0, 3.0] {
+        for spheres in [cubic(2, 2e-3)[..2].to_vec(), cubic(3, 2e-3)] {
+            let text = block(&spheres, free, &bonds(&dashpots(ratio)));
+            let scene = scene(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
+            let tried = ratio_on_the_engine(&scene, stated(&scene));
+            let what = format!("predicted bond dashpots, {} spheres, ratio {ratio}", spheres.len());
+            assert!((0.88..=1.005).contains(&tried), "{what}: {tried:.3}");
+        }
+    }
+}
+
+#[test]
 fn of_bonds_and_contacts_together() {
     let spheres = cubic(6, 1.998e-3);
     let soft = bonds("").replace("1e12", "1e10").replace("4e11", "4e9");

@@ -244,7 +244,7 @@ impl Types<'_> {
     /// The law.
     fn law(&self, formulation: FormulationChoice, create: &Creation) -> Result<Bond, Mistake> {
         let keys = self.keys(formulation, create)?;
-        let law = keys.law().map_err(|errors| {
+        let law = keys.law(false).map_err(|errors| {
             let all: Vec<String> = errors.iter().map(ToString::to_string).collect();
             Mistake::new("model", all.join("; "))
         })?;

@@ -7,7 +7,7 @@ pub mod opposing;
 pub mod viscous;
 
 use super::elasticity::Parts;
-use super::{Coefficients, Elastic, Motion, Pair};
+use super::{Coefficients, Elastic, Motion, Pair, RateRows};
 use crate::number::{Number, Vector};
 use serde::Deserialize;
 
@@ -29,6 +29,11 @@ macro_rules! damping_models {
             /// Why the model needs a given time step, if it does.
             pub fn needs_given_step(&self) -> Option<&'static str> {
                 match self { $(Self::$row(_) => <$file::$model as Model>::NEEDS_GIVEN_STEP,)+ }
+            }
+
+            /// Whether it is made of dashpots, which a scheme can let see the rates at the end of the step.
+            pub fn is_dashpots(&self) -> bool {
+                match self { $(Self::$row(_) => <$file::$model as Model>::IS_DASHPOTS,)+ }
             }
 
             /// Whether the engine has it.
@@ -60,6 +65,8 @@ pub trait Model {
     type Form: Damping;
     /// Why it needs a given time step, if it does.
     const NEEDS_GIVEN_STEP: Option<&'static str> = None;
+    /// Whether it is made of dashpots: loads that grow with the rates.
+    const IS_DASHPOTS: bool = false;
     /// Whether LIGGGHTS-INL has it.
     const IS_THE_ENGINES: bool = false;
     /// The model that its keys mean.
@@ -155,14 +162,42 @@ impl<N: Number> DampingLoad<N> {
 
     /// As rows, for the state.
     #[inline(always)]
-    pub fn to_rows(self) -> [[N; 4]; 3] {
-        [self.force, self.torque_i, self.torque_j].map(|vector| [vector.x, vector.y, vector.z, N::zero()])
+    pub fn to_rows(self) -> LoadRows<N> {
+        [self.force, self.torque_i, self.torque_j].map(|vector| vector.row_with(N::zero()))
     }
 
     /// Back from them.
     #[inline(always)]
-    pub fn from_rows(rows: [[N; 4]; 3]) -> Self {
-        let [force, torque_i, torque_j] = rows.map(|[x, y, z, _]| Vector::new(x, y, z));
+    pub fn from_rows(rows: LoadRows<N>) -> Self {
+        let [force, torque_i, torque_j] = rows.map(Vector::of_row);
         Self { force, torque_i, torque_j }
+    }
+}
+
+/// The load of damping on a bond, as rows of the state.
+pub type LoadRows<N = f64> = [[N; 4]; 3];
+
+/// What a bond remembers of its damping: the load, and behind it the rates where dashpots see those of the end of the step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LastDamping {
+    /// The load of the last evaluation.
+    pub load: LoadRows,
+    /// The rates at the middle of the last step.
+    pub rates: RateRows,
+}
+
+impl LastDamping {
+    /// The most rows that it has.
+    pub const MOST_ROWS: usize = 5;
+
+    /// As rows, for the state.
+    pub fn to_rows(self) -> [[f64; 4]; Self::MOST_ROWS] {
+        let ([force, torque_i, torque_j], [across, about]) = (self.load, self.rates);
+        [force, torque_i, torque_j, across, about]
+    }
+
+    /// Back from them.
+    pub fn from_rows([force, torque_i, torque_j, across, about]: [[f64; 4]; Self::MOST_ROWS]) -> Self {
+        Self { load: [force, torque_i, torque_j], rates: [across, about] }
     }
 }

@@ -35,6 +35,7 @@ pub struct Viscous {
 impl Model for Viscous {
     type Keys = PartKeys<NonNegative>;
     type Form = Self;
+    const IS_DASHPOTS: bool = true;
 
     fn of(keys: &Self::Keys) -> Self {
         Self { ratios: keys.parts(NonNegative::get) }

@@ -9,7 +9,7 @@ use crate::document::{Document, Faults};
 use crate::import::REPORTED;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::Source;
-use crate::scene::{Bond, Step};
+use crate::scene::{Bond, Run, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -17,13 +17,13 @@ pub(super) fn bonds(
     document: &Document,
     source: &Source,
     born: &Born,
-    step: Step,
+    run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
     let mut bonds = Vec::new();
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
-        given_step(keys, &table, step, faults);
+        given_step(keys, &table, run.step, faults);
         let between = between(keys, document, &table, written, born, faults);
         if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
             let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
@@ -31,7 +31,7 @@ pub(super) fn bonds(
             continue;
         }
         let pairs = listed(keys, document, source, &table, born, faults);
-        let law = match keys.law() {
+        let law = match keys.law(run.scheme.predicts()) {
             Ok(law) => Some(law),
             Err(errors) => {
                 for error in errors {

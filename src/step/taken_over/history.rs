@@ -156,7 +156,7 @@ impl Simulation {
             let here = numbers.at(reached.particles.id[old as usize])?;
             Some(self.state.particles.slot[here as usize])
         };
-        let damping = if law.damping.is_some() { vec![Vec::new(); 3] } else { Vec::new() };
+        let damping = vec![Vec::new(); law.damping_rows()];
         let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], damping, ..BondList::default() };
         for bond in 0..list.first.len() {
             let second = list.second.get(bond).map(|&second| slot(second));
