@@ -139,6 +139,34 @@ fn energy_error(steps: f64, bonds: [&str; 3]) -> Result<f64, ChartError> {
     Ok(largest / vibration)
 }
 
+/// An error of the cantilever.
+pub(super) struct Error {
+    /// The time step over the stable one.
+    part: f64,
+    /// Time steps in a period of the first mode.
+    pub steps: f64,
+    /// Largest error of the deflection over the static one.
+    pub error: f64,
+}
+
+/// The errors of the cantilever with these bonds, and more lines of `[run]`.
+pub(super) fn deflection_errors(bonds: [&str; 3], run: &str) -> Result<Vec<Error>, ChartError> {
+    let [deflection, period] = theory();
+    let sampled = Sampled { interval: period / 10.0, count: 10, observe };
+    let lines = |step: f64| given(step) + run;
+    let stable = Stage::of(&cantilever(&lines(1e-9), bonds))?.stable();
+    let samples = |part: f64| {
+        let step = sampled.dividing(part * stable);
+        Ok::<_, ChartError>((period / step, sampled.of(&cantilever(&lines(step), bonds))?))
+    };
+    let (_, right) = samples(FINEST)?;
+    let error = |part: f64| {
+        let (steps, found) = samples(part)?;
+        Ok(Error { part, steps, error: apart(&found, &right) / deflection })
+    };
+    PARTS.into_iter().map(error).collect()
+}
+
 /// Columns.
 const COLUMNS: [&str; 4] = [
     "time steps in a period of the first mode",
@@ -152,19 +180,9 @@ fn draw() -> Result<Drawing, ChartError> {
     let columns =
         [("case", ""), ("series", ""), (COLUMNS[0], "1"), (COLUMNS[1], "1"), (COLUMNS[2], "1"), (COLUMNS[3], "1")];
     let mut table = Table::new(columns);
-    let [deflection, period] = theory();
-    let sampled = Sampled { interval: period / 10.0, count: 10, observe };
     let mut notes = Vec::new();
     for bonds in BONDS {
-        let stable = Stage::of(&cantilever(&given(1e-9), bonds))?.stable();
-        let run = |part: f64| {
-            let step = sampled.dividing(part * stable);
-            Ok::<_, ChartError>((period / step, sampled.of(&cantilever(&given(step), bonds))?))
-        };
-        let (_, right) = run(FINEST)?;
-        for part in PARTS {
-            let (steps, samples) = run(part)?;
-            let error = apart(&samples, &right) / deflection;
+        for Error { part, steps, error } in deflection_errors(bonds, "")? {
             if part == 0.2 {
                 notes.push(format!("{}: {error:.1e} at the default step, {steps:.0} steps a period", bonds[0]));
             }

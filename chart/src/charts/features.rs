@@ -1,14 +1,10 @@
-//! What each feature adds to the cost of a time step.
-//!
-//! A block of spheres that press on each other and on six planes makes steps on one thread, one feature after the other, in turn;
-//! the least time of several rounds counts. It is processor time where the system tells it, so that other programs disturb less.
+//! What each feature adds to the cost of a time step of a block of spheres.
 
+use super::block::{EDGE, Timed, times};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Bars, Picture};
-use crate::stage::Stage;
 use crate::table::Table;
-use std::time::Instant;
 
 /// The chart.
 pub(super) const CHART: Chart = Chart {
@@ -17,18 +13,6 @@ pub(super) const CHART: Chart = Chart {
     seconds: 16.0,
     draw,
 };
-
-/// Spheres along each edge of the block.
-const EDGE: usize = 20;
-
-/// Time steps in a round.
-const STEPS: f64 = 40.0;
-
-/// Rounds.
-const ROUNDS: u32 = 5;
-
-/// Friction and rolling friction of the spheres, that have them.
-const ROUGH: &str = "[contact.c.tangential.history]";
 
 /// What is measured: its name, and what the scene has beside particles and planes.
 const FEATURES: [(&str, &str); 27] = [
@@ -64,46 +48,6 @@ const FEATURES: [(&str, &str); 27] = [
     ("bonds + hertz + history", "[contact.c.normal.hertz]\nROUGH\nBOND\n"),
 ];
 
-/// The scene with a feature.
-fn text(feature: &str) -> String {
-    let (spacing, high) = (0.999 * 2e-3, (EDGE as f64 - 0.5) * 0.999 * 2e-3);
-    let friction = if feature.contains("SMOOTH") { 0.0 } else { 0.5 };
-    let gravity = if feature.contains("GRAVITY") { "gravity = [0.0, 0.0, -9.81]\n" } else { "" };
-    let scheme = [("MIDWAY", "scheme = \"midway\""), ("PREDICTED", "scheme = \"predicted\"")];
-    let run = scheme.iter().find(|(word, _)| feature.contains(word)).map_or("", |(_, line)| line);
-    let bond = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
-                tangential_stiffness = 4e11";
-    let own = feature.replace("ROUGH", ROUGH).replace("BOND", bond);
-    let own =
-        ["SMOOTH", "GRAVITY", "SINGLE", "MIDWAY", "PREDICTED"].iter().fold(own, |text, word| text.replace(word, ""));
-    let mut planes = String::new();
-    for axis in 0..3 {
-        for (side, at) in [("low", -0.5 * spacing), ("high", high)] {
-            let vector = |value: f64| (0..3).map(|place| if place == axis { value } else { 0.0 }).collect::<Vec<_>>();
-            let (point, normal) = (vector(at), vector(if side == "low" { 1.0 } else { -1.0 }));
-            planes += &format!(
-                "[boundary.{side}{axis}]\nmaterial = \"a\"\nplane = {{ point = {point:?}, normal = {normal:?} }}\n"
-            );
-        }
-    }
-    format!(
-        "{gravity}[run]\nthreads = 1\nmax_overlap = 0.1\n{run}\n\
-         [material.a]\ndensity = 2500.0\nyoungs_modulus = 1e8\npoissons_ratio = 0.25\n\
-         [pair.a.a]\nrestitution = 0.5\nfriction = {friction:?}\nrolling_friction = 0.1\ncohesion_energy_density = 1e3\n\
-         surface_energy = 1e-3\ndamping_coefficient = 1e3\ntangential_damping_ratio = 1.0\nunloading_stiffness_ratio = 2.0\n\
-         pull_off_force = 0.0\n{own}\n\
-         [particles.block]\nmaterial = \"a\"\n\
-         lattice = {{ kind = \"simple_cubic\", radius = 1e-3, spacing = {spacing:?}, counts = [{EDGE}, {EDGE}, {EDGE}] }}\n{planes}"
-    )
-}
-
-/// Processor time of this thread \[s\], or wall time where the system does not tell it.
-fn processor_time(begun: Instant) -> f64 {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
-}
-
 /// Columns of the table.
 const COLUMNS: [&str; 5] =
     ["feature", "contacts", "bonds", "time of a step", "time of a step over that of hertz + history"];
@@ -113,32 +57,14 @@ const BASE: &str = "hertz + history";
 
 /// Computes the chart.
 fn draw() -> Result<Drawing, ChartError> {
-    let mut stages = Vec::new();
-    for (name, feature) in FEATURES {
-        let mut stage = Stage::of(&text(feature))?;
-        let pieces = if feature.contains("SINGLE") { STEPS as u32 } else { 1 };
-        stage.advance(STEPS / 4.0 * stage.step())?;
-        stages.push((name, pieces, stage, f64::INFINITY));
-    }
-    let begun = Instant::now();
-    for _ in 0..ROUNDS {
-        for (_, pieces, stage, least) in &mut stages {
-            let (before, made) = (processor_time(begun), stage.simulation.state().clock.steps);
-            for _ in 0..*pieces {
-                stage.advance(STEPS / f64::from(*pieces) * stage.step())?;
-            }
-            let steps = stage.simulation.state().clock.steps - made;
-            *least = least.min((processor_time(begun) - before) / steps as f64);
-        }
-    }
-    let base = stages.iter().find(|(name, ..)| *name == BASE).map_or(1.0, |(.., least)| *least);
+    let stages = times(&FEATURES)?;
+    let base = stages.iter().find(|timed| timed.name == BASE).map_or(1.0, |timed| timed.least);
     let mut table =
         Table::new([(COLUMNS[0], ""), (COLUMNS[1], "1"), (COLUMNS[2], "1"), (COLUMNS[3], "µs"), (COLUMNS[4], "1")]);
-    for (name, _, stage, least) in &stages {
-        let bonds = stage.simulation.state().bonds.iter().map(|list| list.first.len()).sum::<usize>();
-        let contacts = stage.simulation.contact_count();
-        let (contacts, bonds) = (contacts as f64, bonds as f64);
-        table.push([(*name).into(), contacts.into(), bonds.into(), (1e6 * least).into(), (least / base).into()]);
+    for timed in &stages {
+        let Timed { name, least, .. } = *timed;
+        let (contacts, bonds) = (timed.contacts(), timed.bonds());
+        table.push([name.into(), contacts.into(), bonds.into(), (1e6 * least).into(), (least / base).into()]);
     }
     let title = format!("{} spheres in a block between six planes, one thread", EDGE * EDGE * EDGE);
     let bars = Bars { title, words: COLUMNS[0], number: COLUMNS[4] };

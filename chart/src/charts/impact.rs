@@ -5,7 +5,7 @@
 //! gives; Tsuji's dashpot is exact for Hertz's force, the dashpot of `hooke` for its spring, where the end may pull.
 
 use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
-use super::liggghts;
+use super::peers::{PEERS, Peer};
 use super::schemes::{SCHEMES, Scheme, drawn};
 use super::{Chart, Drawing};
 use crate::ChartError;
@@ -24,24 +24,24 @@ pub(super) const CHART: Chart = Chart {
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Time steps in an elastic contact.
-const STEPS: [f64; 12] = [5.0, 8.0, 12.0, 20.0, 32.0, 50.0, 80.0, 125.0, 200.0, 400.0, 800.0, 1600.0];
+pub(super) const STEPS: [f64; 12] = [5.0, 8.0, 12.0, 20.0, 32.0, 50.0, 80.0, 125.0, 200.0, 400.0, 800.0, 1600.0];
 
 /// Coefficients of restitution.
-const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
+pub(super) const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
 
 /// What the default step is called.
 const DEFAULT: &str = "default step, all e";
 
-/// What the points of a peer are called.
-const PEER: &str = "LIGGGHTS, all e";
+/// What follows the name of a peer where its points are named.
+const ALL: &str = ", all e";
 
 /// Time steps in an elastic contact of the peer's points.
-const PEER_STEPS: [f64; 3] = [20.0, 80.0, 400.0];
+pub(super) const PEER_STEPS: [f64; 3] = [20.0, 80.0, 400.0];
 
 /// A normal model: its name, its table in the scene, the duration of an elastic contact \[s\].
-struct Normal {
+pub(super) struct Normal {
     /// Its name.
-    name: &'static str,
+    pub name: &'static str,
     /// Its table in the scene.
     table: String,
     /// Duration of the elastic contact \[s\].
@@ -61,7 +61,7 @@ fn largest(rebounds: &[Rebound], restitution: f64) -> f64 {
 }
 
 /// The largest error of restitution with so many steps in an elastic contact.
-fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
+pub(super) fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
     let mut error = 0.0_f64;
     for end in ENDS {
         error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
@@ -87,28 +87,40 @@ fn fill_default(table: &mut Table, normal: &Normal, restitution: f64, scheme: &S
     Ok(())
 }
 
-/// Adds the points of LIGGGHTS. Returns whether it is installed.
-fn fill_peer(table: &mut Table, normal: &Normal) -> Result<bool, ChartError> {
+/// The largest error of restitution of a peer with so many steps in an elastic contact; none where it is not installed.
+pub(super) fn peer_error(peer: &Peer, model: &str, restitution: f64, steps: f64) -> Result<Option<f64>, ChartError> {
+    let mut error = 0.0_f64;
+    for end in ENDS {
+        let Some(found) = peer.impact(model, restitution, steps + end)? else { return Ok(None) };
+        error = error.max(found);
+    }
+    Ok(Some(error))
+}
+
+/// Adds the points of a peer. Returns whether it is installed.
+fn fill_peer(table: &mut Table, normal: &Normal, peer: &Peer) -> Result<bool, ChartError> {
+    let series = format!("{}{ALL}", peer.name);
     for restitution in RESTITUTIONS {
         for steps in PEER_STEPS {
-            let mut error = 0.0_f64;
-            for end in ENDS {
-                let Some(found) = liggghts::error(normal.name, restitution, steps + end)? else { return Ok(false) };
-                error = error.max(found);
-            }
-            table.push([normal.name.into(), PEER.into(), restitution.into(), steps.into(), error.into()]);
+            let Some(error) = peer_error(peer, normal.name, restitution, steps)? else { return Ok(false) };
+            table.push([normal.name.into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
         }
     }
     Ok(true)
 }
 
-/// Computes the chart.
-fn draw() -> Result<Drawing, ChartError> {
+/// The normal models.
+pub(super) fn models() -> [Normal; 2] {
     let hooke = format!("[contact.touch.normal.hooke]\ncharacteristic_velocity = {SPEED:?}");
-    let models = [
+    [
         Normal { name: "hertz", table: "[contact.touch.normal.hertz]".into(), duration: hertz_duration(SPEED) },
         Normal { name: "hooke", table: hooke, duration: hooke_duration() },
-    ];
+    ]
+}
+
+/// Computes the chart.
+fn draw() -> Result<Drawing, ChartError> {
+    let models = models();
     let mut table = Table::new([
         ("law", ""),
         ("series", ""),
@@ -116,7 +128,7 @@ fn draw() -> Result<Drawing, ChartError> {
         ("time steps in an elastic contact", "1"),
         ("largest error of restitution", "1"),
     ]);
-    let mut has_peer = true;
+    let mut absent = Vec::new();
     for normal in &models {
         for scheme in SCHEMES {
             for restitution in RESTITUTIONS {
@@ -126,21 +138,23 @@ fn draw() -> Result<Drawing, ChartError> {
                 fill_default(&mut table, normal, restitution, scheme)?;
             }
         }
-        has_peer = has_peer && fill_peer(&mut table, normal)?;
+        for peer in &PEERS {
+            if !absent.contains(&peer.name) && !fill_peer(&mut table, normal, peer)? {
+                absent.push(peer.name);
+            }
+        }
     }
     let panel = |law: String| {
         let title = format!("{law}, without limit_force");
         let axes = [logarithmic("time steps in an elastic contact"), logarithmic("largest error of restitution")];
         Panel {
             only: Some(("law", law)),
-            single: vec![DEFAULT, PEER],
+            single: vec![DEFAULT, "LIGGGHTS, all e", "LAMMPS, all e"],
             ..Panel::new(&title, axes[0], axes[1], "series")
         }
     };
     let mut notes = notes(&table);
-    if !has_peer {
-        notes.push("LIGGGHTS is not installed: its points are left out".to_owned());
-    }
+    notes.extend(absent.into_iter().map(|name| format!("{name} is not installed: its points are left out")));
     let laws = models.iter().flat_map(|normal| drawn().map(|scheme| scheme.named(normal.name)));
     let panels = laws.map(panel).collect();
     Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })

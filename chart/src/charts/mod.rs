@@ -1,6 +1,7 @@
 //! The charts, a row each.
 
 mod bed;
+mod block;
 mod border;
 mod cantilever;
 mod cohesion;
@@ -9,12 +10,13 @@ mod drops;
 mod features;
 mod impact;
 mod kharaz;
-mod liggghts;
 mod oblique;
+mod peers;
 mod rolling;
 mod runs;
 mod schemes;
 mod size_ratio;
+mod work;
 
 use crate::ChartError;
 use crate::picture::Picture;
@@ -66,6 +68,7 @@ pub const CHARTS: &[Chart] = &[
     bed::CHART,
     size_ratio::CHART,
     features::CHART,
+    work::CHART,
 ];
 
 /// The chart of this name.

@@ -59,6 +59,21 @@ fn largest(rebounds: &[Rebound], right: &Rebound) -> f64 {
     rebounds.iter().map(error).fold(0.0, f64::max)
 }
 
+/// The largest errors over all angles of a case, over numbers of time steps in an elastic contact.
+pub(super) fn largest_errors(tangential: &str, coefficients: [f64; 2], run: &str) -> Result<Vec<[f64; 2]>, ChartError> {
+    let law = format!("[contact.touch.normal.hertz]\n[contact.touch.tangential.{tangential}]");
+    let mut errors = STEPS.map(|steps| [steps, 0.0_f64]);
+    for angle in ANGLES.map(f64::to_radians) {
+        let duration = hertz_duration(SPEED * libm::cos(angle));
+        let throw = Throw { law: &law, coefficients, angle, duration };
+        let right = mean(&throw.steps(CONVERGED, run)?);
+        for [steps, error] in &mut errors {
+            *error = error.max(largest(&throw.steps(*steps, run)?, &right));
+        }
+    }
+    Ok(errors.to_vec())
+}
+
 /// Computes the chart.
 fn draw() -> Result<Drawing, ChartError> {
     let mut table = Table::new([

@@ -1,0 +1,227 @@
+//! How exact a result is for the processor time that it takes: error over cost, scheme by scheme, and other programs beside.
+//!
+//! The cost of an impact is that of one contact: its time steps times what a contact and step takes in the block of `features`,
+//! with the same law and scheme (all have friction there). That of a cantilever is the same for one bond. Other programs rebound the
+//! same way, and compute the same block.
+
+use super::block::{Timed, times};
+use super::cantilever::deflection_errors;
+use super::impact::{self, RESTITUTIONS};
+use super::oblique;
+use super::peers::PEERS;
+use super::schemes::SCHEMES;
+use super::{Chart, Drawing};
+use crate::ChartError;
+use crate::picture::{Panel, Picture, logarithmic};
+use crate::table::Table;
+
+/// The chart.
+pub(super) const CHART: Chart = Chart {
+    name: "work",
+    shows: "error over processor time: impacts and a bonded cantilever, over schemes, formulations and other programs",
+    seconds: 40.0,
+    draw,
+};
+
+/// Contacts that are timed: the series, the case, and the block's law.
+const CONTACTS: [(&str, &str, &str); 6] = [
+    ("engine", "hertz", "[contact.c.normal.hertz]\nROUGH\n"),
+    ("midway", "hertz", "[contact.c.normal.hertz]\nROUGH\nMIDWAY"),
+    ("predicted", "hertz", "[contact.c.normal.hertz]\nROUGH\nPREDICTED"),
+    ("engine", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\n"),
+    ("midway", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\nMIDWAY"),
+    ("predicted", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\nPREDICTED"),
+];
+
+/// Lines of the block that give bonds dashpots.
+const VISCOUS: &str = "[bond.b.damping.viscous]\nnormal_force = 0.05\ntangential_force = 0.05\n";
+
+/// Bonds that are timed: the series, formulation, damping, and the scheme.
+const BONDS: [(&str, &str, &str, &str); 4] = [
+    ("finite_rotation", "finite_rotation", "", ""),
+    ("incremental", "incremental", "", ""),
+    ("finite_rotation, viscous 0.05", "finite_rotation", "viscous 0.05", ""),
+    ("finite_rotation, viscous 0.05, predicted", "finite_rotation", "viscous 0.05", "scheme = \"predicted\"\n"),
+];
+
+/// Restitution and friction of the oblique impacts.
+const OBLIQUE: [f64; 2] = [0.5, 0.4];
+
+/// The diagrams: cases and their titles.
+const CASES: [(&str, &str); 4] = [
+    ("impact, hertz", "impact, hertz: restitution, largest error over e = 0.1 to 1"),
+    ("impact, hooke", "impact, hooke: restitution, largest error over e = 0.1 to 1"),
+    ("oblique impact", "oblique impact, hertz + history, e = 0.5, µ = 0.4: rebound, largest error over 5° to 70°"),
+    ("cantilever", "bonded cantilever: deflection over a period"),
+];
+
+/// Errors for which the notes say what they cost.
+const WANTED: [f64; 2] = [1e-2, 1e-3];
+
+/// Columns.
+const COLUMNS: [&str; 5] = ["case", "series", "time steps", "processor time of a contact or bond", "largest error"];
+
+/// The points of a case and series: time steps and errors, with the cost of a contact or bond and step \[ns\].
+fn fill(table: &mut Table, case: &str, series: &str, points: &[[f64; 2]], cost: f64) {
+    for &[steps, error] in points {
+        table.push([case.into(), series.into(), steps.into(), (cost * steps).into(), error.into()]);
+    }
+}
+
+/// The largest errors of an impact over all restitutions, over time steps in an elastic contact.
+fn impact_errors(normal: &impact::Normal, scheme: &super::schemes::Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
+    let mut points = Vec::new();
+    for steps in impact::STEPS {
+        let mut error = 0.0_f64;
+        for restitution in RESTITUTIONS {
+            error = error.max(impact::error(normal, restitution, scheme, steps)?);
+        }
+        points.push([steps, error]);
+    }
+    Ok(points)
+}
+
+/// Computes the chart.
+fn draw() -> Result<Drawing, ChartError> {
+    let mut table =
+        Table::new([(COLUMNS[0], ""), (COLUMNS[1], ""), (COLUMNS[2], "1"), (COLUMNS[3], "ns"), (COLUMNS[4], "1")]);
+    let timed = times(&CONTACTS.map(|(series, _, law)| (series, law)))?;
+    let per_contact = |timed: &Timed| 1e9 * timed.least / timed.contacts();
+    let mut notes = Vec::new();
+    let mut absent = Vec::new();
+    for normal in &impact::models() {
+        let case = format!("impact, {}", normal.name);
+        for ((_, of, _), timed) in CONTACTS.iter().zip(&timed).filter(|((_, of, _), _)| *of == normal.name) {
+            let scheme = scheme_of(timed.name);
+            fill(&mut table, &case, timed.name, &impact_errors(normal, scheme)?, per_contact(timed));
+            if *of == "hertz" {
+                let points = oblique::largest_errors("history", OBLIQUE, scheme.run)?;
+                fill(&mut table, "oblique impact", timed.name, &points, per_contact(timed));
+            }
+        }
+        let Some(engine) =
+            CONTACTS.iter().zip(&timed).find(|((series, of, _), _)| *series == "engine" && *of == normal.name)
+        else {
+            continue;
+        };
+        let (engine, contacts) = (engine.1, engine.1.contacts());
+        for peer in &PEERS {
+            let Some(time) = peer.step_time(normal.name, engine.stage.step())? else {
+                if !absent.contains(&peer.name) {
+                    absent.push(peer.name);
+                }
+                continue;
+            };
+            let mut points = Vec::new();
+            for steps in impact::PEER_STEPS {
+                let mut error = 0.0_f64;
+                for restitution in RESTITUTIONS {
+                    error = error.max(impact::peer_error(peer, normal.name, restitution, steps)?.unwrap_or(f64::NAN));
+                }
+                points.push([steps, error]);
+            }
+            let cost = 1e9 * time / contacts;
+            fill(&mut table, &case, peer.name, &points, cost);
+            let ratio = cost / per_contact(engine);
+            notes.push(format!("{case}: a step of {} takes {ratio:.2} times one of engine", peer.name));
+        }
+    }
+    let bonds = BONDS.map(|(series, formulation, damping, scheme)| {
+        let viscous = if damping.is_empty() { "" } else { VISCOUS };
+        let word = if scheme.is_empty() { "" } else { "PREDICTED" };
+        (series, format!("BOND\nformulation = \"{formulation}\"\n{viscous}{word}"))
+    });
+    let timed = times(&bonds.each_ref().map(|(series, text)| (*series, text.as_str())))?;
+    for ((series, formulation, damping, scheme), timed) in BONDS.into_iter().zip(&timed) {
+        let errors = deflection_errors([series, formulation, damping], scheme)?;
+        let points: Vec<[f64; 2]> = errors.iter().map(|found| [found.steps, found.error]).collect();
+        fill(&mut table, "cantilever", series, &points, 1e9 * timed.least / timed.bonds());
+    }
+    for (case, _) in CASES {
+        notes.extend(costs(&table, case));
+    }
+    notes.extend(below(&table));
+    notes.extend(absent.into_iter().map(|name| format!("{name} is not installed: its points are left out")));
+    if cfg!(debug_assertions) {
+        notes.push("this is a development build: the times of a release build are shorter".to_owned());
+    }
+    let panel = |(case, title): (&str, &str)| Panel {
+        only: Some((COLUMNS[0], case.to_owned())),
+        single: PEERS.iter().map(|peer| peer.name).collect(),
+        ..Panel::new(title, logarithmic(COLUMNS[3]), logarithmic(COLUMNS[4]), COLUMNS[1])
+    };
+    let panels = CASES.into_iter().map(panel).collect();
+    Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })
+}
+
+/// The scheme of a series.
+fn scheme_of(series: &str) -> &'static super::schemes::Scheme {
+    SCHEMES.iter().find(|scheme| scheme.name == series).unwrap_or(&SCHEMES[0])
+}
+
+/// The points of a case, series by series in the order of the table: cost \[ns\] and error.
+fn series_of(table: &Table, case: &str) -> Vec<(String, Vec<[f64; 2]>)> {
+    let mut all: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
+    for (row, cells) in table.rows.iter().enumerate() {
+        if cells[0].to_string() != case {
+            continue;
+        }
+        let [Some(cost), Some(error)] = [COLUMNS[3], COLUMNS[4]].map(|column| table.number(row, column)) else {
+            continue;
+        };
+        let series = cells[1].to_string();
+        match all.iter_mut().find(|(name, _)| *name == series) {
+            Some((_, points)) => points.push([cost, error]),
+            None => all.push((series, vec![[cost, error]])),
+        }
+    }
+    all.iter_mut().for_each(|(_, points)| points.sort_by(|a, b| a[0].total_cmp(&b[0])));
+    all
+}
+
+/// The cost from which on a series has at most this error, on the straight lines of the picture; none if it never does.
+fn cost_of(points: &[[f64; 2]], wanted: f64) -> Option<f64> {
+    let place = points.iter().rposition(|point| point[1] > wanted).map_or(0, |last| last + 1);
+    let [cost, error] = *points.get(place)?;
+    let Some(before) = place.checked_sub(1) else { return Some(cost) };
+    let part = libm::log(points[before][1] / wanted) / libm::log(points[before][1] / error);
+    Some(points[before][0] * libm::pow(cost / points[before][0], part))
+}
+
+/// What wanted errors of a case cost.
+fn costs(table: &Table, case: &str) -> Vec<String> {
+    let told = |wanted: f64| {
+        let series = series_of(table, case).into_iter().map(|(name, points)| match cost_of(&points, wanted) {
+            Some(cost) => format!("{name} {cost:.0} ns"),
+            None => format!("{name} not reached"),
+        });
+        format!("{case}, error {wanted:.0e}: {}", series.collect::<Vec<_>>().join(", "))
+    };
+    WANTED.into_iter().map(told).collect()
+}
+
+/// Which points of peers are more exact than ours at the same cost.
+fn below(table: &Table) -> Vec<String> {
+    CASES.iter().flat_map(|(case, _)| below_in(table, case)).collect()
+}
+
+/// The same for a case.
+fn below_in(table: &Table, case: &str) -> Vec<String> {
+    let of_peer = |name: &String| PEERS.iter().any(|peer| peer.name == name);
+    let (peers, ours): (Vec<_>, Vec<_>) = series_of(table, case).into_iter().partition(|(name, _)| of_peer(name));
+    let needed =
+        |error: f64| ours.iter().filter_map(|(_, points)| cost_of(points, error)).fold(f64::INFINITY, f64::min);
+    let mut found = Vec::new();
+    for (name, points) in &peers {
+        for &[cost, error] in points.iter().filter(|[cost, error]| needed(*error) > *cost) {
+            let needed = needed(error);
+            found.push(format!(
+                "{case}: {name} has an error of {error:.1e} for {cost:.0} ns, cograin needs {needed:.0} ns"
+            ));
+        }
+    }
+    if !peers.is_empty() && found.is_empty() {
+        found.push(format!("{case}: no point of another program lies below those of cograin"));
+    }
+    found
+}
