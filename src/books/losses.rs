@@ -1,6 +1,6 @@
 //! The physical energy book: what is not found contact by contact or bond by bond.
 
-use super::{Loads, of_body};
+use super::{Recorded, of_body};
 use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::number::Vector;
@@ -30,7 +30,7 @@ pub(crate) fn begin_step(state: &mut State, fields: &Fields, bodies: &[Option<Ri
 /// Books what the outside and global damping do to bodies in the half kick that is about to be made.
 pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
     let Some(losses) = &mut state.losses else { return };
-    let nothing: &[Loads] = &[];
+    let nothing: &Recorded = &[None; Source::RECORDED];
     for (body, moved) in bodies.iter().zip(&state.boundaries) {
         let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
         let work = of_body(body, moved, &state.particles, nothing, fields, step);

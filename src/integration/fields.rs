@@ -93,10 +93,9 @@ impl Fields {
         gravity + self.applied.iter().enumerate().filter_map(applied).fold(0.0, f64::max)
     }
 
-    /// Gravity \[m/s²\], if nothing else acts and no book needs it separately: it is then added by the kick that
-    /// follows.
-    pub(crate) fn weight_alone(&self, state: &State) -> Option<[f64; 3]> {
-        let alone = !self.damps && self.applied.is_empty() && state.ledger.is_none();
+    /// Gravity \[m/s²\], if nothing else acts: it is then added by the kick that follows.
+    pub(crate) fn weight_alone(&self) -> Option<[f64; 3]> {
+        let alone = !self.damps && self.applied.is_empty();
         (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
     }
 
@@ -221,6 +220,11 @@ impl Fields {
     /// Applied force on a particle of the scene \[N\].
     pub(crate) fn applied(&self, id: u32) -> [f64; 3] {
         self.applied.get(id as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether a force is applied to any particle.
+    pub(crate) fn applies(&self) -> bool {
+        !self.applied.is_empty()
     }
 
     /// Weight of a mass \[N\].

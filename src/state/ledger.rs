@@ -26,7 +26,8 @@ pub enum Source {
 }
 
 impl Source {
-    /// Kinds whose loads are remembered from one half kick to the next; the others follow from the scene.
+    /// Kinds whose loads are remembered from one half kick to the next, in the order in which they are added up; the others
+    /// follow from the scene.
     pub const RECORDED: usize = 4;
     /// All kinds, recorded ones first.
     pub const ALL: [Self; Self::COUNT] = [
@@ -57,7 +58,7 @@ impl Source {
     }
 }
 
-/// Loads of one kind on each particle.
+/// All loads on each particle when those of one kind have been added.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Force \[N\]; empty where the scene has no such kind.
@@ -66,14 +67,6 @@ pub struct Loads {
     /// Torque \[N m\].
     #[serde(with = "plain")]
     pub torque: Vec<Row>,
-}
-
-impl Loads {
-    /// Forgets them, and keeps their room.
-    pub(crate) fn clear(&mut self) {
-        self.force.clear();
-        self.torque.clear();
-    }
 }
 
 clone_in_place!(Loads { force, torque });
@@ -91,7 +84,8 @@ pub struct Ledger {
     pub work: [f64; Source::COUNT],
     /// Sum of the magnitudes of all entries \[J\]: what a residual is measured against.
     pub turnover: f64,
-    /// Loads of each recorded kind at the present time.
+    /// Loads at the present time when those of each recorded kind have been added. The last kind comes with weight and applied
+    /// forces.
     pub loads: [Loads; Source::RECORDED],
 }
 

@@ -43,7 +43,7 @@ use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::ledger::{Loads, Source};
+use crate::state::ledger::Source;
 use crate::state::{Foresight, State, StateFault};
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
@@ -101,8 +101,6 @@ struct Room {
     loads: Vec<Felt>,
     /// Nodes of meshes before the time step.
     nodes: nodes::Before,
-    /// Loads that have been booked.
-    seen: Loads,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
 }
@@ -403,7 +401,7 @@ impl Simulation {
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
-        books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        books::book(&mut self.state, (&self.fields, None), &self.bodies, step, context);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
         let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
@@ -439,12 +437,12 @@ impl Simulation {
         felt::clear_loads(&mut self.state, &mut self.room.loads);
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
-        let gravity = self.fields.weight_alone(&self.state);
+        let gravity = self.fields.weight_alone();
         self.evaluate_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
-        books::book(&mut self.state, &self.fields, &self.bodies, step, context);
+        books::book(&mut self.state, (&self.fields, gravity), &self.bodies, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
@@ -466,14 +464,12 @@ impl Simulation {
     /// particles must be zero.
     fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
         let (mut result, told) = (Ok(()), self.state.breaks.len());
-        let mut seen = std::mem::take(&mut self.room.seen);
-        seen.clear();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
             result = result.and(pass.apply(&mut self.state, context));
             let source = pass.source();
             if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
-                books::record(&mut self.state, source, &mut seen);
+                books::record(&mut self.state, source);
                 self.done(source.name());
             }
         }
@@ -483,14 +479,12 @@ impl Simulation {
         felt::sum_groups(&self.scene, state);
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         if self.fields.damps() {
-            books::record(state, Source::Damping, &mut seen);
-            books::settle_damping(state, &self.fields);
+            books::record(state, Source::Damping);
         }
         let braking = self.fields.load_bodies(&self.bodies, state);
         for (sum, part) in state.damping_force.iter_mut().zip(braking) {
             *sum += part;
         }
-        self.room.seen = seen;
         self.done("fields");
         result
     }
