@@ -138,6 +138,17 @@ impl<F: Formulation> Kernel for Slab<'_, '_, F> {
     }
 }
 
+/// Asks for the rows of a column that are needed soon, as many as there are lanes from one on.
+#[inline(always)]
+fn fetch<N: Lane>(column: Shared<Row>, from: usize) {
+    let start = column.pointer().wrapping_add(from);
+    let mut lane = 0;
+    while lane < N::WIDTH {
+        prefetch(start.wrapping_add(lane));
+        lane += 2;
+    }
+}
+
 /// Some bonds, as many as there are lanes; where the slab ends earlier, the first one is repeated.
 struct Lanes {
     /// Bonds.
@@ -202,13 +213,13 @@ impl<F: Formulation> Slab<'_, '_, F> {
         };
         let mut row = 0;
         while row < F::ROWS {
-            let start = work.rows[row].pointer().wrapping_add(bond + AHEAD);
-            let mut lane = 0;
-            while lane < N::WIDTH {
-                prefetch(start.wrapping_add(lane));
-                lane += 2;
-            }
+            fetch::<N>(work.rows[row], bond + AHEAD);
             row += 1;
+        }
+        if work.after.damping.is_some() {
+            for column in work.damping.into_iter().filter(|column| column.length() > 0) {
+                fetch::<N>(column, bond + AHEAD);
+            }
         }
         self.buffer.put_pairs::<F, N>(turn, &pair, &Lengths::of(F::RATES, law, &pair));
     }

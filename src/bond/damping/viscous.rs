@@ -42,12 +42,15 @@ impl Model for Viscous {
     }
 }
 
-/// 2 ζ √(K M), from 1/M.
+/// 2 ζ √(K M), from 1/M. A part without damping takes neither root nor division.
 #[inline(always)]
-fn dashpot<N: Number>(ratio: N, stiffness: N, inverse_mass: N) -> N {
+fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
+    if ratio == 0.0 {
+        return N::zero();
+    }
     let moves = inverse_mass.greater(N::zero());
     let square = stiffness / N::select(moves, inverse_mass, N::splat(1.0));
-    N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0) * ratio)
+    N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0 * ratio))
 }
 
 /// 1/M of the parts that a bond of this length has between two bodies.
@@ -75,7 +78,7 @@ impl Damping for Viscous {
     ) -> Damped<N> {
         let section = &motion.section;
         let [along, across, turning, _] = inverse_masses(pair, motion.distance);
-        let [normal, shear, torsion, bending] = self.ratios.map(N::splat);
+        let [normal, shear, torsion, bending] = self.ratios;
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
             normal: motion.axis * -motion.normal_velocity.scaled(dashpot(normal, axial, along)),
