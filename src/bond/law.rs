@@ -218,13 +218,15 @@ impl Law {
             [reaction.force, reaction.torque_i, reaction.torque_j] = [Vector::zero(); 3];
         } else if let Some(damping) = &self.damping {
             let settled = motion.settled();
-            let motion = if self.foresees { settled.foreseen(last.rates) } else { settled };
+            // Without a time step the velocities are already those of its end.
+            let foresees = self.foresees && law.step > 0.0;
+            let motion = if foresees { settled.foreseen(last.rates) } else { settled };
             let load = damping.visit(DampOne { law, pair, motion: &motion, elastic: &elastic });
             reaction.force += load.force;
             reaction.torque_i += load.torque_i;
             reaction.torque_j += load.torque_j;
             reaction.damped += load.taken(pair, law.step);
-            let rates = if self.foresees && law.step > 0.0 { settled.rates() } else { last.rates };
+            let rates = if foresees { settled.rates() } else { last.rates };
             reaction.damping = LastDamping { load: load.to_rows(), rates };
         }
         reaction

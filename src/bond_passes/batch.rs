@@ -343,13 +343,11 @@ impl<F: Formulation> Slab<'_, '_, F> {
             let mut motion = motion.settled();
             // SAFETY: the caller's promise; a bond that is damped has these rows.
             let last = unsafe {
-                if after.foresees {
+                if after.foresees && step > 0.0 {
                     let rates = motion.rates();
                     motion = motion.foreseen([self.load(across, bond), self.load(about, bond)]);
-                    if step > 0.0 {
-                        self.store(rates[0], across, bond);
-                        self.store(rates[1], about, bond);
-                    }
+                    self.store(rates[0], across, bond);
+                    self.store(rates[1], about, bond);
                 }
                 [force, torque_i, torque_j].map(|column| self.load::<N>(column, bond))
             };

@@ -156,6 +156,7 @@ impl Simulation {
             let here = numbers.at(reached.particles.id[old as usize])?;
             Some(self.state.particles.slot[here as usize])
         };
+        // Where the other law remembered no rates, they begin with 0, which the first time step forgets.
         let damping = vec![Vec::new(); law.damping_rows()];
         let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], damping, ..BondList::default() };
         for bond in 0..list.first.len() {
