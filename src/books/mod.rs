@@ -41,7 +41,7 @@ fn dot(a: &Row, b: &Row) -> f64 {
 /// Remembers all loads so far, of which those that came since the last call are of this kind.
 pub(crate) fn record(state: &mut State, source: Source) {
     let Some(ledger) = &mut state.ledger else { return };
-    let Loads { force, torque } = &mut ledger.loads[source as usize];
+    let Loads { force, torque } = &mut ledger.loads_so_far[source as usize];
     force.clone_from(&state.particles.force);
     torque.clone_from(&state.particles.torque);
 }
@@ -51,7 +51,7 @@ type Recorded<'a> = [Option<&'a Loads>; Source::RECORDED];
 
 /// Those of a book.
 fn recorded(ledger: &Ledger) -> Recorded<'_> {
-    ledger.loads.each_ref().map(|loads| (!loads.force.is_empty()).then_some(loads))
+    ledger.loads_so_far.each_ref().map(|loads| (!loads.force.is_empty()).then_some(loads))
 }
 
 /// Books the half kick that is about to be made with the present loads, and with gravity \[m/s²\] where that is not yet among

@@ -542,7 +542,7 @@ impl Ledger {
     fn check(&self, particles: usize) -> Result<(), StateFault> {
         all_finite(&[self.initial_kinetic, self.initial_elastic, self.turnover], "ledger")?;
         all_finite(&self.work, "ledger")?;
-        for loads in &self.loads {
+        for loads in &self.loads_so_far {
             for rows in [&loads.force, &loads.torque] {
                 demand(
                     rows.is_empty() || rows.len() == particles,

@@ -86,10 +86,10 @@ pub struct Ledger {
     pub turnover: f64,
     /// Loads at the present time when those of each recorded kind have been added. The last kind comes with weight and applied
     /// forces.
-    pub loads: [Loads; Source::RECORDED],
+    pub loads_so_far: [Loads; Source::RECORDED],
 }
 
-clone_in_place!(Ledger { initial_kinetic, initial_elastic, work, turnover, loads });
+clone_in_place!(Ledger { initial_kinetic, initial_elastic, work, turnover, loads_so_far });
 
 impl Ledger {
     /// Counts work from here.
