@@ -36,15 +36,16 @@ def cograin(request):
 
 @pytest.fixture(scope="session")
 def unit(cograin, tmp_path_factory):
-    """Packages a model, once a session, and gives the path of its unit."""
+    """Packages a model, with other values of these keys, once a session, and gives the path of its unit."""
     packaged = {}
 
-    def package(model):
-        if model not in packaged:
+    def package(model, *settings):
+        if (model, settings) not in packaged:
             path = tmp_path_factory.mktemp(model) / f"{model}.fmu"
-            cograin("export", ROOT / "models" / model / "scene.toml", "-o", path)
-            packaged[model] = path
-        return packaged[model]
+            given = [argument for setting in settings for argument in ("--set", setting)]
+            cograin("export", ROOT / "models" / model / "scene.toml", "-o", path, *given)
+            packaged[model, settings] = path
+        return packaged[model, settings]
 
     return package
 
