@@ -4,12 +4,12 @@
 //! with the same law and scheme (all have friction there). That of a cantilever is the same for one bond. Other programs rebound the
 //! same way, and compute the same block.
 
-use super::block::{Timed, times};
+use super::block::times;
 use super::cantilever::deflection_errors;
 use super::impact::{self, RESTITUTIONS};
 use super::oblique;
-use super::peers::PEERS;
-use super::schemes::SCHEMES;
+use super::peers::{PEERS, Peer};
+use super::schemes::{SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -69,7 +69,7 @@ fn fill(table: &mut Table, case: &str, series: &str, points: &[[f64; 2]], cost: 
 }
 
 /// The largest errors of an impact over all restitutions, over time steps in an elastic contact.
-fn impact_errors(normal: &impact::Normal, scheme: &super::schemes::Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
+fn impact_errors(normal: &impact::Normal, scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
     let mut points = Vec::new();
     for steps in impact::STEPS {
         let mut error = 0.0_f64;
@@ -81,67 +81,76 @@ fn impact_errors(normal: &impact::Normal, scheme: &super::schemes::Scheme) -> Re
     Ok(points)
 }
 
-/// Computes the chart.
-fn draw() -> Result<Drawing, ChartError> {
-    let mut table =
-        Table::new([(COLUMNS[0], ""), (COLUMNS[1], ""), (COLUMNS[2], "1"), (COLUMNS[3], "ns"), (COLUMNS[4], "1")]);
+/// Impacts with every scheme, and of the peers. What is to be said about them.
+fn impacts(table: &mut Table) -> Result<Vec<String>, ChartError> {
     let timed = times(&CONTACTS.map(|(series, _, law)| (series, law)))?;
-    let per_contact = |timed: &Timed| 1e9 * timed.least / timed.contacts();
     let mut notes = Vec::new();
-    let mut absent = Vec::new();
     for normal in &impact::models() {
         let case = format!("impact, {}", normal.name);
-        for ((_, of, _), timed) in CONTACTS.iter().zip(&timed).filter(|((_, of, _), _)| *of == normal.name) {
-            let scheme = scheme_of(timed.name);
-            fill(&mut table, &case, timed.name, &impact_errors(normal, scheme)?, per_contact(timed));
-            if *of == "hertz" {
+        let of_model =
+            || CONTACTS.iter().zip(&timed).filter(|((_, of, _), _)| *of == normal.name).map(|(_, timed)| timed);
+        for timed in of_model() {
+            let (scheme, cost) = (scheme_of(timed.name), 1e9 * timed.least / timed.contacts());
+            fill(table, &case, timed.name, &impact_errors(normal, scheme)?, cost);
+            if normal.name == "hertz" {
                 let points = oblique::largest_errors("history", OBLIQUE, scheme.run)?;
-                fill(&mut table, "oblique impact", timed.name, &points, per_contact(timed));
+                fill(table, "oblique impact", timed.name, &points, cost);
             }
         }
-        let Some(engine) =
-            CONTACTS.iter().zip(&timed).find(|((series, of, _), _)| *series == "engine" && *of == normal.name)
-        else {
-            continue;
-        };
-        let (engine, contacts) = (engine.1, engine.1.contacts());
+        // The first one is that of the default scheme, as the peers have it.
+        let Some(ours) = of_model().next() else { continue };
         for peer in &PEERS {
-            let Some(time) = peer.step_time(normal.name, engine.stage.step())? else {
-                if !absent.contains(&peer.name) {
-                    absent.push(peer.name);
+            notes.push(match peer.step_time(normal.name, ours.stage.step())? {
+                Some(time) => {
+                    fill(table, &case, peer.name, &peer_errors(peer, normal.name)?, 1e9 * time / ours.contacts());
+                    format!("{case}: a step of {} takes {:.2} times one of {}", peer.name, time / ours.least, ours.name)
                 }
-                continue;
-            };
-            let mut points = Vec::new();
-            for steps in impact::PEER_STEPS {
-                let mut error = 0.0_f64;
-                for restitution in RESTITUTIONS {
-                    error = error.max(impact::peer_error(peer, normal.name, restitution, steps)?.unwrap_or(f64::NAN));
-                }
-                points.push([steps, error]);
-            }
-            let cost = 1e9 * time / contacts;
-            fill(&mut table, &case, peer.name, &points, cost);
-            let ratio = cost / per_contact(engine);
-            notes.push(format!("{case}: a step of {} takes {ratio:.2} times one of engine", peer.name));
+                None => format!("{case}: {} is not installed: its points are left out", peer.name),
+            });
         }
     }
-    let bonds = BONDS.map(|(series, formulation, damping, scheme)| {
+    Ok(notes)
+}
+
+/// The largest errors of a peer's impact over all restitutions, over time steps in an elastic contact.
+fn peer_errors(peer: &Peer, model: &str) -> Result<Vec<[f64; 2]>, ChartError> {
+    let mut points = Vec::new();
+    for steps in impact::PEER_STEPS {
+        let mut error = 0.0_f64;
+        for restitution in RESTITUTIONS {
+            error = error.max(impact::peer_error(peer, model, restitution, steps)?.unwrap_or(f64::NAN));
+        }
+        points.push([steps, error]);
+    }
+    Ok(points)
+}
+
+/// The cantilever with every kind of bond.
+fn cantilevers(table: &mut Table) -> Result<(), ChartError> {
+    let laws = BONDS.map(|(series, formulation, damping, scheme)| {
         let viscous = if damping.is_empty() { "" } else { VISCOUS };
         let word = if scheme.is_empty() { "" } else { "PREDICTED" };
         (series, format!("BOND\nformulation = \"{formulation}\"\n{viscous}{word}"))
     });
-    let timed = times(&bonds.each_ref().map(|(series, text)| (*series, text.as_str())))?;
+    let timed = times(&laws.each_ref().map(|(series, text)| (*series, text.as_str())))?;
     for ((series, formulation, damping, scheme), timed) in BONDS.into_iter().zip(&timed) {
         let errors = deflection_errors([series, formulation, damping], scheme)?;
         let points: Vec<[f64; 2]> = errors.iter().map(|found| [found.steps, found.error]).collect();
-        fill(&mut table, "cantilever", series, &points, 1e9 * timed.least / timed.bonds());
+        fill(table, "cantilever", series, &points, 1e9 * timed.least / timed.bonds());
     }
+    Ok(())
+}
+
+/// Computes the chart.
+fn draw() -> Result<Drawing, ChartError> {
+    let mut table =
+        Table::new([(COLUMNS[0], ""), (COLUMNS[1], ""), (COLUMNS[2], "1"), (COLUMNS[3], "ns"), (COLUMNS[4], "1")]);
+    let mut notes = impacts(&mut table)?;
+    cantilevers(&mut table)?;
     for (case, _) in CASES {
         notes.extend(costs(&table, case));
     }
-    notes.extend(below(&table));
-    notes.extend(absent.into_iter().map(|name| format!("{name} is not installed: its points are left out")));
+    notes.extend(CASES.iter().flat_map(|(case, _)| below(&table, case)));
     if cfg!(debug_assertions) {
         notes.push("this is a development build: the times of a release build are shorter".to_owned());
     }
@@ -155,7 +164,7 @@ fn draw() -> Result<Drawing, ChartError> {
 }
 
 /// The scheme of a series.
-fn scheme_of(series: &str) -> &'static super::schemes::Scheme {
+fn scheme_of(series: &str) -> &'static Scheme {
     SCHEMES.iter().find(|scheme| scheme.name == series).unwrap_or(&SCHEMES[0])
 }
 
@@ -200,13 +209,8 @@ fn costs(table: &Table, case: &str) -> Vec<String> {
     WANTED.into_iter().map(told).collect()
 }
 
-/// Which points of peers are more exact than ours at the same cost.
-fn below(table: &Table) -> Vec<String> {
-    CASES.iter().flat_map(|(case, _)| below_in(table, case)).collect()
-}
-
-/// The same for a case.
-fn below_in(table: &Table, case: &str) -> Vec<String> {
+/// Which points of peers in a case are more exact than ours at the same cost.
+fn below(table: &Table, case: &str) -> Vec<String> {
     let of_peer = |name: &String| PEERS.iter().any(|peer| peer.name == name);
     let (peers, ours): (Vec<_>, Vec<_>) = series_of(table, case).into_iter().partition(|(name, _)| of_peer(name));
     let needed =
