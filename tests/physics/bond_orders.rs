@@ -16,17 +16,8 @@ density = 2500.0
 youngs_modulus = 1.0e7
 poissons_ratio = 0.3
 [bond.chain]
-formulation = "FORMULATION"
 between = ["spheres", "spheres"]
-create = "start"
-create_distance = 0.0101
-normal_stiffness = 1.3e7
-tangential_stiffness = 5.0e6
-[bond.chain.damping.viscous]
-normal_force = RATIO
-tangential_force = RATIO
-normal_torque = RATIO
-tangential_torque = RATIO
+LAW
 [particles.spheres]
 material = "a"
 list = [
@@ -42,23 +33,22 @@ const FLOOR: &str = r#"
 plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
 material = "a"
 [bond.foot]
-formulation = "FORMULATION"
 between = ["spheres", "floor"]
+LAW
+"#;
+
+/// What both bonds have.
+const LAW: &str = r#"formulation = "FORMULATION"
 create = "start"
 create_distance = 0.0101
 normal_stiffness = 1.3e7
 tangential_stiffness = 5.0e6
-[bond.foot.damping.viscous]
-normal_force = RATIO
-tangential_force = RATIO
-normal_torque = RATIO
-tangential_torque = RATIO
-"#;
+damping.viscous = { normal_force = RATIO, tangential_force = RATIO, normal_torque = RATIO, tangential_torque = RATIO }"#;
 
 /// A scene with this scheme, formulation and damping ratio; with a foot, if asked for.
 fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> Scene {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" });
-    let text = text.replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
+    let text = text.replace("LAW", LAW).replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
     let text = text.replace("RATIO", &format!("{ratio:?}"));
     let source = Source { name: "scene.toml".into(), text, files: Default::default() };
     Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
