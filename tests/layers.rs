@@ -136,7 +136,7 @@ const UNSAFE: [(&str, usize); 10] = [
     ("threads", 5),
     ("neighbours", 14),
     ("integration", 6),
-    ("batches", 64),
+    ("batches", 70),
     ("interactions", 20),
     ("bond_passes", 28),
     ("stability", 2),

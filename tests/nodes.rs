@@ -326,7 +326,7 @@ fn node_forces_add_up_to_force_and_moment_while_spheres_cross_edges_and_vertices
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let mut simulation = rough_stage(3).start();
     let (mut features, mut touched) = (std::collections::BTreeSet::new(), 0);
-    for _ in 0..60 {
+    for _ in 0..240 {
         shake(&mut simulation, 2e-4, &mut rng);
         for _ in 0..5 {
             advance(&mut simulation, 1e-4);

@@ -84,7 +84,7 @@ fn hash(scene: Scene, width: Width, restored: bool) -> u64 {
 fn every_scheme_has_the_same_bits_in_every_lane_width_on_any_threads_and_after_a_restart() {
     let mut seen = Vec::new();
     for (tangential, more) in [("history", ""), ("turned_history", ""), ("no_history", ""), ("history", BONDS)] {
-        for scheme in ["engine", "midway", "predicted"] {
+        for scheme in ["engine", "predicted_normal", "midway", "predicted"] {
             let of = |threads: u32| scene(&format!("threads = {threads}\nscheme = \"{scheme}\""), tangential, more);
             let expected = hash(of(1), Width::Least, false);
             for width in Width::ALL.into_iter().filter(|width| width.offered()) {
@@ -97,7 +97,7 @@ fn every_scheme_has_the_same_bits_in_every_lane_width_on_any_threads_and_after_a
     }
     seen.sort_unstable();
     seen.dedup();
-    assert_eq!(seen.len(), 12, "each scheme moves particles in its own way");
+    assert_eq!(seen.len(), 16, "each scheme moves particles in its own way");
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn accuracy_chooses_scheme_and_step_where_the_scene_does_not() {
         let Step::Automatic { safety } = run.step else { panic!("no step is given") };
         (run.accuracy, run.scheme, safety)
     };
-    assert_eq!(of(""), (Accuracy::Standard, Scheme::Engine, 0.2));
+    assert_eq!(of(""), (Accuracy::Standard, Scheme::PredictedNormal, 0.2));
     assert_eq!(of("accuracy = \"high\""), (Accuracy::High, Scheme::Predicted, 0.05));
     assert_eq!(of("accuracy = \"high\"\nscheme = \"midway\"\nsafety = 0.1"), (Accuracy::High, Scheme::Midway, 0.1));
     assert_eq!(of("scheme = \"predicted\""), (Accuracy::Standard, Scheme::Predicted, 0.2));

@@ -351,6 +351,29 @@ impl Buffer {
         }
     }
 
+    /// Writes the velocities along the normal that dashpots see, and the weight of γ_t.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn put_foreseen<N: Lane>(&mut self, place: usize, velocity: N, weight: N) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::NORMAL_VELOCITY, place, velocity);
+            self.store(at::SHARE, place, weight);
+        }
+    }
+
+    /// Reads the weight of γ_t.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn weight<N: Lane>(&self, place: usize) -> N {
+        // SAFETY: the caller's promise.
+        unsafe { self.load(at::SHARE, place) }
+    }
+
     /// Reads how a register's worth of contacts was carried.
     ///
     /// # Safety

@@ -2,10 +2,10 @@
 
 use super::Manner;
 use super::coefficients::MOST_COEFFICIENTS;
-use super::sub_models::{ArmsRun, CarryRun, Run, RunOf};
+use super::sub_models::{ArmsRun, Run, RunOf, before_sub_models};
 use super::suppressed::Suppressed;
 use super::{losses, whole_laws};
-use crate::contact::{Booked, Law, LawChoice, Needs};
+use crate::contact::{Booked, Law, Needs};
 use crate::lanes;
 
 /// A contact law and its functions over batches.
@@ -23,48 +23,31 @@ pub(crate) struct BatchLaw {
 }
 
 impl BatchLaw {
-    /// The law that a scene composed.
-    pub(crate) fn of(choice: &LawChoice) -> Self {
-        let mut law = Self::sub_models(choice);
-        if let Some(run) = whole_laws::find(choice) {
-            law.runs = vec![run];
+    /// This law.
+    pub(crate) fn of(law: Law) -> Self {
+        let (whole, is_booked) = (whole_laws::find(law.choice()), law.is_booked());
+        let mut batch_law = Self::sub_models(law);
+        let Self { runs, suppressed, booked, .. } = &mut batch_law;
+        if is_booked {
+            runs.splice(0..0, booked.keeps_before().then_some(losses::keep_before as Run));
+            runs.push(losses::book_open);
+            suppressed.book(booked);
+        } else if let Some(run) = whole {
+            *runs = vec![run];
         }
-        law
+        batch_law
     }
 
-    /// The law that a scene composed; where asked, its losses are booked.
-    pub(crate) fn booked_where(choice: &LawChoice, losses: bool) -> Self {
-        if !losses {
-            return Self::of(choice);
-        }
-        let Self { law, needs, mut runs, mut suppressed, .. } = Self::sub_models(choice);
-        let law = law.booked();
-        let booked = law.booking();
-        if booked.spring || booked.carries {
-            runs.insert(0, losses::keep_before);
-        }
-        runs.push(losses::book_open);
-        suppressed.book(&booked);
-        Self { law, needs, runs, suppressed, booked }
-    }
-
-    /// Whether its losses are booked.
-    pub(crate) fn books(&self) -> bool {
-        self.law.history_places().loads.is_some()
-    }
-
-    /// The same, sub-model by sub-model even where the law is compiled whole.
-    pub(crate) fn sub_models(choice: &LawChoice) -> Self {
-        let law = Law::of(choice);
+    /// The same, sub-model by sub-model even where the law is compiled whole; nothing is booked.
+    pub(crate) fn sub_models(law: Law) -> Self {
+        let choice = *law.choice();
         assert!(law.places().count <= MOST_COEFFICIENTS, "a law has at most {MOST_COEFFICIENTS} coefficients");
         let needs = law.needs();
         let (mut runs, run_of): (Vec<Run>, _) = (Vec::new(), RunOf { carries: choice.scheme.carries() });
         if law.undeformed_arms() {
             runs.push(|width, stage| lanes::run(width, ArmsRun(stage)));
         }
-        if choice.scheme.carries() {
-            runs.push(|width, stage| lanes::run(width, CarryRun(stage)));
-        }
+        runs.extend(before_sub_models(choice.scheme));
         runs.push(choice.normal.visit(run_of));
         if law.has_cohesion() {
             runs.push(choice.cohesion.visit(run_of));
@@ -73,7 +56,7 @@ impl BatchLaw {
         if law.has_rolling() {
             runs.push(choice.rolling.visit(run_of));
         }
-        Self { suppressed: Suppressed::of(choice, &law), booked: law.booking(), law, needs, runs }
+        Self { suppressed: Suppressed::of(&choice, &law), booked: law.booking(), law, needs, runs }
     }
 
     /// Whether it is compiled whole.

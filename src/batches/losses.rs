@@ -51,7 +51,7 @@ impl Kernel for KeepBefore<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
-        let Booked { spring, carries, .. } = *stage.booked;
+        let Booked { spring, carries, predicts_normal, .. } = *stage.booked;
         let half = N::splat(0.5 * stage.step);
         let mut done = 0;
         while done < stage.buffer.ready {
@@ -61,7 +61,10 @@ impl Kernel for KeepBefore<'_, '_> {
                 let entries = stage.buffer.entry.as_ptr().add(done);
                 let row = stage.remembered(spring, stage.history.tangential, entries);
                 let mut velocity = N::zero();
-                if carries {
+                if predicts_normal {
+                    let contact: Contact<N> = stage.contact(done, false);
+                    velocity = contact.normal_velocity;
+                } else if carries {
                     let contact: Contact<N> = stage.contact(done, false);
                     let across = contact.slip + contact.turning.cross(contact.normal);
                     // Along the normal of mid-step.
@@ -154,12 +157,15 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
         if booked.rolling {
             seen.rolling = vector(N::load_block(buffer.rolling.as_ptr().add(place)));
         }
-        if booked.spring || booked.carries {
+        if booked.keeps_before() {
             let (spring, velocity) = buffer.before::<N>(place);
             seen.spring_before = spring;
+            if booked.moves_otherwise() {
+                seen.approach = velocity * step;
+            }
             if booked.carries {
                 let carry = buffer.carry::<N>(place);
-                (seen.approach, seen.slip) = (velocity * step, carry.stretch * (N::splat(1.0) / carry.share));
+                seen.slip = carry.stretch * (N::splat(1.0) / carry.share);
             }
         }
         seen

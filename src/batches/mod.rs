@@ -17,6 +17,7 @@
 
 mod buffer;
 pub(crate) mod coefficients;
+mod gathered;
 mod law;
 mod losses;
 mod lost;

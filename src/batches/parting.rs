@@ -17,7 +17,7 @@ impl<B: Bodies> Parting<'_, '_, B> {
     /// Whether losses are booked.
     #[inline(always)]
     pub(super) fn books(&self) -> bool {
-        self.work.law.books()
+        self.work.law.law.is_booked()
     }
 
     /// Books what is lost with an entry that touches no more: the last loads have acted for another half step, and what the

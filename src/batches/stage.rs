@@ -2,10 +2,10 @@
 
 use super::Entries;
 use super::buffer::Buffer;
-use super::coefficients::{CoefficientTable, MOST_COEFFICIENTS};
+use super::coefficients::CoefficientTable;
 use crate::contact::{
-    Booked, Carry, CoefficientPlaces, Coefficients, Contact, HistoryPlaces, NormalForce, NormalForm, Onset, Rolling,
-    Switches, Tangential,
+    Booked, Carry, CoefficientPlaces, Coefficients, Contact, Foreseen, HistoryPlaces, NormalForce, NormalForm, Onset,
+    Rolling, Switches, Tangential, foresee_normal,
 };
 use crate::lanes::{Lane, columns};
 use crate::state::contacts::SLIDING;
@@ -36,49 +36,6 @@ pub(super) struct Stage<'a> {
     pub(super) booked: &'a Booked,
     /// The batch.
     pub(super) buffer: &'a mut Buffer,
-}
-
-/// Coefficients in lanes: some that stand side by side in the rows of the law.
-pub(super) struct Gathered<N> {
-    /// The numbers.
-    numbers: [N; MOST_COEFFICIENTS],
-    /// Where the first of them stands in a row.
-    from: usize,
-    /// How many there are.
-    count: usize,
-}
-
-impl<N: Lane> Gathered<N> {
-    /// Those of a stage, if they are the same for all entries; otherwise room for them.
-    #[inline(always)]
-    pub(super) fn of(stage: &Stage, from: usize, count: usize) -> Self {
-        let mut numbers = [N::zero(); MOST_COEFFICIENTS];
-        if let Some(row) = stage.uniform {
-            let mut k = 0;
-            while k < count {
-                numbers[k] = N::splat(row[from + k]);
-                k += 1;
-            }
-        }
-        Self { numbers, from, count }
-    }
-
-    /// Those of a register's worth of entries; behind them zeros, so that the compiler knows how many numbers there are.
-    ///
-    /// # Safety
-    /// `place` + [`Lane::WIDTH`] is at most the room of the buffer, and the rows there are of the table.
-    #[inline(always)]
-    pub(super) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N; MOST_COEFFICIENTS] {
-        if stage.uniform.is_none() {
-            let mut k = 0;
-            while k < self.count {
-                // SAFETY: the caller's promise; a row has the coefficients of all sub-models.
-                self.numbers[k] = unsafe { stage.table.gather(self.from + k, stage.buffer.row.as_ptr().add(place)) };
-                k += 1;
-            }
-        }
-        &self.numbers
-    }
 }
 
 impl Stage<'_> {
@@ -170,7 +127,35 @@ impl Stage<'_> {
         }
     }
 
-    /// Writes force and friction of a register's worth of contacts.
+    /// The normal force of a register's worth of contacts, as friction sees it.
+    ///
+    /// # Safety
+    /// As for [`Stage::contact`].
+    #[inline(always)]
+    pub(super) unsafe fn normal<N: Lane>(&self, place: usize) -> NormalForce<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let mut normal: NormalForce<N> = self.buffer.normal(place);
+            if self.history.normal_velocity.is_some() {
+                let weight: N = self.buffer.weight(place);
+                normal.response.tangential_damping = normal.response.tangential_damping * weight;
+            }
+            normal
+        }
+    }
+
+    /// What a tangential model remembers of a register's worth of contacts.
+    ///
+    /// # Safety
+    /// As for [`Stage::contact`].
+    #[inline(always)]
+    pub(super) unsafe fn tangential_history<N: Lane, B: Tangential>(&self, place: usize) -> [N; 4] {
+        let remembers = B::ACTIVE && B::HISTORY.is_some();
+        // SAFETY: the caller's promise.
+        unsafe { self.remembered(remembers, self.history.tangential, self.buffer.entry.as_ptr().add(place)) }
+    }
+
+    /// Writes force and friction of a register's worth of contacts, of which `history` is remembered.
     ///
     /// # Safety
     /// As for [`Stage::press`].
@@ -181,6 +166,7 @@ impl Stage<'_> {
         row: &[N],
         contact: &Contact<N>,
         normal: &NormalForce<N>,
+        mut history: [N; 4],
     ) {
         let mut force = contact.normal * normal.force;
         let (remembers, own) = (B::HISTORY.is_some(), self.history.tangential);
@@ -188,7 +174,7 @@ impl Stage<'_> {
         unsafe {
             if B::ACTIVE {
                 let entries = self.buffer.entry.as_ptr().add(place);
-                let (mut history, mut step) = (self.remembered(remembers, own, entries), N::splat(self.step));
+                let mut step = N::splat(self.step);
                 if CARRIES {
                     (history, step) = (self.buffer.carry(place).spring(contact.normal, history), N::zero());
                 }
@@ -205,6 +191,41 @@ impl Stage<'_> {
                 self.remember(remembers, own, friction.history, entries);
             }
             N::store_block(columns(force), self.buffer.force.as_mut_ptr().add(place));
+        }
+    }
+
+    /// Gives contacts the velocities along the normal that dashpots see, where the scheme predicts them; the weight of γ_t. What is
+    /// remembered is the fourth number of `history`, the tangential model's row, if there is one (`shared`), or that of
+    /// another row.
+    ///
+    /// # Safety
+    /// As for [`Stage::press`].
+    #[inline(always)]
+    pub(super) unsafe fn foresee_normal<N: Lane>(
+        &self,
+        place: usize,
+        shared: bool,
+        contact: &mut Contact<N>,
+        history: &mut [N; 4],
+    ) -> N {
+        let HistoryPlaces { normal_velocity: own, seen, .. } = self.history;
+        if own.is_none() {
+            return N::splat(1.0);
+        }
+        let step = N::splat(self.step);
+        // SAFETY: the caller's promise.
+        unsafe {
+            let entries = self.buffer.entry.as_ptr().add(place);
+            let mut row = if shared { *history } else { self.remembered(true, own, entries) };
+            let Foreseen { middle, weight } = foresee_normal(contact, row[3], self.onset, step);
+            row[3] = middle;
+            if shared {
+                *history = row;
+            } else {
+                self.remember(true, own, row, entries);
+            }
+            self.remember(true, seen, [contact.normal_velocity, weight, N::zero(), N::zero()], entries);
+            weight
         }
     }
 

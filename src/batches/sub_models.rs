@@ -3,12 +3,15 @@
 //! Each sub-model is compiled once for each lane width, whatever it is combined with: sub-models add, they do not
 //! multiply. What one hands to the next stands in columns of the buffer, which the first-level cache holds.
 
-use super::stage::{Gathered, Stage};
+use super::gathered::Gathered;
+use super::stage::Stage;
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::rolling::TakeRolling;
 use crate::contact::tangential::TakeTangential;
-use crate::contact::{Carry, Coefficients, Cohesion, CohesionForm, Normal, NormalForm, Rolling, Switches, Tangential};
+use crate::contact::{
+    Carry, Coefficients, Cohesion, CohesionForm, Contact, Normal, NormalForm, Rolling, Scheme, Switches, Tangential,
+};
 use crate::lanes::{self, Kernel, Lane, Width};
 use std::marker::PhantomData;
 
@@ -71,8 +74,17 @@ impl Kernel for ArmsRun<'_, '_> {
     }
 }
 
-/// What a scheme does before the sub-models: how contacts were carried, and the velocities that dashpots see.
-pub(super) struct CarryRun<'a, 'b>(pub(super) &'a mut Stage<'b>);
+/// What a scheme does before the sub-models, if anything.
+pub(super) fn before_sub_models(scheme: Scheme) -> Option<Run> {
+    match scheme {
+        Scheme::Engine => None,
+        Scheme::PredictedNormal => Some(|width, stage| lanes::run(width, ForeseeNormalRun(stage))),
+        Scheme::Midway | Scheme::Predicted => Some(|width, stage| lanes::run(width, CarryRun(stage))),
+    }
+}
+
+/// How contacts were carried, and the velocities that dashpots see.
+struct CarryRun<'a, 'b>(&'a mut Stage<'b>);
 
 impl Kernel for CarryRun<'_, '_> {
     #[inline(always)]
@@ -96,6 +108,26 @@ impl Kernel for CarryRun<'_, '_> {
                 }
                 carry.weigh(&mut contact, stage.onset, step, along);
                 stage.buffer.put_carry(done, &carry, &contact);
+            }
+            done += N::WIDTH;
+        }
+    }
+}
+
+/// The velocities along the normal that dashpots see.
+struct ForeseeNormalRun<'a, 'b>(&'a mut Stage<'b>);
+
+impl Kernel for ForeseeNormalRun<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let stage = self.0;
+        let mut done = 0;
+        while done < stage.buffer.ready {
+            // SAFETY: as above.
+            unsafe {
+                let mut contact: Contact<N> = stage.contact(done, false);
+                let weight = stage.foresee_normal(done, false, &mut contact, &mut [N::zero(); 4]);
+                stage.buffer.put_foreseen(done, contact.normal_velocity, weight);
             }
             done += N::WIDTH;
         }
@@ -162,8 +194,9 @@ impl<B: Tangential, const CARRIES: bool> Kernel for TangentialRun<'_, '_, B, CAR
             // SAFETY: as above.
             unsafe {
                 let row = coefficients.at(stage, done);
-                let (contact, normal) = (stage.contact(done, false), stage.buffer.normal(done));
-                stage.rub::<N, B, CARRIES>(done, row, &contact, &normal);
+                let (contact, normal) = (stage.contact(done, false), stage.normal(done));
+                let before = stage.tangential_history::<N, B>(done);
+                stage.rub::<N, B, CARRIES>(done, row, &contact, &normal, before);
                 if !B::ACTIVE {
                     stage.leave_couple::<N>(done);
                 }

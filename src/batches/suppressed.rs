@@ -5,9 +5,10 @@
 //! the overlap: nothing jumps when a bond breaks.
 
 use super::buffer::Buffer;
+use super::gathered::Gathered;
 use super::losses;
-use super::stage::{Gathered, Stage};
-use super::sub_models::{CarryRun, Run, RunOf};
+use super::stage::Stage;
+use super::sub_models::{Run, RunOf, before_sub_models};
 use crate::contact::cohesion::TakeCohesion;
 use crate::contact::normal::TakeNormal;
 use crate::contact::{
@@ -34,9 +35,7 @@ impl Suppressed {
             return Self::default();
         }
         let (mut begin, run_of): (Vec<Run>, _) = (Vec::new(), RunOf { carries: choice.scheme.carries() });
-        if choice.scheme.carries() {
-            begin.push(|width, stage| lanes::run(width, CarryRun(stage)));
-        }
+        begin.extend(before_sub_models(choice.scheme));
         begin.push(choice.normal.visit(RunBeyond));
         if law.has_cohesion() {
             begin.push(choice.cohesion.visit(RunBeyond));
@@ -56,7 +55,7 @@ impl Suppressed {
 impl Suppressed {
     /// Books what contacts lose, too.
     pub(super) fn book(&mut self, booked: &Booked) {
-        let keep = (booked.spring || booked.carries).then_some(losses::keep_before as Run);
+        let keep = booked.keeps_before().then_some(losses::keep_before as Run);
         for (runs, book) in
             [(&mut self.bonded, losses::book_bonded as Run), (&mut self.released, losses::book_released)]
         {

@@ -157,8 +157,9 @@ fn bits(found: &[(Vec<Row>, u8)]) -> Vec<u64> {
 fn every_law_has_the_bits_of_one_contact_in_every_lane_width_sub_model_by_sub_model_and_whole() {
     let (mut whole, mut tried) = (0, 0);
     for choice in every_law() {
+        let law = Law::of(&choice).recorded();
         let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
-        let laws = [BatchLaw::of(&choice), BatchLaw::sub_models(&choice)];
+        let laws = [BatchLaw::of(law.clone()), BatchLaw::sub_models(law)];
         whole += usize::from(laws[0].is_fused());
         let expected = one_by_one(&laws[0], &rows);
         for width in Width::ALL.into_iter().filter(|width| width.offered()) {
@@ -178,7 +179,7 @@ fn suppressed_contacts_have_the_bits_of_one_contact_in_every_lane_width() {
     let mut tried = 0;
     for choice in every_law().into_iter().filter(|choice| Law::of(choice).takes_offset()) {
         let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
-        let law = BatchLaw::of(&choice);
+        let law = BatchLaw::of(Law::of(&choice).recorded());
         for (manner, bonded) in [(Manner::Bonded, true), (Manner::Released, false)] {
             let expected = suppressed_one_by_one(&law, &rows, bonded);
             for width in Width::ALL.into_iter().filter(|width| width.offered()) {
@@ -193,7 +194,10 @@ fn suppressed_contacts_have_the_bits_of_one_contact_in_every_lane_width() {
 
 #[test]
 fn a_law_that_is_not_compiled_whole_is_done_by_its_sub_models() {
-    let of = |choice: &LawChoice| (BatchLaw::of(choice).is_fused(), BatchLaw::sub_models(choice).is_fused());
+    let of = |choice: &LawChoice| {
+        let law = Law::of(choice);
+        (BatchLaw::of(law.clone()).is_fused(), BatchLaw::sub_models(law).is_fused())
+    };
     let found: Vec<(bool, bool)> = every_law().iter().map(of).collect();
     assert!(found.contains(&(false, false)) && found.contains(&(true, false)) && !found.contains(&(true, true)));
 }

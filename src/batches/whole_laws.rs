@@ -1,7 +1,8 @@
 //! Laws that are met most, compiled whole beside their sub-models: the same functions in the same order. They keep in
 //! registers what the others write and read, and their bits are the same.
 
-use super::stage::{Gathered, Stage};
+use super::gathered::Gathered;
+use super::stage::Stage;
 use super::sub_models::Run;
 use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
 use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::HookeStiffness};
@@ -107,18 +108,21 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
             // SAFETY: as above.
             unsafe {
                 let row = coefficients.at(stage, done);
-                let contact = stage.contact(done, A::HAS_PAIR_CONSTANT);
+                let mut contact = stage.contact(done, A::HAS_PAIR_CONSTANT);
+                let mut history = stage.tangential_history::<N, B>(done);
+                let weight = stage.foresee_normal(done, B::HISTORY.is_some(), &mut contact, &mut history);
                 let mut roots = [N::zero(); 2];
                 if A::HAS_ROOTS {
                     stage.buffer.find_roots::<N, A>(done + N::WIDTH);
                     roots = stage.buffer.roots(done);
                 }
                 let mut normal = stage.press::<N, A>(done, row, &contact, roots);
+                normal.response.tangential_damping = normal.response.tangential_damping * weight;
                 if D::ACTIVE {
                     let law = D::lanes(&row[after_normal + B::COUNT + C::COUNT..]);
                     D::add(law, D::force(law, &contact), &mut normal);
                 }
-                stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal);
+                stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal, history);
                 if C::ACTIVE && !B::ACTIVE {
                     stage.leave_couple::<N>(done);
                 }

@@ -30,9 +30,8 @@ pub struct LawChoice {
 pub fn remembered() -> String {
     let kinds = [NormalChoice::MEMORIES, TangentialChoice::MEMORIES, RollingChoice::MEMORIES, CohesionChoice::MEMORIES];
     let rows = kinds.into_iter().flatten().filter_map(|(model, row)| Some((model, row.as_ref()?)));
-    let schemes = [Scheme::Engine, Scheme::Midway, Scheme::Predicted];
-    let own = schemes.iter().filter_map(|scheme| Some((scheme.name(), scheme.history()?)));
-    let line = |model: &str, row: &HistoryRow| format!("{model}: {} {:?}\n", row.name, row.odd);
+    let own = Scheme::ALL.iter().filter_map(|scheme| Some((scheme.name(), scheme.memory().row()?)));
+    let line = |model: &str, row: &HistoryRow| format!("{model}: {} {:?} {}\n", row.name, row.odd, row.fourth_is_free);
     rows.map(|(model, row)| line(model, row)).chain(own.map(|(scheme, row)| line(scheme, &row))).collect()
 }
 

@@ -84,7 +84,7 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
                     CohesionChoice::Sjkr2(cohesion::sjkr::Keys::default()),
                 ] {
                     let switches = Switches::of(false, true);
-                    for scheme in [Scheme::Engine, Scheme::Midway, Scheme::Predicted] {
+                    for scheme in Scheme::ALL {
                         let choice = LawChoice { normal, tangential, rolling, cohesion, switches, scheme };
                         if choice.objection().is_none_or(|objection| objection.key == "tangential_reduce") {
                             all.push(choice);

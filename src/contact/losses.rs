@@ -52,8 +52,22 @@ pub struct Booked {
     pub presses: bool,
     /// Whether springs are carried at mid-step.
     pub carries: bool,
+    /// Whether dashpots along the normal, and nothing else, see another velocity than that of mid-step.
+    pub predicts_normal: bool,
     /// Where the least normal force stands among the coefficients.
     pub least_force: usize,
+}
+
+impl Booked {
+    /// Whether anything is to be kept that sub-models change.
+    pub fn keeps_before(&self) -> bool {
+        self.spring || self.moves_otherwise()
+    }
+
+    /// Whether bodies move otherwise than dashpots see.
+    pub fn moves_otherwise(&self) -> bool {
+        self.carries || self.predicts_normal
+    }
 }
 
 /// What a book of losses sees of a contact.

@@ -31,7 +31,7 @@ pub use law::{Acting, CoefficientPlaces, Evaluated, HistoryPlaces, Law, LawNumbe
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
-pub use scheme::{Carry, Scheme};
+pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
 
@@ -193,8 +193,8 @@ pub struct Friction<N: Number = f64> {
 }
 
 /// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model and of the
-/// scheme, and two of a book of losses.
-pub const MOST_HISTORY: usize = 6;
+/// scheme, one of records, and two of a book of losses.
+pub const MOST_HISTORY: usize = 7;
 
 /// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
 pub const MOST_KEPT: usize = MOST_HISTORY + 1;
@@ -207,6 +207,9 @@ pub struct HistoryRow {
     pub name: &'static str,
     /// Which of the four numbers change sign when the two bodies change places.
     pub odd: [bool; 4],
+    /// Whether the fourth number is none of its own and handed on as it is, so that a scheme may keep there what does not
+    /// change sign.
+    pub fourth_is_free: bool,
 }
 
 impl HistoryRow {

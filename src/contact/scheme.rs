@@ -2,10 +2,15 @@
 //!
 //! Sub-models know no scheme. Where springs are carried at mid-step, the pass turns and stretches what is remembered
 //! ([`Carry`]) and calls the sub-model with a step of 0; where dashpots are foreseen, it hands them velocities of the end of
-//! the step ([`Carry::foresee`]).
+//! the step ([`Carry::foresee`], or [`foresee_normal`] where springs are not carried).
 
-use super::{Contact, HistoryRow, NormalForce, Onset};
-use crate::number::{Number, Vector};
+mod carry;
+mod foreseen;
+mod touch;
+
+use super::HistoryRow;
+pub use carry::Carry;
+pub use foreseen::{Foreseen, foresee_normal};
 use serde::Deserialize;
 
 /// `[run] scheme`
@@ -14,8 +19,11 @@ use serde::Deserialize;
 pub enum Scheme {
     /// As in the documents and in the engines: springs grow by the slip at the end of the step, dashpots see the velocities of
     /// its middle. First order.
-    #[default]
     Engine,
+    /// As in `engine`, but dashpots along the normal see the velocity extrapolated to the end of the step: impacts along the
+    /// normal are of second order.
+    #[default]
+    PredictedNormal,
     /// Springs are turned and stretched at mid-step, by the part of it in which the bodies touched: second order without
     /// dashpots, which are as before.
     Midway,
@@ -28,187 +36,71 @@ impl Scheme {
     pub fn name(self) -> &'static str {
         match self {
             Self::Engine => "engine",
+            Self::PredictedNormal => "predicted_normal",
             Self::Midway => "midway",
             Self::Predicted => "predicted",
         }
     }
 
+    /// All, from the coarsest on.
+    pub const ALL: [Self; 4] = [Self::Engine, Self::PredictedNormal, Self::Midway, Self::Predicted];
+
     /// Whether springs are carried at mid-step.
     pub fn carries(self) -> bool {
-        self != Self::Engine
+        matches!(self, Self::Midway | Self::Predicted)
     }
 
-    /// Whether dashpots see velocities of the end of the step.
+    /// Whether all dashpots see velocities of the end of the step.
     pub fn predicts(self) -> bool {
         self == Self::Predicted
     }
 
-    /// By how much a dashpot shortens the stable step, over one that sees the velocities of mid-step: z³M + … has the root
-    /// −1 where 4 M − 4 Δt C − Δt² K is singular, not 4 M − 2 Δt C − Δt² K.
-    pub fn damping_factor(self) -> f64 {
-        if self.predicts() { 2.0 } else { 1.0 }
+    /// Whether dashpots along the normal see velocities of the end of the step.
+    pub fn predicts_normal(self) -> bool {
+        matches!(self, Self::PredictedNormal | Self::Predicted)
+    }
+
+    /// By how much dashpots along the normal and in the tangent plane shorten the stable step, over those that see the
+    /// velocities of mid-step: z³M + … has the root −1 where 4 M − 4 Δt C − Δt² K is singular, not 4 M − 2 Δt C − Δt² K.
+    pub fn damping_factors(self) -> [f64; 2] {
+        [self.predicts_normal(), self.predicts()].map(|predicts| if predicts { 2.0 } else { 1.0 })
     }
 
     /// What it remembers of a contact beside what sub-models do.
-    pub fn history(self) -> Option<HistoryRow> {
-        self.predicts()
-            .then_some(HistoryRow { name: "normal velocity and slip before", odd: [false, true, true, true] })
+    pub fn memory(self) -> SchemeMemory {
+        match self {
+            Self::Engine | Self::Midway => SchemeMemory::Nothing,
+            Self::PredictedNormal => SchemeMemory::FourthNumber(HistoryRow {
+                name: "normal velocity before",
+                odd: [false; 4],
+                fourth_is_free: true,
+            }),
+            Self::Predicted => SchemeMemory::Row(HistoryRow {
+                name: "normal velocity and slip before",
+                odd: [false, true, true, true],
+                fourth_is_free: false,
+            }),
+        }
     }
 }
 
-/// Part of an overlap below which a contact did not press a step ago.
-const SHALLOW: f64 = 1e-9;
-
-/// What happened to a contact from its last evaluation to this one: how its normal turned and how far its bodies slipped, as
-/// at the middle of the step.
-#[derive(Clone, Copy, Debug)]
-pub struct Carry<N = f64> {
-    /// Way of i over j in the tangent plane while they touched \[m\].
-    pub stretch: Vector<N>,
-    /// What the normal gained from mid-step to the end.
-    pub tilt: Vector<N>,
-    /// Tangent of half the angle by which both bodies turned about the normal.
-    pub twist: N,
-    /// Part of the step in which the bodies touched.
-    pub share: N,
+/// What a scheme remembers of a contact beside what sub-models do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SchemeMemory {
+    /// Nothing.
+    Nothing,
+    /// The fourth number of a row: of a sub-model's row whose fourth number is free; of this one where there is none.
+    FourthNumber(HistoryRow),
+    /// A row of its own.
+    Row(HistoryRow),
 }
 
-impl<N: Number> Carry<N> {
-    /// That of a contact in a step \[s\]. `touches`: bodies touch where they overlap and nowhere else, so that an overlap
-    /// smaller than their approach began in this step.
-    #[inline(always)]
-    pub fn of(contact: &Contact<N>, step: N, touches: bool) -> Self {
-        let (half, one) = (N::splat(0.5) * step, N::splat(1.0));
-        let quarter = N::splat(0.5) * half;
-        let Contact { normal, normal_velocity, slip, turning, spin_sum, per_distance, overlap, .. } = *contact;
-        let across = slip + turning.cross(normal);
-        let tilt = across * (half * per_distance);
-        // The arms at mid-step, and what the velocities do along what the normal gains.
-        let turned = tilt * turning.dot(normal) - spin_sum * (quarter * normal_velocity);
-        let rate = slip + normal.cross(turned) + tilt * normal_velocity;
-        let mut share = one;
-        if touches {
-            let approach = -(normal_velocity * step);
-            let begins = N::both(approach.greater(overlap), overlap.greater(N::zero()));
-            if N::any(begins) {
-                share = N::select(begins, overlap / approach, one);
-            }
+impl SchemeMemory {
+    /// The row that is remembered for the scheme alone, if there is one.
+    pub fn row(&self) -> Option<HistoryRow> {
+        match *self {
+            Self::Nothing => None,
+            Self::FourthNumber(row) | Self::Row(row) => Some(row),
         }
-        let twist = N::select(per_distance.greater(N::zero()), quarter * spin_sum.dot(normal), N::zero());
-        Self { stretch: rate * (step * share), tilt, twist, share }
-    }
-
-    /// A vector of the tangent plane a step ago, turned with the contact; a part of it, `late`, came on the way and turns half.
-    #[inline(always)]
-    fn spun(&self, normal: Vector<N>, flat: Vector<N>, late: Vector<N>) -> Vector<N> {
-        let (one, square) = (N::splat(1.0), self.twist * self.twist);
-        let per = one / (one + square);
-        flat * ((one - square) * per) + normal.cross(flat - late * N::splat(0.5)) * ((self.twist + self.twist) * per)
-    }
-
-    /// A spring of the tangent plane a step ago, turned with the contact and stretched: it is in the tangent plane. The fourth
-    /// number stays.
-    #[inline(always)]
-    pub fn spring(&self, normal: Vector<N>, row: [N; 4]) -> [N; 4] {
-        let whole = Vector::of_row(row) + self.stretch;
-        // Along the normal of mid-step, as long as its part along the normal of the end is 1.
-        let flat = whole - (normal - self.tilt) * whole.dot(normal);
-        self.spun(normal, flat, self.stretch).row_with(row[3])
-    }
-
-    /// A torque turned with the contact, the part along the normal with it. The fourth number stays.
-    #[inline(always)]
-    pub fn torque(&self, normal: Vector<N>, row: [N; 4]) -> [N; 4] {
-        let whole = Vector::of_row(row);
-        let middle = normal - self.tilt;
-        let before = middle * (N::splat(2.0) / middle.dot(middle)) - normal;
-        let along = whole.dot(before);
-        let rest = whole - before * along;
-        let flat = rest - middle * rest.dot(normal);
-        (self.spun(normal, flat, Vector::zero()) + normal * along).row_with(row[3])
-    }
-
-    /// A vector of mid-step, turned to the end of the step.
-    #[inline(always)]
-    pub fn to_end(&self, normal: Vector<N>, vector: Vector<N>) -> Vector<N> {
-        vector + self.tilt * vector.dot(normal) - normal * vector.dot(self.tilt)
-    }
-
-    /// Gives a contact the velocities at the end of the step, from those of its middle and of the step before, which `row`
-    /// holds and which are remembered in their turn. A contact that begins keeps those of the middle.
-    #[inline(always)]
-    pub fn foresee(&self, contact: &mut Contact<N>, row: [N; 4], step: N) -> [N; 4] {
-        let normal = contact.normal;
-        let across = contact.slip + contact.turning.cross(normal);
-        let along = contact.normal_velocity - across.dot(self.tilt);
-        let per = N::splat(1.0) / (step * self.share);
-        let moved = step.greater(N::zero());
-        let rate = Vector::select(moved, self.stretch * per, contact.slip);
-        let [before, x, y, z] = row;
-        let unturned = Vector::new(x, y, z);
-        let flat = unturned - (normal - self.tilt) * unturned.dot(normal);
-        let slip = self.spun(normal, flat, Vector::zero());
-        let known = N::both(moved, (before * before + unturned.dot(unturned)).greater(N::zero()));
-        let half = N::splat(0.5);
-        let along_then = N::select(known, along + half * (along - before), contact.normal_velocity);
-        contact.slip = Vector::select(known, rate + (rate - slip) * half, contact.slip);
-        contact.normal_velocity = along_then;
-        let [a, b, c, d] = [along, rate.x, rate.y, rate.z];
-        let [e, f, g, h] = row;
-        [N::select(moved, a, e), N::select(moved, b, f), N::select(moved, c, g), N::select(moved, d, h)]
-    }
-
-    /// Weighs the velocities that a dashpot sees of a contact which began within the step, or which ends within the next, so
-    /// that its force is that of the part of the time between both mid-steps in which the bodies touch. `rates` are the
-    /// velocities along the normal at the middle of this step and of the step before it, 0 where none is remembered \[m/s\]:
-    /// a contact that seemed to end and did not is weighed for what is left of its time.
-    #[inline(always)]
-    pub fn weigh(&self, contact: &mut Contact<N>, onset: Onset, step: N, [rate, before]: [N; 2]) {
-        if onset == Onset::Unweighed {
-            return;
-        }
-        let (zero, half, one, overlap) = (N::zero(), N::splat(0.5), N::splat(1.0), contact.overlap);
-        let (leaving, left) = (rate * step, before * step);
-        let earlier = overlap + leaving;
-        // Also a contact that touched a step ago without pressing began in this step: the last bits are not to tell.
-        let began = N::either(one.greater(self.share), (overlap * N::splat(SHALLOW)).greater(earlier));
-        let ends = N::both(leaving.greater(overlap), overlap.greater(zero));
-        let stayed = N::both(left.greater(earlier), earlier.greater(overlap * N::splat(SHALLOW)));
-        // A plane touches what does not press on it yet: that dashpot begins with the next step.
-        let flat = N::splat(f64::MIN_POSITIVE).greater(overlap);
-        let weighed = N::either(N::either(began, ends), N::either(stayed, flat));
-        if !N::any(weighed) {
-            return;
-        }
-        let since = N::select(stayed, one - earlier / N::select(stayed, left, one), half);
-        // ∫ of t^p over the time of touch, over the p-th power of the time between touch and now; with p = 0 in the midst of it
-        let part = N::select(began, self.share, N::select(ends, overlap / N::select(ends, leaving, one), half));
-        let reach = part + N::select(began, half, since);
-        let edge = N::either(began, ends);
-        let ratio = N::select(edge, reach / part, one);
-        let weight = match onset {
-            Onset::Unweighed | Onset::Constant => reach,
-            Onset::FourthRoot => reach * ratio.sqrt().sqrt() * N::select(edge, N::splat(0.8), one),
-            Onset::SquareRoot => reach * ratio.sqrt() * N::select(edge, N::splat(2.0 / 3.0), one),
-        };
-        let weight = N::select(flat, zero, N::select(weighed, weight, one));
-        contact.normal_velocity = contact.normal_velocity * weight;
-        contact.slip = contact.slip * weight;
-    }
-
-    /// The stiffnesses by which a rolling spring grows in a step: the means of those before, of which `before` is k_n \[N/m\],
-    /// and those now.
-    #[inline(always)]
-    pub fn mean_stiffness(&self, normal: &NormalForce<N>, before: N) -> NormalForce<N> {
-        let (one, now) = (N::splat(1.0), normal.response.normal_stiffness);
-        let known = N::both(before.greater(N::zero()), now.greater(N::zero()));
-        let mean = N::splat(0.5) * (one + N::select(known, before, one) / N::select(known, now, one));
-        let mut normal = *normal;
-        normal.response.normal_stiffness = now * mean;
-        normal.response.tangential_stiffness = normal.response.tangential_stiffness * mean;
-        normal
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -128,6 +128,17 @@ pub(crate) fn history(lists: &[Vec<Row>], entry: usize) -> [Row; MOST_HISTORY] {
     rows
 }
 
+/// A contact in the motion that the records of its law show, as its dashpots saw it, if that is remembered.
+pub(crate) fn seen(law: &Law, mut contact: Contact, lists: &[Vec<Row>], entry: usize) -> Contact {
+    let remembered = law.history_places().seen.and_then(|place| lists.get(place)?.get(entry));
+    if let Some([velocity, weight, ..]) = remembered {
+        contact.normal_velocity = *velocity;
+        // Springs do not grow in records: here slip is what the dashpot sees.
+        contact.slip = contact.slip * *weight;
+    }
+    contact
+}
+
 /// What a contact does, with what the last evaluation left to remember. A spring that slid then has no dashpot beside
 /// it, unless both stand at the limit together.
 pub(crate) fn react(

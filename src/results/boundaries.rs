@@ -146,6 +146,10 @@ mod tests {
 gravity = [0.0, 0.0, -9.81]
 [run]
 step = 2e-6
+end = 1.0
+[output]
+frame_interval = 1.0
+boundaries = true
 [material.glass]
 youngs_modulus = 1e7
 poissons_ratio = 0.3

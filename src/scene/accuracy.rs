@@ -32,7 +32,7 @@ impl Accuracy {
     /// The scheme that it takes.
     pub fn scheme(self) -> Scheme {
         match self {
-            Self::Standard => Scheme::Engine,
+            Self::Standard => Scheme::default(),
             Self::High => Scheme::Predicted,
         }
     }

@@ -38,12 +38,22 @@ impl Scene {
         self.bonds.iter().any(|bond| bond.keys.contact != ContactPolicy::Parallel)
     }
 
+    /// A law, with what the outputs of the scene ask to be remembered of contacts.
+    pub fn law(&self, law: usize) -> Law {
+        let law = Law::of(&self.contacts[law].choice());
+        let law = if self.records_contacts() { law.recorded() } else { law };
+        if self.output.losses { law.booked() } else { law }
+    }
+
+    /// Whether an output takes forces of single contacts.
+    fn records_contacts(&self) -> bool {
+        self.output.contacts || self.output.boundaries || !self.regions.is_empty()
+    }
+
     /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,
     /// [`OFFSET`] behind them.
     pub fn kept_rows(&self, law: usize) -> Vec<HistoryRow> {
-        let law = Law::of(&self.contacts[law].choice());
-        let law = if self.output.losses { law.booked() } else { law };
-        let mut rows = law.history().to_vec();
+        let mut rows = self.law(law).history().to_vec();
         rows.extend(self.suppresses_contacts().then_some(OFFSET));
         rows
     }

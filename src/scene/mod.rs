@@ -120,7 +120,7 @@ impl Default for Run {
             end: None,
             step: Step::Automatic { safety: Self::SAFETY },
             accuracy: Accuracy::Standard,
-            scheme: Scheme::Engine,
+            scheme: Scheme::default(),
             allow_unstable: false,
             threads: None,
             seed: 1,

@@ -148,7 +148,7 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         index,
         kept_rows: scene.kept_rows(index).len(),
         table: CoefficientTable::of(law, scene),
-        law: BatchLaw::booked_where(&law.choice(), scene.output.losses),
+        law: BatchLaw::of(scene.law(index)),
         lost: Mutex::default(),
     }
 }

@@ -59,9 +59,9 @@ const NAMES: [&str; 4] = ["kinetic energy", "elastic energy", "momentum", "impul
 /// Which scale each has.
 const SCALES: [usize; 4] = [0, 0, 1, 2];
 
-/// Runs a scene with this part of the stable step, for so many communication steps.
-fn run(scene: &Random, part: f64, intervals: usize) -> Result<Course, Outcome> {
-    let text = scene.text.replace("SAFETY", &format!("safety = {part}"));
+/// Runs a scene with this part of the stable step and these lines in `[run]`, for so many communication steps.
+fn run(scene: &Random, part: f64, intervals: usize, lines: &str) -> Result<Course, Outcome> {
+    let text = scene.text.replace("SAFETY", &format!("safety = {part}\n{lines}"));
     let source = Source { name: "scene.toml".into(), text, files: Default::default() };
     let checked = Scene::from_source(&source).map_err(|errors| Outcome::Refused(errors.to_string()))?;
     let mut simulation = Simulation::new(Arc::new(checked)).map_err(|error| Outcome::Stopped(error.to_string()))?;
@@ -113,11 +113,11 @@ fn difference(course: &Course, other: &Course, window: usize) -> (f64, &'static 
         .fold((0.0, NAMES[0]), |most, next| if next.0 > most.0 { next } else { most })
 }
 
-/// What becomes of the scene of a seed in so many communication steps.
-pub(crate) fn judge(seed: u64, intervals: usize) -> (String, Outcome) {
+/// What becomes of the scene of a seed, with these lines in `[run]`, in so many communication steps.
+pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcome) {
     let scene = random(seed);
     let name = format!("seed {seed}: {}", scene.name);
-    let courses: Result<Vec<Course>, Outcome> = PARTS.iter().map(|part| run(&scene, *part, intervals)).collect();
+    let courses: Result<Vec<Course>, Outcome> = PARTS.iter().map(|part| run(&scene, *part, intervals, lines)).collect();
     let courses = match courses {
         Ok(courses) => courses,
         Err(outcome) => return (name, outcome),

@@ -12,7 +12,7 @@ use compare::{Outcome, judge};
 #[test]
 fn agree_with_a_tenth_of_the_default_step() {
     for seed in 1..=12 {
-        let (name, outcome) = judge(seed, 40);
+        let (name, outcome) = judge(seed, 40, "");
         assert!(matches!(outcome, Outcome::Agrees(..) | Outcome::Stopped(_)), "{name} {outcome}");
     }
 }

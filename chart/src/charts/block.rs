@@ -3,6 +3,7 @@
 //! It makes steps on one thread, with one feature after the other, in turn; the least time of several rounds counts. It is
 //! processor time where the system tells it, so that other programs disturb less.
 
+use super::schemes::Scheme;
 use crate::ChartError;
 use crate::stage::Stage;
 use std::time::Instant;
@@ -22,8 +23,47 @@ const STEPS: f64 = 40.0;
 /// Rounds.
 const ROUNDS: u32 = 5;
 
-/// The tangential model of spheres with friction.
-const ROUGH: &str = "[contact.c.tangential.history]";
+/// Lines of a scene with spheres that are pressed.
+pub(super) const HERTZ: &str = "[contact.c.normal.hertz]\n";
+
+/// The same with linear springs.
+pub(super) const HOOKE: &str = "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n";
+
+/// Lines that give them friction.
+pub(super) const ROUGH: &str = "[contact.c.tangential.history]\n";
+
+/// Lines that bond them; keys of the bond may follow.
+pub(super) const BOND: &str = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
+                               tangential_stiffness = 4e11\n";
+
+/// What the block has beside particles and planes.
+#[derive(Clone, Copy)]
+pub(super) struct Feature {
+    /// Its name.
+    pub name: &'static str,
+    /// Lines of laws, bonds and outputs, one after another.
+    pub tables: &'static [&'static str],
+    /// How springs and dashpots go on in time, if not as by default.
+    pub scheme: Option<Scheme>,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Whether gravity acts.
+    pub gravity: bool,
+    /// Whether every time step is a communication step.
+    pub single_steps: bool,
+}
+
+impl Feature {
+    /// These lines.
+    pub(super) const fn new(name: &'static str, tables: &'static [&'static str]) -> Self {
+        Self { name, tables, scheme: None, friction: 0.5, gravity: false, single_steps: false }
+    }
+
+    /// The same in this scheme.
+    pub(super) const fn with(self, scheme: Scheme) -> Self {
+        Self { scheme: Some(scheme), ..self }
+    }
+}
 
 /// Centres of the spheres \[m\].
 pub(super) fn centers() -> Vec<[f64; 3]> {
@@ -38,17 +78,11 @@ pub(super) fn planes() -> [(usize, f64, bool); 6] {
     std::array::from_fn(|plane| if plane % 2 == 0 { (plane / 2, low, true) } else { (plane / 2, high, false) })
 }
 
-/// The scene with a feature: tables of laws and bonds, and words that stand for lines elsewhere.
-fn text(feature: &str) -> String {
-    let friction = if feature.contains("SMOOTH") { 0.0 } else { 0.5 };
-    let gravity = if feature.contains("GRAVITY") { "gravity = [0.0, 0.0, -9.81]\n" } else { "" };
-    let scheme = [("MIDWAY", "scheme = \"midway\""), ("PREDICTED", "scheme = \"predicted\"")];
-    let run = scheme.iter().find(|(word, _)| feature.contains(word)).map_or("", |(_, line)| line);
-    let bond = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
-                tangential_stiffness = 4e11";
-    let own = feature.replace("ROUGH", ROUGH).replace("BOND", bond);
-    let own =
-        ["SMOOTH", "GRAVITY", "SINGLE", "MIDWAY", "PREDICTED"].iter().fold(own, |text, word| text.replace(word, ""));
+/// The scene with a feature.
+fn text(feature: &Feature) -> String {
+    let gravity = if feature.gravity { "gravity = [0.0, 0.0, -9.81]\n" } else { "" };
+    let (run, friction) = (feature.scheme.map_or("", |scheme| scheme.run), feature.friction);
+    let own = feature.tables.concat();
     let mut walls = String::new();
     for (number, (axis, at, above)) in planes().into_iter().enumerate() {
         let vector = |value: f64| (0..3).map(|place| if place == axis { value } else { 0.0 }).collect::<Vec<_>>();
@@ -103,13 +137,13 @@ impl Timed {
 }
 
 /// Times the block with each of these features, in turn.
-pub(super) fn times(features: &[(&'static str, &str)]) -> Result<Vec<Timed>, ChartError> {
+pub(super) fn times(features: &[Feature]) -> Result<Vec<Timed>, ChartError> {
     let mut blocks = Vec::new();
-    for (name, feature) in features {
+    for feature in features {
         let mut stage = Stage::of(&text(feature))?;
-        let pieces = if feature.contains("SINGLE") { STEPS as u32 } else { 1 };
+        let pieces = if feature.single_steps { STEPS as u32 } else { 1 };
         stage.advance(STEPS / 4.0 * stage.step())?;
-        blocks.push(Timed { name, stage, pieces, least: f64::INFINITY });
+        blocks.push(Timed { name: feature.name, stage, pieces, least: f64::INFINITY });
     }
     let begun = Instant::now();
     for _ in 0..ROUNDS {

@@ -1,6 +1,7 @@
 //! What each feature adds to the cost of a time step of a block of spheres.
 
-use super::block::{EDGE, Timed, times};
+use super::block::{BOND, EDGE, Feature, HERTZ, HOOKE, ROUGH, Timed, times};
+use super::schemes::{ENGINE, MIDWAY, PREDICTED};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Bars, Picture};
@@ -14,39 +15,56 @@ pub(super) const CHART: Chart = Chart {
     draw,
 };
 
-/// What is measured: its name, and what the scene has beside particles and planes.
-const FEATURES: [(&str, &str); 27] = [
-    ("no law at all", ""),
-    ("hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n"),
-    ("hertz", "[contact.c.normal.hertz]\n"),
-    ("hertz + no_history", "[contact.c.normal.hertz]\n[contact.c.tangential.no_history]\n"),
-    ("hertz + history", "[contact.c.normal.hertz]\nROUGH\n"),
-    ("hertz + history of friction 0", "[contact.c.normal.hertz]\nROUGH\nSMOOTH"),
-    ("hertz + turned_history", "[contact.c.normal.hertz]\n[contact.c.tangential.turned_history]\n"),
-    ("hertz + history, midway", "[contact.c.normal.hertz]\nROUGH\nMIDWAY"),
-    ("hertz + history, predicted", "[contact.c.normal.hertz]\nROUGH\nPREDICTED"),
-    ("hertz, predicted", "[contact.c.normal.hertz]\nPREDICTED"),
-    ("hertz + history + cdt", "[contact.c.normal.hertz]\nROUGH\n[contact.c.rolling.cdt]\n"),
-    ("hertz + history + epsd2", "[contact.c.normal.hertz]\nROUGH\n[contact.c.rolling.epsd2]\n"),
-    ("hertz + history + sjkr", "[contact.c.normal.hertz]\nROUGH\n[contact.c.cohesion.sjkr]\n"),
-    ("jkr + turned_history", "[contact.c.normal.jkr]\n[contact.c.tangential.turned_history]\n"),
-    ("eepa + history", "[contact.c.normal.eepa]\noverlap_exponent = 1.5\nadhesion_exponent = 1.5\nROUGH\n"),
-    ("hertz + history, gravity", "[contact.c.normal.hertz]\nROUGH\nGRAVITY"),
-    ("hertz + history, Cundall damping", "[contact.c.normal.hertz]\nROUGH\n[damping.d]\nlinear = 0.7\nangular = 0.7\n"),
-    ("hertz + history, energy book", "[contact.c.normal.hertz]\nROUGH\n[output]\nenergy = true\n"),
-    ("hertz + history, losses", "[contact.c.normal.hertz]\nROUGH\n[output]\nlosses = true\n"),
-    ("hertz + history, every step an interval", "[contact.c.normal.hertz]\nROUGH\nSINGLE"),
-    ("bonds incremental", "BOND\nformulation = \"incremental\"\n"),
-    ("bonds finite_rotation", "BOND\n"),
-    (
-        "bonds finite_rotation, viscous",
-        "BOND\n[bond.b.damping.viscous]\nnormal_force = 0.05\ntangential_force = 0.05\n",
+/// What is measured.
+const FEATURES: [Feature; 29] = [
+    Feature::new("no law at all", &[]),
+    Feature::new("hooke", &[HOOKE]),
+    Feature::new("hertz", &[HERTZ]),
+    Feature::new("hertz, engine", &[HERTZ]).with(ENGINE),
+    Feature::new("hertz, predicted", &[HERTZ]).with(PREDICTED),
+    Feature::new("hertz + no_history", &[HERTZ, "[contact.c.tangential.no_history]\n"]),
+    Feature::new(BASE, &[HERTZ, ROUGH]),
+    Feature { friction: 0.0, ..Feature::new("hertz + history of friction 0", &[HERTZ, ROUGH]) },
+    Feature::new("hertz + turned_history", &[HERTZ, TURNED]),
+    Feature::new("hertz + history, engine", &[HERTZ, ROUGH]).with(ENGINE),
+    Feature::new("hertz + history, midway", &[HERTZ, ROUGH]).with(MIDWAY),
+    Feature::new("hertz + history, predicted", &[HERTZ, ROUGH]).with(PREDICTED),
+    Feature::new("hertz + history + cdt", &[HERTZ, ROUGH, "[contact.c.rolling.cdt]\n"]),
+    Feature::new("hertz + history + epsd2", &[HERTZ, ROUGH, "[contact.c.rolling.epsd2]\n"]),
+    Feature::new("hertz + history + sjkr", &[HERTZ, ROUGH, "[contact.c.cohesion.sjkr]\n"]),
+    Feature::new("jkr + turned_history", &["[contact.c.normal.jkr]\n", TURNED]),
+    Feature::new(
+        "eepa + history",
+        &["[contact.c.normal.eepa]\noverlap_exponent = 1.5\nadhesion_exponent = 1.5\n", ROUGH],
     ),
-    ("bonds finite_rotation, breakage", "BOND\n[bond.b.breakage]\nmax_normal_stress = 1e12\nmax_shear_stress = 1e12\n"),
-    ("bonds finite_rotation, energy book", "BOND\n[output]\nenergy = true\n"),
-    ("bonds finite_rotation, losses", "BOND\n[output]\nlosses = true\n"),
-    ("bonds + hertz + history", "[contact.c.normal.hertz]\nROUGH\nBOND\n"),
+    Feature { gravity: true, ..Feature::new("hertz + history, gravity", &[HERTZ, ROUGH]) },
+    Feature::new("hertz + history, Cundall damping", &[HERTZ, ROUGH, "[damping.d]\nlinear = 0.7\nangular = 0.7\n"]),
+    Feature::new("hertz + history, energy book", &[HERTZ, ROUGH, ENERGY]),
+    Feature::new("hertz + history, losses", &[HERTZ, ROUGH, LOSSES]),
+    Feature { single_steps: true, ..Feature::new("hertz + history, every step an interval", &[HERTZ, ROUGH]) },
+    Feature::new("bonds incremental", &[BOND, "formulation = \"incremental\"\n"]),
+    Feature::new("bonds finite_rotation", &[BOND]),
+    Feature::new(
+        "bonds finite_rotation, viscous",
+        &[BOND, "[bond.b.damping.viscous]\nnormal_force = 0.05\ntangential_force = 0.05\n"],
+    ),
+    Feature::new(
+        "bonds finite_rotation, breakage",
+        &[BOND, "[bond.b.breakage]\nmax_normal_stress = 1e12\nmax_shear_stress = 1e12\n"],
+    ),
+    Feature::new("bonds finite_rotation, energy book", &[BOND, ENERGY]),
+    Feature::new("bonds finite_rotation, losses", &[BOND, LOSSES]),
+    Feature::new("bonds + hertz + history", &[HERTZ, ROUGH, BOND]),
 ];
+
+/// Lines of another friction.
+const TURNED: &str = "[contact.c.tangential.turned_history]\n";
+
+/// Lines of books.
+const ENERGY: &str = "[output]\nenergy = true\n";
+
+/// The same, with every loss by itself.
+const LOSSES: &str = "[output]\nlosses = true\n";
 
 /// Columns of the table.
 const COLUMNS: [&str; 5] =

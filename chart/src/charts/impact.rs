@@ -6,7 +6,7 @@
 
 use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
 use super::peers::{PEERS, Peer};
-use super::schemes::{SCHEMES, Scheme, drawn};
+use super::schemes::{DRAWN, SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -155,9 +155,9 @@ fn draw() -> Result<Drawing, ChartError> {
     };
     let mut notes = notes(&table);
     notes.extend(absent.into_iter().map(|name| format!("{name} is not installed: its points are left out")));
-    let laws = models.iter().flat_map(|normal| drawn().map(|scheme| scheme.named(normal.name)));
+    let laws = models.iter().flat_map(|normal| DRAWN.map(|scheme| scheme.named(normal.name)));
     let panels = laws.map(panel).collect();
-    Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })
+    Ok(Drawing { table, picture: Picture { panels, columns: DRAWN.len(), ..Picture::default() }, notes })
 }
 
 /// What the default step costs in accuracy.

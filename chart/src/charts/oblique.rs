@@ -5,7 +5,7 @@
 //! with [`CONVERGED`] time steps, over the speed of the impact and over the moments at which the contact begins.
 
 use super::drops::{RADIUS, Rebound, SPEED, Throw, hertz_duration};
-use super::schemes::{SCHEMES, drawn};
+use super::schemes::{DRAWN, SCHEMES};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -116,7 +116,7 @@ fn draw() -> Result<Drawing, ChartError> {
         let panel = Panel::new(&case, across, upwards, "series");
         Panel { only: Some(("case", case)), single: vec![DEFAULT], ..panel }
     };
-    let cases = CASES.iter().flat_map(|(case, ..)| drawn().map(|scheme| scheme.named(case)));
+    let cases = CASES.iter().flat_map(|(case, ..)| DRAWN.map(|scheme| scheme.named(case)));
     let panels = cases.map(panel).collect();
-    Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })
+    Ok(Drawing { table, picture: Picture { panels, columns: DRAWN.len(), ..Picture::default() }, notes })
 }

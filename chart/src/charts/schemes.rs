@@ -9,21 +9,27 @@ pub(super) struct Scheme {
     pub run: &'static str,
 }
 
-/// Those that are charted, the default first.
-pub(super) const SCHEMES: &[Scheme] = &[
-    Scheme { name: "", run: "" },
-    Scheme { name: "midway", run: "scheme = \"midway\"" },
-    Scheme { name: "predicted", run: "scheme = \"predicted\"" },
-];
+/// That of the engines.
+pub(super) const ENGINE: Scheme = Scheme { name: "engine", run: "scheme = \"engine\"" };
+
+/// The default.
+pub(super) const PREDICTED_NORMAL: Scheme = Scheme { name: "predicted_normal", run: "scheme = \"predicted_normal\"" };
+
+/// Springs of second order.
+pub(super) const MIDWAY: Scheme = Scheme { name: "midway", run: "scheme = \"midway\"" };
+
+/// Springs and dashpots of second order.
+pub(super) const PREDICTED: Scheme = Scheme { name: "predicted", run: "scheme = \"predicted\"" };
+
+/// Those that are charted.
+pub(super) const SCHEMES: &[Scheme] = &[ENGINE, PREDICTED_NORMAL, MIDWAY, PREDICTED];
 
 /// Those of which pictures have diagrams: the curves of `midway` lie on those of `engine` or of `predicted`; tables have them.
-pub(super) fn drawn() -> impl Iterator<Item = &'static Scheme> {
-    SCHEMES.iter().filter(|scheme| scheme.name != "midway")
-}
+pub(super) const DRAWN: [Scheme; 3] = [ENGINE, PREDICTED_NORMAL, PREDICTED];
 
 impl Scheme {
     /// What a series or a diagram of this name is called with this scheme.
     pub(super) fn named(&self, name: &str) -> String {
-        if self.name.is_empty() { name.to_owned() } else { format!("{name}, {}", self.name) }
+        format!("{name}, {}", self.name)
     }
 }

@@ -4,12 +4,12 @@
 //! with the same law and scheme (all have friction there). That of a cantilever is the same for one bond. Other programs rebound the
 //! same way, and compute the same block.
 
-use super::block::times;
+use super::block::{BOND, Feature, HERTZ, HOOKE, ROUGH, times};
 use super::cantilever::deflection_errors;
 use super::impact::{self, RESTITUTIONS};
 use super::oblique;
 use super::peers::{PEERS, Peer};
-use super::schemes::{SCHEMES, Scheme};
+use super::schemes::{PREDICTED, SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -23,25 +23,21 @@ pub(super) const CHART: Chart = Chart {
     draw,
 };
 
-/// Contacts that are timed: the series, the case, and the block's law.
-const CONTACTS: [(&str, &str, &str); 6] = [
-    ("engine", "hertz", "[contact.c.normal.hertz]\nROUGH\n"),
-    ("midway", "hertz", "[contact.c.normal.hertz]\nROUGH\nMIDWAY"),
-    ("predicted", "hertz", "[contact.c.normal.hertz]\nROUGH\nPREDICTED"),
-    ("engine", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\n"),
-    ("midway", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\nMIDWAY"),
-    ("predicted", "hooke", "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\nROUGH\nPREDICTED"),
-];
+/// Contacts that are timed, in every scheme: the case, and the block's law.
+const CONTACTS: [(&str, &[&str]); 2] = [("hertz", &[HERTZ, ROUGH]), ("hooke", &[HOOKE, ROUGH])];
 
 /// Lines of the block that give bonds the dashpots of the cantilever.
 const VISCOUS: &str = "[bond.b.damping.viscous]\nnormal_force = 0.05\ntangential_force = 0.05\nnormal_torque = 0.05\ntangential_torque = 0.05\n";
 
-/// Bonds that are timed: the series, formulation, damping, and the scheme.
-const BONDS: [(&str, &str, &str, &str); 4] = [
-    ("finite_rotation", "finite_rotation", "", ""),
-    ("incremental", "incremental", "", ""),
-    ("finite_rotation, viscous 0.05", "finite_rotation", "viscous 0.05", ""),
-    ("finite_rotation, viscous 0.05, predicted", "finite_rotation", "viscous 0.05", "scheme = \"predicted\"\n"),
+/// Bonds that are timed: formulation and damping of the cantilever, and the block's bonds.
+const BONDS: [([&str; 2], Feature); 4] = [
+    (["finite_rotation", ""], Feature::new("finite_rotation", &[BOND])),
+    (["incremental", ""], Feature::new("incremental", &[BOND, "formulation = \"incremental\"\n"])),
+    (["finite_rotation", "viscous 0.05"], Feature::new("finite_rotation, viscous 0.05", &[BOND, VISCOUS])),
+    (
+        ["finite_rotation", "viscous 0.05"],
+        Feature::new("finite_rotation, viscous 0.05, predicted", &[BOND, VISCOUS]).with(PREDICTED),
+    ),
 ];
 
 /// Restitution and friction of the oblique impacts.
@@ -83,22 +79,21 @@ fn impact_errors(normal: &impact::Normal, scheme: &Scheme) -> Result<Vec<[f64; 2
 
 /// Impacts with every scheme, and of the peers. What is to be said about them.
 fn impacts(table: &mut Table) -> Result<Vec<String>, ChartError> {
-    let timed = times(&CONTACTS.map(|(series, _, law)| (series, law)))?;
-    let mut notes = Vec::new();
-    for normal in &impact::models() {
+    let of_law = |(_, law)| SCHEMES.iter().map(move |scheme| Feature::new(scheme.name, law).with(*scheme));
+    let features: Vec<Feature> = CONTACTS.into_iter().flat_map(of_law).collect();
+    let (timed, mut notes) = (times(&features)?, Vec::new());
+    for (normal, timed) in impact::models().iter().zip(timed.chunks(SCHEMES.len())) {
         let case = format!("impact, {}", normal.name);
-        let of_model =
-            || CONTACTS.iter().zip(&timed).filter(|((_, of, _), _)| *of == normal.name).map(|(_, timed)| timed);
-        for timed in of_model() {
-            let (scheme, cost) = (scheme_of(timed.name), 1e9 * timed.least / timed.contacts());
-            fill(table, &case, timed.name, &impact_errors(normal, scheme)?, cost);
+        for (scheme, timed) in SCHEMES.iter().zip(timed) {
+            let cost = 1e9 * timed.least / timed.contacts();
+            fill(table, &case, scheme.name, &impact_errors(normal, scheme)?, cost);
             if normal.name == "hertz" {
                 let points = oblique::largest_errors("history", OBLIQUE, scheme.run)?;
-                fill(table, "oblique impact", timed.name, &points, cost);
+                fill(table, "oblique impact", scheme.name, &points, cost);
             }
         }
-        // The first one is that of the default scheme, as the peers have it.
-        let Some(ours) = of_model().next() else { continue };
+        // The first scheme is that of the peers.
+        let ours = &timed[0];
         for peer in &PEERS {
             notes.push(match peer.step_time(normal.name, ours.stage.step())? {
                 Some(time) => {
@@ -128,13 +123,9 @@ fn peer_errors(peer: &Peer, model: &str) -> Result<Vec<[f64; 2]>, ChartError> {
 
 /// The cantilever with every kind of bond.
 fn cantilevers(table: &mut Table) -> Result<(), ChartError> {
-    let laws = BONDS.map(|(series, formulation, damping, scheme)| {
-        let viscous = if damping.is_empty() { "" } else { VISCOUS };
-        let word = if scheme.is_empty() { "" } else { "PREDICTED" };
-        (series, format!("BOND\nformulation = \"{formulation}\"\n{viscous}{word}"))
-    });
-    let timed = times(&laws.each_ref().map(|(series, text)| (*series, text.as_str())))?;
-    for ((series, formulation, damping, scheme), timed) in BONDS.into_iter().zip(&timed) {
+    let timed = times(&BONDS.map(|(_, feature)| feature))?;
+    for (([formulation, damping], feature), timed) in BONDS.into_iter().zip(&timed) {
+        let (series, scheme) = (feature.name, feature.scheme.map_or("", |scheme| scheme.run));
         let errors = deflection_errors([series, formulation, damping], scheme)?;
         let points: Vec<[f64; 2]> = errors.iter().map(|found| [found.steps, found.error]).collect();
         fill(table, "cantilever", series, &points, 1e9 * timed.least / timed.bonds());
@@ -162,11 +153,6 @@ fn draw() -> Result<Drawing, ChartError> {
     };
     let panels = CASES.into_iter().map(panel).collect();
     Ok(Drawing { table, picture: Picture { panels, columns: 2, ..Picture::default() }, notes })
-}
-
-/// The scheme of a series.
-fn scheme_of(series: &str) -> &'static Scheme {
-    SCHEMES.iter().find(|scheme| scheme.name == series).unwrap_or(&SCHEMES[0])
 }
 
 /// The points of a case, series by series in the order of the table: cost \[ns\] and error.

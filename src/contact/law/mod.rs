@@ -8,7 +8,7 @@ mod slopes;
 use super::pressing_force;
 use super::{
     Adhesion, Booked, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction,
-    Response, RollingStiffness, Scheme, Switches,
+    Response, RollingStiffness, Scheme, SchemeMemory, Switches, foresee_normal,
 };
 use crate::dual::{Dual, Slopes};
 use crate::number::{Number, Row, Vector};
@@ -18,7 +18,7 @@ pub use number::LawNumber;
 
 /// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
 /// the last evaluation, if the contact was then suppressed \[N\], and the overlap from which its normal force is taken \[m\].
-pub const OFFSET: HistoryRow = HistoryRow { name: "offset", odd: [true, true, true, false] };
+pub const OFFSET: HistoryRow = HistoryRow { name: "offset", odd: [true, true, true, false], fourth_is_free: false };
 
 /// How much of a contact is left where a bond suppresses it, or has suppressed it.
 #[cfg(test)]
@@ -43,18 +43,27 @@ pub struct HistoryPlaces {
     pub rolling: Option<usize>,
     /// The scheme's: velocities before.
     pub rates: Option<usize>,
+    /// Whose fourth number is the scheme's: the velocity along the normal before.
+    pub normal_velocity: Option<usize>,
+    /// Of records: [`SEEN`].
+    pub seen: Option<usize>,
     /// Of a book of losses: [`LOADS`].
     pub loads: Option<usize>,
     /// Of a book of losses: [`OTHER_LOADS`].
     pub other_loads: Option<usize>,
 }
 
+/// What records of contacts remember where dashpots see what cannot be found from the state: the velocity along the normal \[m/s\]
+/// and the weight of the dashpot across it.
+const SEEN: HistoryRow = HistoryRow { name: "dashpots seen", odd: [false; 4], fourth_is_free: false };
+
 /// What a book of losses remembers of a contact: k_t \[N/m\] and the force of both dashpots on the first body \[N\] in the last
 /// evaluation.
-const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, true, true, true] };
+const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, true, true, true], fourth_is_free: false };
 
 /// What it remembers where there is more: the normal force that is neither spring nor dashpot \[N\] and the rolling torque \[N m\].
-const OTHER_LOADS: HistoryRow = HistoryRow { name: "other loads before", odd: [false, true, true, true] };
+const OTHER_LOADS: HistoryRow =
+    HistoryRow { name: "other loads before", odd: [false, true, true, true], fourth_is_free: false };
 
 /// Where the coefficients of each sub-model begin in a row of a law's; those of the normal model and the switches stand
 /// first.
@@ -130,6 +139,25 @@ impl Law {
         self
     }
 
+    /// The same law, of whose contacts records show exactly what the last evaluation saw.
+    pub fn recorded(mut self) -> Self {
+        if self.history_places.normal_velocity.is_some() {
+            self.history_places.seen = Some(self.history.len());
+            self.history.push(SEEN);
+        }
+        self
+    }
+
+    /// Whether its losses are booked.
+    pub fn is_booked(&self) -> bool {
+        self.history_places.loads.is_some()
+    }
+
+    /// What the scene named.
+    pub fn choice(&self) -> &LawChoice {
+        &self.choice
+    }
+
     /// Whether part of the normal force is neither the spring nor the dashpot of a pressed contact.
     pub fn has_other_force(&self) -> bool {
         self.cohesion.active || !self.takes_offset()
@@ -152,6 +180,7 @@ impl Law {
             rolling: self.rolling.active,
             presses: self.takes_offset(),
             carries,
+            predicts_normal: self.history_places.normal_velocity.is_some(),
             least_force: self.normal.count,
         }
     }
@@ -160,20 +189,28 @@ impl Law {
     pub fn of(choice: &LawChoice) -> Self {
         let (normal, tangential) = (choice.normal.visit(Functions), choice.tangential.visit(Functions));
         let (rolling, cohesion) = (choice.rolling.visit(Functions), choice.cohesion.visit(Functions));
-        let mut history = Vec::new();
+        let mut history: Vec<HistoryRow> = Vec::new();
         let mut place = |row: Option<HistoryRow>| {
             row.map(|row| {
                 history.push(row);
                 history.len() - 1
             })
         };
-        let history_places = HistoryPlaces {
+        let mut history_places = HistoryPlaces {
             normal: place(normal.history),
             tangential: place(tangential.history),
             rolling: place(rolling.history),
-            rates: place(choice.scheme.history()),
             ..HistoryPlaces::default()
         };
+        match choice.scheme.memory() {
+            SchemeMemory::Nothing => {}
+            SchemeMemory::Row(row) => history_places.rates = place(Some(row)),
+            SchemeMemory::FourthNumber(row) => {
+                let free = history.iter().position(|row| row.fourth_is_free);
+                history_places.normal_velocity = Some(free.unwrap_or(history.len()));
+                history.extend(free.is_none().then_some(row));
+            }
+        }
         let after_normal = normal.count + Switches::COUNT;
         let places = CoefficientPlaces {
             tangential: after_normal,
@@ -317,13 +354,14 @@ impl Law {
         if self.undeformed_arms() {
             *contact = contact.with_undeformed_arms();
         }
-        let carry = self.carry(contact, history, step);
+        let (carry, weight) = self.carry(contact, history, step);
         let (acting, mut none) = (N::acting(self), [N::zero(); 4]);
         let remembered = match self.history_places.normal {
             Some(place) => &mut history[place],
             None => &mut none,
         };
         let mut normal = (acting.normal)(row, contact, remembered, step);
+        normal.response.tangential_damping = normal.response.tangential_damping * weight;
         if self.cohesion.active {
             (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
         }
@@ -344,10 +382,11 @@ impl Law {
         step: f64,
     ) -> Reaction {
         let mut contact = *contact;
-        let carry = self.carry(&mut contact, history, step);
+        let (carry, weight) = self.carry(&mut contact, history, step);
         let contact = &contact;
         let (response, switches) = ((self.normal.response)(row, contact), self.switches(row));
         let mut normal = pressing_force(response, switches, offset.pressing, contact.normal_velocity);
+        normal.response.tangential_damping *= weight;
         if self.cohesion.active {
             let row = &row[self.places.cohesion..];
             let pull = (self.cohesion.force)(row, contact) - (self.cohesion.force)(row, &offset.contact);
@@ -361,11 +400,20 @@ impl Law {
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// How a contact was carried, where the scheme asks for it; it gets the velocities that dashpots see.
+    /// How a contact was carried, where the scheme asks for it, and a weight of γ_t; it gets the velocities that dashpots see.
     #[inline(always)]
-    fn carry<N: Evaluated>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> Option<Carry<N>> {
+    fn carry<N: Evaluated>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> (Option<Carry<N>>, N) {
+        let one = N::splat(1.0);
+        if let Some(place) = self.history_places.normal_velocity {
+            let foreseen = foresee_normal(contact, history[place][3], self.normal.onset, step);
+            history[place][3] = foreseen.middle;
+            if let Some(place) = self.history_places.seen {
+                history[place] = [contact.normal_velocity, foreseen.weight, N::zero(), N::zero()];
+            }
+            return (None, foreseen.weight);
+        }
         if !self.scheme.carries() {
-            return None;
+            return (None, one);
         }
         let carry = Carry::of(contact, step, !self.holds_beyond_touch());
         let mut rates = [contact.normal_velocity, N::zero()];
@@ -375,7 +423,7 @@ impl Law {
             rates = [history[place][0], before];
         }
         carry.weigh(contact, self.normal.onset, step, rates);
-        Some(carry)
+        (Some(carry), one)
     }
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
@@ -481,8 +529,9 @@ impl Law {
         if !self.tangential.has_dashpot || !self.switches(row).damps_slip() {
             response.tangential_damping = 0.0;
         }
-        response.normal_damping *= self.scheme.damping_factor();
-        response.tangential_damping *= self.scheme.damping_factor();
+        let [normal, tangential] = self.scheme.damping_factors();
+        response.normal_damping *= normal;
+        response.tangential_damping *= tangential;
         response
     }
 }

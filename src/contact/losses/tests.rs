@@ -13,6 +13,7 @@ const BOOKED: Booked = Booked {
     rolling: true,
     presses: true,
     carries: false,
+    predicts_normal: false,
     least_force: 0,
 };
 

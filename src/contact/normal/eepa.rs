@@ -2,7 +2,7 @@
 
 use crate::contact::{
     Adhesion, Contact, FrictionNeeds, HistoryRow, MaterialPair, Missing, Needs, Normal, NormalForce, NormalForm,
-    Objection, Response, Roots, Switches, coefficients,
+    Objection, Onset, Response, Roots, Switches, coefficients,
 };
 use crate::number::{Number, Row};
 use serde::Deserialize;
@@ -110,6 +110,7 @@ pub struct Keys {
 impl Normal for Eepa {
     type Keys = Keys;
     type Form = Self;
+    const ONSET: Onset = Onset::Constant;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let (modulus, linear) = (pair.effective_youngs_modulus()?, keys.overlap_exponent == 1.0);
@@ -273,7 +274,8 @@ impl<N: Number> Eepa<N> {
 }
 
 impl NormalForm for Eepa {
-    const HISTORY: Option<HistoryRow> = Some(HistoryRow { name: "plastic overlap, overlap before", odd: [false; 4] });
+    const HISTORY: Option<HistoryRow> =
+        Some(HistoryRow { name: "plastic overlap, overlap before", odd: [false; 4], fourth_is_free: true });
     const NEEDS: Needs = Needs { bodies: true, ..Needs::NONE };
     const ADHESION: Adhesion = Adhesion::InTouch;
     const LIMITS_ITSELF: bool = true;
@@ -298,7 +300,7 @@ impl NormalForm for Eepa {
         switches: Switches<N>,
         contact: &Contact<N>,
         roots: Roots<N>,
-        [plastic, before, ..]: [N; 4],
+        [plastic, before, _, fourth]: [N; 4],
         _step: N,
     ) -> (NormalForce<N>, [N; 4]) {
         let mut response = Self::response_at(law, contact, roots);
@@ -314,7 +316,7 @@ impl NormalForm for Eepa {
         let force = branch.force - response.normal_damping * contact.normal_velocity - law.pull_off_force;
         let adheres = N::either(branch.adhesion.greater(N::zero()), law.pull_off_force.greater(N::zero()));
         let force = N::select(adheres, force, force.max(switches.least_force));
-        let history = [branch.plastic, contact.overlap, N::zero(), N::zero()];
+        let history = [branch.plastic, contact.overlap, N::zero(), fourth];
         (NormalForce { response, force, seen: force }, history)
     }
 

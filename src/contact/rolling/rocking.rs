@@ -6,7 +6,8 @@ use crate::quantity::Positive;
 use serde::Deserialize;
 
 /// What a rolling spring remembers: its torque.
-pub(super) const HISTORY: HistoryRow = HistoryRow { name: "rolling torque", odd: [true, true, true, false] };
+pub(super) const HISTORY: HistoryRow =
+    HistoryRow { name: "rolling torque", odd: [true, true, true, false], fourth_is_free: false };
 
 /// What of a contact it looks at.
 pub(super) const NEEDS: Needs = Needs { torque: true, spin: true, bodies: true, ..Needs::NONE };

@@ -37,7 +37,8 @@ coefficients! {
 impl Tangential for History {
     type Keys = NoKeys;
     const ACTIVE: bool = true;
-    const HISTORY: Option<HistoryRow> = Some(HistoryRow { name: "tangential spring", odd: [true, true, true, false] });
+    const HISTORY: Option<HistoryRow> =
+        Some(HistoryRow { name: "tangential spring", odd: [true, true, true, false], fourth_is_free: true });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
     const PROJECTS: bool = true;
@@ -69,7 +70,7 @@ impl Tangential for History {
         let damping = N::select(sliding, N::zero(), response.tangential_damping);
         let spring = spring * kept;
         let force = -(spring * response.tangential_stiffness) - contact.slip * damping;
-        Friction { force, history: spring.row_with(N::zero()), sliding }
+        Friction { force, history: spring.row_with(history[3]), sliding }
     }
 }
 

@@ -37,8 +37,11 @@ coefficients! {
 impl Tangential for Rescaled {
     type Keys = NoKeys;
     const ACTIVE: bool = true;
-    const HISTORY: Option<HistoryRow> =
-        Some(HistoryRow { name: "tangential spring, its stiffness before", odd: [true, true, true, false] });
+    const HISTORY: Option<HistoryRow> = Some(HistoryRow {
+        name: "tangential spring, its stiffness before",
+        odd: [true, true, true, false],
+        fourth_is_free: false,
+    });
     const HAS_SPRING: bool = true;
     const HAS_DASHPOT: bool = true;
     const KEEPS_STIFFNESS: bool = true;

@@ -128,7 +128,7 @@ impl AtSurface {
             conveying,
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
-            law: BatchLaw::booked_where(&choice.choice(), scene.output.losses),
+            law: BatchLaw::of(scene.law(law)),
         }
     }
 
@@ -164,7 +164,7 @@ impl AtSurface {
     /// Evaluates a piece of a list.
     fn run<B: Bodies<Sum = Load>>(&self, batches: &Batches<B>, entries: Range<usize>) -> Load {
         let Range { start, end } = entries;
-        if self.law.books() {
+        if self.law.law.is_booked() {
             let (load, lost) = batches.run_booked(start, end, 0..0);
             return Load { lost, ..load };
         }

@@ -87,7 +87,7 @@ impl AtSurface {
     ) {
         let (list, law, particles) = (self.list(state), &self.law.law, &state.particles);
         self.each(state, Motion::shown(law, step), |entry, foot, share, geometry| {
-            let (slot, contact) = (list.particle[entry], &geometry.contact);
+            let (slot, contact) = (list.particle[entry], &records::seen(law, geometry.contact, &list.history, entry));
             let (row, flags) = (self.row(state, slot), list.flags[entry]);
             let (reaction, sliding) = records::react(law, row, contact, &list.history, entry, flags);
             let along = contact.normal * reaction.force.dot(contact.normal);
