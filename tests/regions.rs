@@ -301,7 +301,7 @@ fn every_kind_of_law_balances() {
 #[test]
 fn every_scheme_balances_as_far_as_its_dashpots_are_told() {
     let with = |scheme: &str| imbalance(PLANES, &[["step = ", &format!("scheme = {scheme:?}\nstep = ")]]);
-    for scheme in ["engine", "midway"] {
+    for scheme in ["engine", "predicted_normal", "midway"] {
         let error = with(scheme);
         assert!(error < 1e-12, "{scheme}: {error:e}");
     }

@@ -1,7 +1,8 @@
 //! How much dashpots shorten the longest stable time step: measured on the engine, stated by the program, and in closed form.
 //!
 //! Velocity Verlet with dashpots that see the velocity of half a step ago is stable up to Δt = (2/ω)(√(1 + ζ²) − ζ) in a mode of
-//! frequency ω and damping ratio ζ. A sphere between two planes has three modes: across (2 k_n/m), along (2 k_t/m), and its spin
+//! frequency ω and damping ratio ζ; a dashpot that sees a velocity extrapolated to the end of the step counts twice. By default
+//! those along the normal of contacts do. A sphere between two planes has three modes: across (2 k_n/m), along (2 k_t/m), and its spin
 //! (5 k_t/m). Bonded spheres have many; the curve beside them is that of one mode alone.
 
 use super::border::border;
@@ -99,10 +100,13 @@ fn fill_contacts(table: &mut Table) -> Result<(), ChartError> {
             let [measured, stated] = border(&|run: &str| pressed(run, tangential, dashpot))?;
             add(&format!("{name}, measured"), ratio, measured);
             add(&format!("{name}, stated"), ratio, stated);
-            // Dashpots over mass or inertia, as the closed form has them: 2 ζ ω.
+            // Dashpots over mass or inertia, as the closed form has them: 2 ζ ω. That along the normal is predicted.
             let spin = dashpot / (0.4 * MASS * rates[2]);
-            let modes =
-                [of_mode(rates[0], ratio), of_mode(rates[1], dashpot / (MASS * rates[1])), of_mode(rates[2], spin)];
+            let modes = [
+                of_mode(rates[0], 2.0 * ratio),
+                of_mode(rates[1], dashpot / (MASS * rates[1])),
+                of_mode(rates[2], spin),
+            ];
             let shortest = if number == 0 { modes[0] } else { modes.into_iter().fold(f64::INFINITY, f64::min) };
             add(if number == 0 { THEORY[0] } else { THEORY[1] }, ratio, shortest);
         }

@@ -6,7 +6,7 @@
 
 use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
 use super::peers::{PEERS, Peer};
-use super::schemes::{DRAWN, SCHEMES, Scheme};
+use super::schemes::{ENGINE, PREDICTED_NORMAL, SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -99,11 +99,12 @@ pub(super) fn peer_error(peer: &Peer, model: &str, restitution: f64, steps: f64)
 
 /// Adds the points of a peer. Returns whether it is installed.
 fn fill_peer(table: &mut Table, normal: &Normal, peer: &Peer) -> Result<bool, ChartError> {
-    let series = format!("{}{ALL}", peer.name);
+    // Peers step as this scheme does.
+    let (law, series) = (ENGINE.named(normal.name), format!("{}{ALL}", peer.name));
     for restitution in RESTITUTIONS {
         for steps in PEER_STEPS {
             let Some(error) = peer_error(peer, normal.name, restitution, steps)? else { return Ok(false) };
-            table.push([normal.name.into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
+            table.push([law.clone().into(), series.clone().into(), restitution.into(), steps.into(), error.into()]);
         }
     }
     Ok(true)
@@ -117,6 +118,10 @@ pub(super) fn models() -> [Normal; 2] {
         Normal { name: "hooke", table: hooke, duration: hooke_duration() },
     ]
 }
+
+/// Schemes of which the picture has diagrams: the curves of `midway` lie on those of `engine`, those of `predicted` on those of
+/// `predicted_normal`; the table has them.
+const DRAWN: [Scheme; 2] = [ENGINE, PREDICTED_NORMAL];
 
 /// Computes the chart.
 fn draw() -> Result<Drawing, ChartError> {

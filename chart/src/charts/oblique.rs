@@ -5,7 +5,7 @@
 //! with [`CONVERGED`] time steps, over the speed of the impact and over the moments at which the contact begins.
 
 use super::drops::{RADIUS, Rebound, SPEED, Throw, hertz_duration};
-use super::schemes::{DRAWN, SCHEMES};
+use super::schemes::{ENGINE, PREDICTED, PREDICTED_NORMAL, SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -33,6 +33,9 @@ const DEFAULT: &str = "default step, all angles";
 
 /// A diagram: its name, the tangential model, restitution and friction.
 type Case = (&'static str, &'static str, [f64; 2]);
+
+/// Schemes of which the picture has diagrams: the curves of `midway` lie on the others; the table has them.
+const DRAWN: [Scheme; 3] = [ENGINE, PREDICTED_NORMAL, PREDICTED];
 
 /// The diagrams.
 const CASES: [Case; 4] = [

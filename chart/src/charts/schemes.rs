@@ -24,9 +24,6 @@ pub(super) const PREDICTED: Scheme = Scheme { name: "predicted", run: "scheme = 
 /// Those that are charted.
 pub(super) const SCHEMES: &[Scheme] = &[ENGINE, PREDICTED_NORMAL, MIDWAY, PREDICTED];
 
-/// Those of which pictures have diagrams: the curves of `midway` lie on those of `engine` or of `predicted`; tables have them.
-pub(super) const DRAWN: [Scheme; 3] = [ENGINE, PREDICTED_NORMAL, PREDICTED];
-
 impl Scheme {
     /// What a series or a diagram of this name is called with this scheme.
     pub(super) fn named(&self, name: &str) -> String {
