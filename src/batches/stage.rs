@@ -195,8 +195,7 @@ impl Stage<'_> {
     }
 
     /// Gives contacts the velocities along the normal that dashpots see, where the scheme predicts them; the weight of γ_t. What is
-    /// remembered is the fourth number of `history`, the tangential model's row, if there is one (`shared`), or that of
-    /// another row.
+    /// remembered is the fourth number of `history`, the tangential model's row, if it is `shared`, or that of another row.
     ///
     /// # Safety
     /// As for [`Stage::press`].

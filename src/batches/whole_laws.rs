@@ -99,6 +99,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
         let after_normal = A::COUNT + Switches::COUNT;
         let count = after_normal + B::COUNT + C::COUNT + D::COUNT;
         let mut coefficients = Gathered::<N>::of(stage, 0, count);
+        let shares_row = stage.history.normal_velocity == stage.history.tangential;
         let mut done = 0;
         if A::HAS_ROOTS {
             // SAFETY: there is room for a register behind the batch; so below.
@@ -110,7 +111,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
                 let row = coefficients.at(stage, done);
                 let mut contact = stage.contact(done, A::HAS_PAIR_CONSTANT);
                 let mut history = stage.tangential_history::<N, B>(done);
-                let weight = stage.foresee_normal(done, B::HISTORY.is_some(), &mut contact, &mut history);
+                let weight = stage.foresee_normal(done, shares_row, &mut contact, &mut history);
                 let mut roots = [N::zero(); 2];
                 if A::HAS_ROOTS {
                     stage.buffer.find_roots::<N, A>(done + N::WIDTH);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::contact::cohesion::{CohesionChoice, sjkr};
-use crate::contact::fixtures::{assert_close, contact, properties, with_pair};
+use crate::contact::fixtures::{assert_close, contact, every_law, properties, with_pair};
 use crate::contact::normal::{NormalChoice, hooke_stiffness};
 use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
@@ -124,4 +124,21 @@ fn stiffness_leaves_out_what_does_not_act() {
     let (dashpot, row) = law(whole(NO_HISTORY, Switches::of(false, true), false));
     let response = dashpot.stiffness(&row, &contact());
     assert_eq!([response.tangential_stiffness, response.tangential_damping], [0.0, 12.0]);
+}
+
+#[test]
+fn a_free_fourth_number_is_handed_on_and_holds_the_velocity_of_the_middle() {
+    let (mut shared, mut own) = (0, 0);
+    for choice in every_law().into_iter().filter(|choice| choice.scheme == Scheme::PredictedNormal) {
+        let (law, row) = law(choice);
+        let place = law.history_places().normal_velocity.expect("the scheme remembers it");
+        let of_sub_model = [law.history_places().normal, law.history_places().tangential].contains(&Some(place));
+        *(if of_sub_model { &mut shared } else { &mut own }) += 1;
+        let mut history = vec![[0.0; 4]; law.history().len()];
+        law.react(&row, &mut contact(), &mut history, 1e-3);
+        assert_eq!(history[place][3], contact().normal_velocity, "{choice:?}");
+        law.react(&row, &mut Contact { normal_velocity: -2.0, ..contact() }, &mut history, 0.0);
+        assert_eq!(history[place][3], contact().normal_velocity, "{choice:?}, no step");
+    }
+    assert!(shared > 10 && own > 10, "{shared} laws share a row, {own} have their own");
 }
