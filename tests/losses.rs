@@ -269,12 +269,14 @@ fn shaken(step: f64, scheme: &str, law: &str) -> Simulation {
 
 #[test]
 fn losses_are_the_energy_that_is_gone() {
-    for (law, part) in LAWS {
-        let simulation = shaken(4e-6 * part, "engine", law);
+    for ((law, part), scheme) in
+        LAWS.into_iter().flat_map(|law| ["engine", "predicted_normal"].map(|scheme| (law, scheme)))
+    {
+        let simulation = shaken(4e-6 * part, scheme, law);
         let (residual, sum) = (simulation.physical_residual().expect("a book"), sum(&simulation));
 
-        assert!(sum > 1e-3, "{law}: {sum:e} J");
-        assert!(residual.abs() < 1e-3 * sum, "{law}: {residual:e} J of {sum:e} J");
+        assert!(sum > 1e-3, "{law}, {scheme}: {sum:e} J");
+        assert!(residual.abs() < 1e-3 * sum, "{law}, {scheme}: {residual:e} J of {sum:e} J");
     }
 }
 
@@ -294,14 +296,16 @@ fn what_losses_leave_unaccounted_is_of_the_second_order_where_springs_are_carrie
 
 #[test]
 fn booking_changes_no_bit_of_the_motion() {
-    for (law, part) in LAWS {
+    for ((law, part), scheme) in
+        LAWS.into_iter().flat_map(|law| ["engine", "predicted_normal"].map(|scheme| (law, scheme)))
+    {
         let rows = |output: &str| {
-            let mut simulation = grains(4e-6 * part, "engine", law, output);
+            let mut simulation = grains(4e-6 * part, scheme, law, output);
             simulation.advance(4e-3).expect("it runs");
             let particles = &simulation.state().particles;
             (particles.position.clone(), particles.velocity.clone(), particles.angular_velocity.clone())
         };
-        assert!(rows("losses = true") == rows(""), "{law}");
+        assert!(rows("losses = true") == rows(""), "{law}, {scheme}");
     }
 }
 
@@ -309,8 +313,8 @@ fn booking_changes_no_bit_of_the_motion() {
 fn what_is_lost_has_the_same_bits_in_every_lane_width_and_after_restoring() {
     use cograin::lanes::Width;
     let law = LAWS[7].0;
-    let of = |width: Width, halfway: bool| {
-        let mut simulation = grains(4e-6, "predicted", law, "losses = true");
+    let of = |scheme: &str, width: Width, halfway: bool| {
+        let mut simulation = grains(4e-6, scheme, law, "losses = true");
         simulation.set_width(width);
         simulation.advance(4e-3).expect("it runs");
         if halfway {
@@ -321,9 +325,11 @@ fn what_is_lost_has_the_same_bits_in_every_lane_width_and_after_restoring() {
         simulation.advance(4e-3).expect("it runs");
         simulation.losses().expect("a book").map(f64::to_bits)
     };
-    let first = of(Width::Least, false);
-    assert_eq!(of(Width::widest(), false), first);
-    assert_eq!(of(Width::widest(), true), first);
+    for scheme in ["predicted_normal", "predicted"] {
+        let first = of(scheme, Width::Least, false);
+        assert_eq!(of(scheme, Width::widest(), false), first, "{scheme}");
+        assert_eq!(of(scheme, Width::widest(), true), first, "{scheme}");
+    }
 }
 
 #[test]
