@@ -55,7 +55,7 @@ def load(figure, axes, plate, bed):
     x, y = (1e3 * plate.places[:, axis] for axis in (0, 1))
     shown = axes.tricontourf(x, y, plate.triangles, -1e6 * plate.deflections, 12, cmap="Blues")
     force = -1e3 * bed.forces
-    axes.scatter(*(1e3 * bed.points[:, :2].T), s=0.8 * force, color=FORCE, alpha=0.8, linewidth=0)
+    axes.scatter(*(1e3 * bed.points[:, :2].T), s=0.8 * np.maximum(force, 0.0), color=FORCE, alpha=0.8, linewidth=0)
     axes.set(aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
     axes.set_title(f"forces of {len(force)} grains: area, largest {force.max():.0f} mN", loc="left", fontsize=10)
     figure.colorbar(shown, ax=axes, label="deflection, downwards [µm]")

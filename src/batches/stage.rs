@@ -223,7 +223,7 @@ impl Stage<'_> {
             } else {
                 self.remember(true, own, row, entries);
             }
-            self.remember(true, seen, [contact.normal_velocity, weight, N::zero(), N::zero()], entries);
+            self.remember(true, seen, [contact.normal_velocity, weight, N::splat(1.0), N::zero()], entries);
             weight
         }
     }

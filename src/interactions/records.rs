@@ -131,7 +131,8 @@ pub(crate) fn history(lists: &[Vec<Row>], entry: usize) -> [Row; MOST_HISTORY] {
 /// A contact in the motion that the records of its law show, as its dashpots saw it, if that is remembered.
 pub(crate) fn seen(law: &Law, mut contact: Contact, lists: &[Vec<Row>], entry: usize) -> Contact {
     let remembered = law.history_places().seen.and_then(|place| lists.get(place)?.get(entry));
-    if let Some([velocity, weight, ..]) = remembered {
+    // Where records were not asked for until now, nothing is remembered yet.
+    if let Some([velocity, weight, 1.0, _]) = remembered {
         contact.normal_velocity = *velocity;
         // Springs do not grow in records: here slip is what the dashpot sees.
         contact.slip = contact.slip * *weight;

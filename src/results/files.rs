@@ -140,7 +140,7 @@ impl Checkpoint {
         let state = State::from_bytes(&self.bytes, self.scene.fingerprint)
             .map_err(|source| ResumeError::Snapshot { path: self.path.clone(), source })?;
         if self.scene.goes_on_as(scene) {
-            let simulation = Simulation::resume(Arc::clone(scene), state)
+            let simulation = Simulation::going_on(Arc::clone(scene), state, &self.scene)
                 .map_err(|fault| ResumeError::Snapshot { path: self.path.clone(), source: fault.into() })?;
             return Ok(TakenOver { simulation, left_behind: Vec::new(), goes_on: true });
         }

@@ -103,12 +103,34 @@ fn a_later_end_goes_on_bit_for_bit() {
     for name in ["particles_000002.vtu", "particles_000004.vtu"] {
         assert!(later[name] == all[name], "{name} differs");
     }
-    // Beside the description, which names the scene, the states are the same.
-    let state = |bytes: &[u8]| {
-        let start = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(1).unwrap().0;
-        bytes[start + 1..].to_vec()
-    };
     assert!(state(&later["checkpoint.cograin"]) == state(&all["checkpoint.cograin"]), "the last states differ");
+}
+
+/// The state in a checkpoint, without the description, which names the scene.
+fn state(bytes: &[u8]) -> Vec<u8> {
+    let start = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(1).unwrap().0;
+    bytes[start + 1..].to_vec()
+}
+
+#[test]
+fn outputs_that_begin_or_end_with_a_later_end_change_no_bit_of_the_motion() {
+    let place = Place::new("other_outputs");
+    let [short, long] =
+        [("short", "0.02"), ("long", "0.04")].map(|(name, end)| stage(&place, name, end, ["", ""], "0.4"));
+    let run = |name: &str, scene: &Path, before: Option<&Path>, contacts: bool| {
+        let out = place.at(name);
+        let contacts = ["--set".to_owned(), format!("output.contacts={contacts}")];
+        complaint(&cograin(&[&"run", &scene]).args(begin(&out, before)).args(contacts).output().unwrap(), 0);
+        out
+    };
+    let whole = run("whole", &long, None, false);
+    let begun = run("begun", &short, None, false);
+    let shown = run("shown", &long, Some(&begun), true);
+    let rows = |folder: &Path| fs::read_to_string(folder.join("history.csv")).unwrap();
+    assert!(rows(&whole).ends_with(rows(&shown).split_once('\n').unwrap().1), "the rows with contacts differ");
+    let ended = run("ended", &long, Some(&run("before", &short, None, true)), false);
+    let [ended, whole] = [&ended, &whole].map(|folder| results(folder));
+    assert!(state(&ended["checkpoint.cograin"]) == state(&whole["checkpoint.cograin"]), "the last states differ");
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub struct HistoryPlaces {
 }
 
 /// What records of contacts remember where dashpots see what cannot be found from the state: the velocity along the normal \[m/s\]
-/// and the weight of the dashpot across it.
+/// the weight of the dashpot across it, and 1.
 const SEEN: HistoryRow = HistoryRow { name: "dashpots seen", odd: [false; 4], fourth_is_free: false };
 
 /// What a book of losses remembers of a contact: k_t \[N/m\] and the force of both dashpots on the first body \[N\] in the last
@@ -408,7 +408,7 @@ impl Law {
             let foreseen = foresee_normal(contact, history[place][3], self.normal.onset, step);
             history[place][3] = foreseen.middle;
             if let Some(place) = self.history_places.seen {
-                history[place] = [contact.normal_velocity, foreseen.weight, N::zero(), N::zero()];
+                history[place] = [contact.normal_velocity, foreseen.weight, one, N::zero()];
             }
             return (None, foreseen.weight);
         }

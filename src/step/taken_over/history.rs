@@ -40,6 +40,28 @@ impl Memories {
     }
 }
 
+/// Gives the contacts of a state the rows that the outputs of this scene ask for, and takes away those that only the outputs of its
+/// own scene, which differs from this one in nothing else, asked for.
+pub(super) fn fit_outputs(scene: &Scene, state: &mut State, from: &Description) {
+    for (law, (_, there)) in from.contacts().iter().enumerate().take(scene.contacts.len()) {
+        let here = scene.kept_rows(law);
+        let fit = |history: &mut Vec<Vec<Row>>, count: usize| {
+            if history.len() == there.len() {
+                let mut old = std::mem::take(history);
+                let place = |row: &HistoryRow| there.iter().position(|name| name == row.name);
+                let kept = |row| place(row).map(|place| std::mem::take(&mut old[place]));
+                history.extend(here.iter().map(kept).map(|rows| rows.unwrap_or_else(|| vec![Row::default(); count])));
+            }
+        };
+        if let Some(list) = state.contacts.get_mut(law) {
+            fit(&mut list.history, list.first.len());
+        }
+        for list in state.walls.iter_mut().filter(|list| list.law as usize == law) {
+            fit(&mut list.history, list.particle.len());
+        }
+    }
+}
+
 /// Adds what is remembered of a contact to the lists of a law, a list for each row.
 fn push(history: &mut Vec<Vec<Row>>, rows: Vec<Row>) {
     history.resize(rows.len(), Vec::new());

@@ -10,7 +10,7 @@ mod history;
 
 pub use description::Description;
 
-use super::{RunError, Simulation, assemble};
+use super::{RunError, Simulation, StateFault, assemble};
 use crate::bond::creation::Moment;
 use crate::boundaries::{nodes, placing, rigid_body};
 use crate::geometry::Quaternion;
@@ -41,6 +41,13 @@ impl Numbers {
 }
 
 impl Simulation {
+    /// The scene in a state that was reached by one which differs from it in its end and its outputs at most
+    /// ([`Description::goes_on_as`]).
+    pub fn going_on(scene: Arc<Scene>, mut state: State, from: &Description) -> Result<Self, StateFault> {
+        history::fit_outputs(&scene, &mut state, from);
+        Self::resume(scene, state)
+    }
+
     /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
     /// outside has been checked by [`Description::check`].
     pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
