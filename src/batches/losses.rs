@@ -51,7 +51,7 @@ impl Kernel for KeepBefore<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
-        let Booked { spring, carries, predicts_normal, .. } = *stage.booked;
+        let Booked { spring, carries, predicts_normal_alone, .. } = *stage.booked;
         let half = N::splat(0.5 * stage.step);
         let mut done = 0;
         while done < stage.buffer.ready {
@@ -61,7 +61,7 @@ impl Kernel for KeepBefore<'_, '_> {
                 let entries = stage.buffer.entry.as_ptr().add(done);
                 let row = stage.remembered(spring, stage.history.tangential, entries);
                 let mut velocity = N::zero();
-                if predicts_normal {
+                if predicts_normal_alone {
                     let contact: Contact<N> = stage.contact(done, false);
                     velocity = contact.normal_velocity;
                 } else if carries {

@@ -53,7 +53,7 @@ pub struct Booked {
     /// Whether springs are carried at mid-step.
     pub carries: bool,
     /// Whether dashpots along the normal, and nothing else, see another velocity than that of mid-step.
-    pub predicts_normal: bool,
+    pub predicts_normal_alone: bool,
     /// Where the least normal force stands among the coefficients.
     pub least_force: usize,
 }
@@ -66,7 +66,7 @@ impl Booked {
 
     /// Whether bodies move otherwise than dashpots see.
     pub fn moves_otherwise(&self) -> bool {
-        self.carries || self.predicts_normal
+        self.carries || self.predicts_normal_alone
     }
 }
 

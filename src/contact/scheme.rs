@@ -20,8 +20,8 @@ pub enum Scheme {
     /// As in the documents and in the engines: springs grow by the slip at the end of the step, dashpots see the velocities of
     /// its middle. First order.
     Engine,
-    /// As in `engine`, but dashpots along the normal see the velocity extrapolated to the end of the step: impacts along the
-    /// normal are of second order.
+    /// As in `engine`, but dashpots along the normal see the velocity extrapolated to the end of the step, and dashpots count for
+    /// the part of the step in which the bodies touch: impacts along the normal are of second order.
     #[default]
     PredictedNormal,
     /// Springs are turned and stretched at mid-step, by the part of it in which the bodies touched: second order without

@@ -53,7 +53,7 @@ pub struct HistoryPlaces {
     pub other_loads: Option<usize>,
 }
 
-/// What records of contacts remember where dashpots see what cannot be found from the state: the velocity along the normal \[m/s\]
+/// What records of contacts remember where dashpots see what cannot be found from the state: the velocity along the normal \[m/s\],
 /// the weight of the dashpot across it, and 1.
 const SEEN: HistoryRow = HistoryRow { name: "dashpots seen", odd: [false; 4], fourth_is_free: false };
 
@@ -180,7 +180,7 @@ impl Law {
             rolling: self.rolling.active,
             presses: self.takes_offset(),
             carries,
-            predicts_normal: self.history_places.normal_velocity.is_some(),
+            predicts_normal_alone: self.history_places.normal_velocity.is_some(),
             least_force: self.normal.count,
         }
     }

@@ -13,7 +13,7 @@ const BOOKED: Booked = Booked {
     rolling: true,
     presses: true,
     carries: false,
-    predicts_normal: false,
+    predicts_normal_alone: false,
     least_force: 0,
 };
 

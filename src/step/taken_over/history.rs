@@ -14,6 +14,8 @@ pub(super) struct Memories {
     here: Vec<Vec<HistoryRow>>,
     /// Of each law here and each of the other scene: which row of the latter each of its rows is.
     rows: Vec<Vec<Vec<Option<usize>>>>,
+    /// Of each law here: in which of its rows a scheme uses the free fourth number.
+    numbers: Vec<Option<usize>>,
 }
 
 impl Memories {
@@ -25,16 +27,21 @@ impl Memories {
             let laws = from.contacts().iter();
             laws.map(|(_, there)| rows.iter().map(|row| find(row, there)).collect()).collect()
         };
-        Self { rows: here.iter().map(|rows| all(rows)).collect(), here }
+        let numbers = (0..scene.contacts.len()).map(|law| scene.law(law).history_places().normal_velocity).collect();
+        Self { rows: here.iter().map(|rows| all(rows)).collect(), here, numbers }
     }
 
     /// What a law here remembers of a contact of a law there; as the other body sees it, if they have changed places.
     fn taken(&self, here: usize, there: usize, swapped: bool, old: impl Fn(usize) -> Row) -> Vec<Row> {
-        let rows = self.here[here].iter().zip(&self.rows[here][there]);
-        rows.map(|(kept, place)| match place {
-            Some(place) if swapped => kept.reversed(old(*place)),
-            Some(place) => old(*place),
-            None => Row::default(),
+        let rows = self.here[here].iter().zip(&self.rows[here][there]).enumerate();
+        rows.map(|(number, (kept, place))| {
+            let Some(place) = place else { return Row::default() };
+            let mut row = if swapped { kept.reversed(old(*place)) } else { old(*place) };
+            // What another scheme left there would be older at each step.
+            if kept.fourth_is_free && self.numbers[here] != Some(number) {
+                row[3] = 0.0;
+            }
+            row
         })
         .collect()
     }
@@ -218,5 +225,22 @@ impl Simulation {
                 list.first.iter().chain(&list.second).map(|&slot| particles.id[slot as usize]).collect();
             particles.count_bond(bodies);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_free_fourth_number_is_taken_only_where_the_scheme_uses_it() {
+        let spring = HistoryRow { name: "spring", odd: [true, true, true, false], fourth_is_free: true };
+        let taken = |number: Option<usize>| {
+            let memories =
+                Memories { here: vec![vec![spring]], rows: vec![vec![vec![Some(0)]]], numbers: vec![number] };
+            memories.taken(0, 0, true, |_| [1.0, 2.0, 3.0, 4.0])
+        };
+        assert_eq!(taken(Some(0)), [[-1.0, -2.0, -3.0, 4.0]]);
+        assert_eq!(taken(None), [[-1.0, -2.0, -3.0, 0.0]]);
     }
 }
