@@ -4,7 +4,7 @@
 //! them the exact derivatives of what was computed. Decisions are made by values: which branch is taken does not change.
 //!
 //! Where one input is followed, a register holds the same number of several contacts or bonds, and another one their slopes.
-//! Where eight are followed, a register holds the eight slopes of one number of a single contact or bond.
+//! Where more are followed together, a register holds the slopes of one number of a single contact or bond by all of them.
 
 mod slopes;
 

@@ -3,8 +3,8 @@
 use super::{FileFault, POSSIBLE, Request, Rows, needed};
 use crate::document::Mistake;
 use crate::vtk_reader;
-use vtkio::model::{Attribute, DataArray, DataSet, Piece};
-use vtkio::{IOBuffer, Vtk};
+use cograin_vtk::IOBuffer;
+use cograin_vtk::model::{Attribute, DataArray, DataSet, Piece, Vtk};
 
 /// Reads a `.vtu` file.
 pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {

@@ -8,11 +8,13 @@ use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::tangent::{EightInputs, FollowPass, OneInput};
+use crate::tangent::{EightInputs, FollowPass, FourInputs, OneInput};
 use crate::threads::Context;
 
 /// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: FollowPass<OneInput> + FollowPass<EightInputs> + Send + Sync {
+pub(crate) trait Pass:
+    FollowPass<OneInput> + FollowPass<FourInputs> + FollowPass<EightInputs> + Send + Sync
+{
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;

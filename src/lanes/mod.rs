@@ -3,7 +3,6 @@
 //! The width is chosen once, when a simulation is made, from what the processor offers. Every width gives
 //! the same bits: operations are exactly rounded and never fused, and results are added in the same order.
 
-mod eightfold;
 mod one;
 mod shared;
 mod table;
@@ -12,11 +11,19 @@ mod x86;
 
 use crate::number::Row;
 use crate::number::{Number, Vector};
+use std::marker::PhantomData;
 
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Eight, Four, Two};
 
-pub use eightfold::{Eightfold, add_eight, load_eight, store_eight};
+/// Registers that only other processors have.
+#[cfg(not(target_arch = "x86_64"))]
+pub type Four = f64;
+
+/// Registers that only other processors have.
+#[cfg(not(target_arch = "x86_64"))]
+pub type Eight = f64;
+
 pub use shared::Shared;
 pub use table::{Places, Table, columns_at, columns_from, lanes_of, rows_from, rows_of, vectors_of};
 
@@ -24,9 +31,6 @@ pub use table::{Places, Table, columns_at, columns_from, lanes_of, rows_from, ro
 pub trait Lane: Number {
     /// Numbers side by side.
     const WIDTH: usize;
-
-    /// Eight numbers in registers of this kind.
-    type Eight: Eightfold<Self>;
 
     /// Does something with the features of the processor that these registers come from.
     fn within<W: Work>(work: W) -> W::Output;
@@ -123,6 +127,22 @@ pub trait Lane: Number {
     }
 }
 
+/// Reads as many numbers as a register holds.
+#[inline(always)]
+pub fn load_all<N: Lane, const COUNT: usize>(numbers: &[f64; COUNT]) -> N {
+    const { assert!(COUNT == N::WIDTH) };
+    // SAFETY: there are as many.
+    unsafe { N::load(numbers.as_ptr()) }
+}
+
+/// Writes all numbers of a register.
+#[inline(always)]
+pub fn store_all<N: Lane, const COUNT: usize>(numbers: &mut [f64; COUNT], register: N) {
+    const { assert!(COUNT == N::WIDTH) };
+    // SAFETY: as above.
+    unsafe { register.store(numbers.as_mut_ptr()) };
+}
+
 /// The first three of four columns as a vector.
 #[inline(always)]
 pub fn vector<N: Number>([x, y, z, _]: [N; 4]) -> Vector<N> {
@@ -179,6 +199,15 @@ impl Width {
         Self::ALL.into_iter().rev().find(|width| width.offered()).unwrap_or(Self::Least)
     }
 
+    /// How many numbers a register has at least.
+    fn numbers(self) -> usize {
+        match self {
+            Self::Least => 1,
+            Self::Four => 4,
+            Self::Eight => 8,
+        }
+    }
+
     /// Whether this processor offers it.
     pub fn offered(self) -> bool {
         match self {
@@ -230,8 +259,26 @@ pub fn run_seldom<K: Kernel>(width: Width, kernel: K) {
     }
 }
 
+/// Runs a kernel in registers of one kind, for work that is done in another way in others.
+pub fn run_in<N: Lane, K: Kernel>(width: Width, kernel: K) {
+    /// The kernel in these registers.
+    struct In<N, K>(K, PhantomData<N>);
+
+    impl<N: Lane, K: Kernel> Work for In<N, K> {
+        type Output = ();
+        #[inline(always)]
+        fn run(self) {
+            self.0.run::<N>();
+        }
+    }
+
+    // A processor that offers wide registers offers narrower ones.
+    assert!(N::WIDTH <= width.numbers(), "{width:?} has no registers of {} numbers", N::WIDTH);
+    N::within(In::<N, K>(kernel, PhantomData));
+}
+
 /// Runs a kernel in registers of four or eight numbers, for work that is done in another way in narrower ones.
-pub fn run_wide<K: Kernel>(width: Width, kernel: K) {
+fn run_wide<K: Kernel>(width: Width, kernel: K) {
     debug_assert!(width.offered(), "{width:?} is not offered by this processor");
     match width {
         // SAFETY: `Width::widest` and `Simulation::set_width` choose only what the processor offers.

@@ -6,8 +6,6 @@ use crate::number::Row;
 impl Lane for f64 {
     const WIDTH: usize = 1;
 
-    type Eight = [Self; 8];
-
     #[inline(always)]
     fn within<W: Work>(work: W) -> W::Output {
         work.run()

@@ -1,9 +1,9 @@
 //! Points, and lines and facets between them, as `.vtu` files, which meshio and VTK read back bit for bit.
 //!
-//! The only place that knows `vtkio`. Files are binary, inline and uncompressed: random mantissas hardly
+//! Files are binary, inline and uncompressed: random mantissas hardly
 //! compress, and compressing costs many times the writing.
 
-use vtkio::model::{
+use cograin_vtk::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, IOBuffer, UnstructuredGridPiece, Version,
     VertexNumbers, Vtk,
 };
@@ -77,8 +77,7 @@ impl Cloud {
             file_path: None,
             data: DataSet::inline(piece),
         };
-        let mut bytes = Vec::new();
-        file.write_xml(&mut bytes).map_err(|error| EncodeError(error.to_string()))?;
+        let bytes = cograin_vtk::write(file).map_err(|error| EncodeError(error.to_string()))?;
         if count == 0 { name_no_points(bytes) } else { Ok(bytes) }
     }
 }

@@ -15,10 +15,10 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::State;
-use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, Inputs, OneInput, PASSING, Tangent};
+use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, FourInputs, Inputs, OneInput, PASSING, Tangent};
 
-/// Up to so many inputs are followed one by one. More are followed together, which costs as much as three to five of them.
-const FEW: usize = 3;
+/// Up to so many inputs cost less one by one than together.
+const FEW: usize = 2;
 
 /// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,15 +70,7 @@ impl Simulation {
         let length = self.return_to_last();
         let mut found = Err(NoDerivative::NoStep);
         if let Some(length) = length {
-            self.followed = inputs
-                .chunks(EightInputs::COUNT)
-                .flat_map(|inputs| match inputs.len() {
-                    count if count <= FEW || self.width == Width::Least => {
-                        inputs.iter().map(|input| self.follow::<OneInput>(&[*input], length)).collect()
-                    }
-                    _ => vec![self.follow::<EightInputs>(inputs, length)],
-                })
-                .collect();
+            self.followed = self.follow_all(inputs, length);
             self.advance(length).expect("a communication step that was made before can be made again");
             let followed = std::mem::take(&mut self.followed);
             found = Ok(followed.iter().flat_map(|followed| followed.told(length)).take(inputs.len()).collect());
@@ -86,6 +78,23 @@ impl Simulation {
         self.state.boundaries.iter_mut().zip(given).for_each(|(boundary, given)| given.give_to(boundary));
         self.stop = stop;
         found
+    }
+
+    /// What follows these inputs through a communication step of this length \[s\] that begins now: as many of them together as
+    /// registers hold, where that costs less than one after another.
+    fn follow_all(&self, mut inputs: &[(BoundaryIndex, usize)], length: f64) -> Vec<Box<dyn Followed>> {
+        let mut followed = Vec::new();
+        while !inputs.is_empty() {
+            let (count, follow): (usize, fn(&Self, &[_], f64) -> _) = match (self.width, inputs.len()) {
+                (Width::Least, _) | (_, ..=FEW) => (1, Self::follow::<OneInput>),
+                (Width::Eight, count) if count > FourInputs::COUNT => (EightInputs::COUNT, Self::follow::<EightInputs>),
+                _ => (FourInputs::COUNT, Self::follow::<FourInputs>),
+            };
+            let (these, others) = inputs.split_at(count.min(inputs.len()));
+            followed.push(follow(self, these, length));
+            inputs = others;
+        }
+        followed
     }
 
     /// What follows some inputs, at most [`Inputs::COUNT`], through a communication step of this length \[s\] that begins now.

@@ -1,15 +1,16 @@
 //! How many inputs are followed together, and how the slopes by them stand in memory and in registers.
 
 use crate::dual::{Dual, SideBySide, Slopes};
-use crate::lanes::{self, Kernel, Lane, Places, Width, columns_at, rows_of};
+use crate::lanes::{self, Eight, Four, Kernel, Lane, Places, Width, columns_at, rows_of};
 use crate::number::{Number, Row, Vector, add, subtract};
+use std::marker::PhantomData;
 use std::ops::IndexMut;
 
 /// Some inputs that are followed together.
 ///
-/// With one input, a register holds the same number of several contacts or bonds, and another one their slopes. With eight, a
-/// register holds the eight slopes of one number of a single contact or bond. What is the same for both is written over the
-/// numbers [`InLanes`].
+/// With one input, a register holds the same number of several contacts or bonds, and another one their slopes. With more, a
+/// register holds the slopes of one number of a single contact or bond by all of them. What is the same for both is written over
+/// the numbers [`InLanes`].
 pub(crate) trait Inputs: Send + Sync + 'static {
     /// How many there are.
     const COUNT: usize;
@@ -194,35 +195,46 @@ impl Inputs for OneInput {
     }
 }
 
-/// Eight inputs, in registers of four or eight numbers: in narrower ones inputs are followed one by one, so that less is compiled.
-pub(crate) struct EightInputs;
+/// As many inputs as a register `R` has numbers: this many.
+pub(crate) struct Together<R, const COUNT: usize>(PhantomData<R>);
 
-impl Inputs for EightInputs {
-    const COUNT: usize = 8;
-    type Each = [f64; 8];
-    type Row = [[f64; 8]; 4];
-    const NONE: Self::Row = [[0.0; 8]; 4];
+/// Four inputs, where registers have four numbers or more.
+pub(crate) type FourInputs = Together<Four, { Four::WIDTH }>;
+
+/// Eight inputs, where registers have eight numbers.
+pub(crate) type EightInputs = Together<Eight, { Eight::WIDTH }>;
+
+/// The slopes of a row's numbers, in whole cache lines: registers of eight numbers that lie across two take twice as long to read.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub(crate) struct Aligned<const COUNT: usize>([[f64; COUNT]; 4]);
+
+impl<R: Lane, const COUNT: usize> Inputs for Together<R, COUNT> {
+    const COUNT: usize = COUNT;
+    type Each = [f64; COUNT];
+    type Row = Aligned<COUNT>;
+    const NONE: Self::Row = Aligned([[0.0; COUNT]; 4]);
     type Values<N: Lane> = f64;
-    type Slopes<N: Lane> = SideBySide<N>;
+    type Slopes<N: Lane> = SideBySide<R>;
 
     fn run<K: Kernel>(width: Width, kernel: K) {
-        lanes::run_wide(width, kernel);
+        lanes::run_in::<R, K>(width, kernel);
     }
 
     #[inline(always)]
-    fn rows_at<N: Lane>(rows: &[Self::Row], places: &Places) -> [SideBySide<N>; 4] {
-        let [x, y, z, w] = &rows[places.at(0)];
+    fn rows_at<N: Lane>(rows: &[Self::Row], places: &Places) -> [SideBySide<R>; 4] {
+        let [x, y, z, w] = &rows[places.at(0)].0;
         [SideBySide::new(x), SideBySide::new(y), SideBySide::new(z), SideBySide::new(w)]
     }
 
     #[inline(always)]
-    fn spread<N: Lane>(each: [f64; 8]) -> SideBySide<N> {
+    fn spread<N: Lane>(each: [f64; COUNT]) -> SideBySide<R> {
         SideBySide::new(&each)
     }
 
     #[inline(always)]
-    fn put<N: Lane>([x, y, z, w]: [SideBySide<N>; 4], rows: &mut [Self::Row], places: &[u32]) {
-        let [a, b, c, d] = &mut rows[places[0] as usize];
+    fn put<N: Lane>([x, y, z, w]: [SideBySide<R>; 4], rows: &mut [Self::Row], places: &[u32]) {
+        let [a, b, c, d] = &mut rows[places[0] as usize].0;
         x.put(a);
         y.put(b);
         z.put(c);
@@ -230,27 +242,27 @@ impl Inputs for EightInputs {
     }
 
     #[inline(always)]
-    fn add<N: Lane>([x, y, z]: [SideBySide<N>; 3], rows: &mut [Self::Row], places: &[u32]) {
-        let [a, b, c, _] = &mut rows[places[0] as usize];
+    fn add<N: Lane>([x, y, z]: [SideBySide<R>; 3], rows: &mut [Self::Row], places: &[u32]) {
+        let [a, b, c, _] = &mut rows[places[0] as usize].0;
         x.add_to(a);
         y.add_to(b);
         z.add_to(c);
     }
 
     #[inline(always)]
-    fn add_pairs<N: Lane>([first, second]: [[SideBySide<N>; 3]; 2], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
+    fn add_pairs<N: Lane>([first, second]: [[SideBySide<R>; 3]; 2], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
         Self::add::<N>(first, rows, i);
         Self::add::<N>(second, rows, j);
     }
 
     #[inline(always)]
-    fn add_opposite<N: Lane>([x, y, z]: [SideBySide<N>; 3], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
+    fn add_opposite<N: Lane>([x, y, z]: [SideBySide<R>; 3], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
         Self::add::<N>([x, y, z], rows, i);
         Self::add::<N>([x.times(-1.0), y.times(-1.0), z.times(-1.0)], rows, j);
     }
 
     #[inline(always)]
-    fn sum<N: Lane>([x, y, z]: [SideBySide<N>; 3], sums: &mut [[f64; 8]; 3], _count: usize) {
+    fn sum<N: Lane>([x, y, z]: [SideBySide<R>; 3], sums: &mut [[f64; COUNT]; 3], _count: usize) {
         let [a, b, c] = sums;
         x.add_to(a);
         y.add_to(b);
@@ -259,16 +271,16 @@ impl Inputs for EightInputs {
 
     #[inline(always)]
     fn add_times(sums: &mut Self::Row, parts: &Self::Row, factor: f64) {
-        for (sum, part) in sums[..3].as_flattened_mut().iter_mut().zip(parts[..3].as_flattened()) {
+        for (sum, part) in sums.0[..3].as_flattened_mut().iter_mut().zip(parts.0[..3].as_flattened()) {
             *sum += factor * part;
         }
     }
 
-    fn each(row: &Self::Row, place: usize) -> [f64; 8] {
-        row[place]
+    fn each(row: &Self::Row, place: usize) -> [f64; COUNT] {
+        row.0[place]
     }
 
-    fn row(each: [[f64; 8]; 4]) -> Self::Row {
-        each
+    fn row(each: [[f64; COUNT]; 4]) -> Self::Row {
+        Aligned(each)
     }
 }

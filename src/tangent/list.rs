@@ -62,7 +62,7 @@ fn reversed<I: Inputs>(row: &I::Row, odd: &[bool; 4]) -> I::Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tangent::{EightInputs, OneInput};
+    use crate::tangent::{EightInputs, FourInputs, OneInput};
 
     /// Slopes that are the same in each number of a row.
     fn of<I: Inputs>(slope: f64) -> I::Row {
@@ -90,6 +90,7 @@ mod tests {
     #[test]
     fn slopes_go_with_their_bodies_and_change_sign_with_their_order() {
         follow::<OneInput>();
+        follow::<FourInputs>();
         follow::<EightInputs>();
     }
 }

@@ -11,7 +11,7 @@ pub(crate) mod rotation;
 
 pub(crate) use boundary::BoundarySlopes;
 pub(crate) use group::{Group, Waiting};
-pub(crate) use inputs::{Alone, EightInputs, InLanes, Inputs, OneInput};
+pub(crate) use inputs::{Alone, EightInputs, FourInputs, InLanes, Inputs, OneInput};
 pub(crate) use inputs::{alone, row_of, rows_at, slopes_of, spread, vector_of};
 pub(crate) use list::ListSlopes;
 pub(crate) use particles::ParticleSlopes;

@@ -3,10 +3,10 @@
 mod packed_sizes;
 
 use crate::memory;
+use cograin_vtk::model::Vtk;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
-use vtkio::Vtk;
 
 thread_local! {
     /// Whether a panic of this thread is expected and caught.
@@ -23,8 +23,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vtk, String> {
     if let Some(right) = memory::lacking(needed) {
         return Err(format!("data that need about {:.2} GB of memory instead of {right}", needed as f64 / 1e9));
     }
-    let legacy = bytes.starts_with(b"# vtk DataFile");
-    let found = match silently(|| if legacy { Vtk::parse_legacy_be(bytes) } else { Vtk::parse_xml(bytes) }) {
+    let found = match silently(|| cograin_vtk::read(bytes)) {
         Ok(Ok(file)) => return Ok(file),
         Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => "raw appended data (encoding=\"raw\")",
         Ok(Err(_)) if holds(bytes, b"vtkLZMADataCompressor") => "data packed by lzma",

@@ -155,8 +155,6 @@ unsafe fn row_pair(rows: *const Row, low: u32, high: u32) -> __m512d {
 impl Lane for Eight {
     const WIDTH: usize = 8;
 
-    type Eight = [Self; 1];
-
     #[inline(always)]
     fn within<W: Work>(work: W) -> W::Output {
         // SAFETY: see `splat`.

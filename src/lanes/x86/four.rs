@@ -122,8 +122,6 @@ const fn halves_of_four() -> [[u32; 8]; 16] {
 impl Lane for Four {
     const WIDTH: usize = 4;
 
-    type Eight = [Self; 2];
-
     #[inline(always)]
     fn within<W: Work>(work: W) -> W::Output {
         // SAFETY: see `splat`.

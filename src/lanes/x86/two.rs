@@ -69,8 +69,6 @@ impl Number for Two {
 impl Lane for Two {
     const WIDTH: usize = 2;
 
-    type Eight = [Self; 4];
-
     #[inline(always)]
     fn within<W: Work>(work: W) -> W::Output {
         work.run()

@@ -2,7 +2,7 @@
 
 use super::{Triangles, Wrong, add_polygon};
 use crate::vtk_reader;
-use vtkio::model::{CellType, DataSet, IOBuffer, Piece, VertexNumbers};
+use cograin_vtk::model::{CellType, DataSet, IOBuffer, Piece, VertexNumbers};
 
 /// What is right.
 const RIGHT: &str = "a VTK file with triangles, quads, polygons or triangle strips";
