@@ -9,18 +9,17 @@ mod table;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::number::Row;
-use crate::number::{Number, Vector};
+use crate::number::{Number, Row, Vector};
 use std::marker::PhantomData;
 
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Eight, Four, Two};
 
-/// Registers that only other processors have.
+/// One number in place of a register of four: other processors than x86-64 have none here.
 #[cfg(not(target_arch = "x86_64"))]
 pub type Four = f64;
 
-/// Registers that only other processors have.
+/// One number in place of a register of eight, in the same way.
 #[cfg(not(target_arch = "x86_64"))]
 pub type Eight = f64;
 
@@ -259,7 +258,7 @@ pub fn run_seldom<K: Kernel>(width: Width, kernel: K) {
     }
 }
 
-/// Runs a kernel in registers of one kind, for work that is done in another way in others.
+/// Runs a kernel in registers `N` alone, which a simulation of this width may use: it is compiled for no others.
 pub fn run_in<N: Lane, K: Kernel>(width: Width, kernel: K) {
     /// The kernel in these registers.
     struct In<N, K>(K, PhantomData<N>);
@@ -272,12 +271,13 @@ pub fn run_in<N: Lane, K: Kernel>(width: Width, kernel: K) {
         }
     }
 
+    debug_assert!(width.offered(), "{width:?} is not offered by this processor");
     // A processor that offers wide registers offers narrower ones.
     assert!(N::WIDTH <= width.numbers(), "{width:?} has no registers of {} numbers", N::WIDTH);
     N::within(In::<N, K>(kernel, PhantomData));
 }
 
-/// Runs a kernel in registers of four or eight numbers, for work that is done in another way in narrower ones.
+/// Runs a kernel in registers of four or eight numbers.
 fn run_wide<K: Kernel>(width: Width, kernel: K) {
     debug_assert!(width.offered(), "{width:?} is not offered by this processor");
     match width {

@@ -195,7 +195,7 @@ impl Inputs for OneInput {
     }
 }
 
-/// As many inputs as a register `R` has numbers: this many.
+/// As many inputs as a register `R` has numbers, which are `COUNT`.
 pub(crate) struct Together<R, const COUNT: usize>(PhantomData<R>);
 
 /// Four inputs, where registers have four numbers or more.
@@ -204,7 +204,7 @@ pub(crate) type FourInputs = Together<Four, { Four::WIDTH }>;
 /// Eight inputs, where registers have eight numbers.
 pub(crate) type EightInputs = Together<Eight, { Eight::WIDTH }>;
 
-/// The slopes of a row's numbers, in whole cache lines: registers of eight numbers that lie across two take twice as long to read.
+/// The slopes of a row's numbers. It begins with a cache line, so that no register is read from two of them.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Aligned<const COUNT: usize>([[f64; COUNT]; 4]);
