@@ -1,6 +1,6 @@
 //! The physical energy book: what is not found contact by contact or bond by bond.
 
-use super::{Recorded, of_body};
+use super::bodies;
 use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::number::Vector;
@@ -30,10 +30,10 @@ pub(crate) fn begin_step(state: &mut State, fields: &Fields, bodies: &[Option<Ri
 /// Books what the outside and global damping do to bodies in the half kick that is about to be made.
 pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
     let Some(losses) = &mut state.losses else { return };
-    let nothing: &Recorded = &[None; Source::RECORDED];
-    for (body, moved) in bodies.iter().zip(&state.boundaries) {
+    let nothing = [const { Vec::new() }; Source::PASSES];
+    for (number, (body, moved)) in bodies.iter().zip(&state.boundaries).enumerate() {
         let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
-        let work = of_body(body, moved, &state.particles, nothing, fields, step);
+        let work = bodies::work((number, body), moved, &state.particles, &nothing, fields, step);
         let of = |source: Source| work[source as usize];
         let given = [Source::Gravity, Source::Applied, Source::Support, Source::AddedInertia];
         losses.given_to_bodies += given.into_iter().map(of).sum::<f64>();

@@ -190,7 +190,7 @@ pub(crate) struct Rows<'a> {
 }
 
 /// One particle's rows.
-pub(crate) struct RigidBody<'a> {
+pub(crate) struct ParticleRows<'a> {
     /// Position and radius.
     pub position: &'a mut Row,
     /// Velocity and mass.
@@ -234,10 +234,10 @@ impl<'a> Rows<'a> {
     /// # Safety
     /// `slot` is a particle, and no other thread reads or writes its rows meanwhile.
     #[inline(always)]
-    pub(crate) unsafe fn body(&self, slot: usize) -> RigidBody<'a> {
+    pub(crate) unsafe fn body(&self, slot: usize) -> ParticleRows<'a> {
         // SAFETY: the caller's promise.
         unsafe {
-            RigidBody {
+            ParticleRows {
                 position: self.position.at(slot),
                 velocity: self.velocity.at(slot),
                 spin: self.spin.at(slot),
@@ -250,7 +250,7 @@ impl<'a> Rows<'a> {
 
     /// Hands out the particles of one piece that move by the forces on them. Each piece is for one thread only.
     #[inline(always)]
-    pub(crate) fn each_free(&self, piece: usize, mut hand: impl FnMut(RigidBody)) {
+    pub(crate) fn each_free(&self, piece: usize, mut hand: impl FnMut(ParticleRows)) {
         for slot in self.slots(piece) {
             if self.owner[slot] == 0 {
                 // SAFETY: pieces do not overlap, and each is worked on by one thread.

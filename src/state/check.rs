@@ -160,7 +160,7 @@ impl State {
         let there = self.nodes.iter().map(|nodes| (nodes.boundary as usize) < self.boundaries.len());
         demand_all(there, "nodes", "a boundary of the scene")?;
         self.nodes.iter().try_for_each(Nodes::check)?;
-        self.ledger.iter().try_for_each(|ledger| ledger.check(count))?;
+        self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len()))?;
         self.losses.iter().try_for_each(Losses::check)?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")?;
@@ -538,20 +538,21 @@ impl Nodes {
 }
 
 impl Ledger {
-    /// Whether the book can be one of so many particles.
-    fn check(&self, particles: usize) -> Result<(), StateFault> {
-        all_finite(&[self.initial_kinetic, self.initial_elastic, self.turnover], "ledger")?;
-        all_finite(&self.work, "ledger")?;
-        for loads in &self.loads_so_far {
-            for rows in [&loads.force, &loads.torque] {
-                demand(
-                    rows.is_empty() || rows.len() == particles,
-                    "loads",
-                    rows.len(),
-                    "one for each particle, or none",
-                )?;
-                finite(rows, "loads")?;
-            }
+    /// Whether the book can be one of a scene with so many boundaries.
+    fn check(&self, boundaries: usize) -> Result<(), StateFault> {
+        let Self { initial_kinetic, initial_elastic, turnover, power_turned_over, .. } = *self;
+        all_finite(&[initial_kinetic, initial_elastic, turnover, power_turned_over], "ledger")?;
+        for powers in [&self.work, &self.power, &self.growth] {
+            all_finite(powers, "ledger")?;
+        }
+        for loads in &self.on_bodies {
+            demand(
+                loads.is_empty() || loads.len() == boundaries,
+                "loads",
+                loads.len(),
+                "one for each boundary, or none",
+            )?;
+            loads.iter().try_for_each(|load| all_finite(load, "loads"))?;
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! The algorithmic energy book.
 
 use super::in_place::clone_in_place;
-use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// The kinds of force that are booked.
@@ -26,10 +25,9 @@ pub enum Source {
 }
 
 impl Source {
-    /// Kinds whose loads are remembered from one half kick to the next, in the order in which they are added up; the others
-    /// follow from the scene.
-    pub const RECORDED: usize = 4;
-    /// All kinds, recorded ones first.
+    /// Kinds that passes make, in the order in which they are added up.
+    pub const PASSES: usize = 3;
+    /// All kinds, those of passes first.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Contacts,
         Self::Bonds,
@@ -58,19 +56,6 @@ impl Source {
     }
 }
 
-/// All loads on each particle when those of one kind have been added.
-#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Loads {
-    /// Force \[N\]; empty where the scene has no such kind.
-    #[serde(with = "plain")]
-    pub force: Vec<Row>,
-    /// Torque \[N m\].
-    #[serde(with = "plain")]
-    pub torque: Vec<Row>,
-}
-
-clone_in_place!(Loads { force, torque });
-
 /// Work of each kind of force on the particles that move by the forces on them, as the integrator does it: each half
 /// kick times the mean of the velocities before and after. The sum is the change of kinetic energy, to rounding,
 /// unless a force is forgotten.
@@ -84,12 +69,27 @@ pub struct Ledger {
     pub work: [f64; Source::COUNT],
     /// Sum of the magnitudes of all entries \[J\]: what a residual is measured against.
     pub turnover: f64,
-    /// Loads at the present time when those of each recorded kind have been added. The last kind comes with weight and applied
-    /// forces.
-    pub loads_so_far: [Loads; Source::RECORDED],
+    /// Power of each kind of force on the particles with their present velocities \[W\].
+    pub power: [f64; Source::COUNT],
+    /// How fast these powers grow in a kick with the present loads \[W/s\].
+    pub growth: [f64; Source::COUNT],
+    /// Sum of the magnitudes of the powers of each piece of the particles \[W\].
+    pub power_turned_over: f64,
+    /// Force \[N\] and moment \[N m\] on the spheres of each body when those of each kind that passes make have been added; empty
+    /// where the scene has no such kind.
+    pub on_bodies: [Vec<[f64; 6]>; Source::PASSES],
 }
 
-clone_in_place!(Ledger { initial_kinetic, initial_elastic, work, turnover, loads_so_far });
+clone_in_place!(Ledger {
+    initial_kinetic,
+    initial_elastic,
+    work,
+    turnover,
+    power,
+    growth,
+    power_turned_over,
+    on_bodies
+});
 
 impl Ledger {
     /// Counts work from here.

@@ -43,7 +43,6 @@ use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::ledger::Source;
 use crate::state::{Foresight, State, StateFault};
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
@@ -103,6 +102,8 @@ struct Room {
     nodes: nodes::Before,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
+    /// Loads between one kind of force and the next, for the energy book.
+    between: books::Between,
 }
 
 /// A function that gets the name of each part of a time step when it is done.
@@ -401,7 +402,7 @@ impl Simulation {
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
-        books::book(&mut self.state, (&self.fields, None), &self.bodies, step, context);
+        books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
         let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
@@ -442,7 +443,7 @@ impl Simulation {
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
-        books::book(&mut self.state, (&self.fields, gravity), &self.bodies, step, context);
+        self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
@@ -464,29 +465,37 @@ impl Simulation {
     /// particles must be zero.
     fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
         let (mut result, told) = (Ok(()), self.state.breaks.len());
+        self.room.between.begin();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
             result = result.and(pass.apply(&mut self.state, context));
-            let source = pass.source();
-            if self.passes.get(place + 1).map(|next| next.source()) != Some(source) {
-                books::record(&mut self.state, source);
+            let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
+            if next != Some(source) {
+                self.room.between.note(&mut self.state, &self.bodies, source, next);
                 self.done(source.name());
             }
+        }
+        if fields {
+            self.room.between.note_before_fields(&self.state);
         }
         let state = &mut self.state;
         self.suppression.broken(state, told);
         self.suppression.settle(state);
         felt::sum_groups(&self.scene, state);
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
-        if self.fields.damps() {
-            books::record(state, Source::Damping);
-        }
         let braking = self.fields.load_bodies(&self.bodies, state);
         for (sum, part) in state.damping_force.iter_mut().zip(braking) {
             *sum += part;
         }
         self.done("fields");
         result
+    }
+
+    /// Books the half kick that is about to end a step of this length \[s\], with gravity \[m/s²\] where that is not yet among the
+    /// forces.
+    fn book_second(&mut self, gravity: Option<[f64; 3]>, step: f64, context: &Context) {
+        let between = &self.room.between;
+        books::work::book_second(&mut self.state, between, (&self.fields, gravity), &self.bodies, step, context);
     }
 
     /// The evaluation before the first step, and what follows from it.
@@ -497,6 +506,7 @@ impl Simulation {
         let context = self.standing();
         integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);
+        self.book_second(None, 0.0, &context);
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();
