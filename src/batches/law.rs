@@ -25,20 +25,15 @@ pub(crate) struct BatchLaw {
 impl BatchLaw {
     /// This law.
     pub(crate) fn of(law: Law) -> Self {
-        let (whole, is_booked) = (whole_laws::find(law.choice()), law.is_booked());
+        let whole = whole_laws::find(law.choice(), law.is_booked());
         let mut batch_law = Self::sub_models(law);
-        let Self { runs, suppressed, booked, .. } = &mut batch_law;
-        if is_booked {
-            runs.splice(0..0, booked.keeps_before().then_some(losses::keep_before as Run));
-            runs.push(losses::book_open);
-            suppressed.book(booked);
-        } else if let Some(run) = whole {
-            *runs = vec![run];
+        if let Some(run) = whole {
+            batch_law.runs = vec![run];
         }
         batch_law
     }
 
-    /// The same, sub-model by sub-model even where the law is compiled whole; nothing is booked.
+    /// The same, sub-model by sub-model even where the law is compiled whole.
     pub(crate) fn sub_models(law: Law) -> Self {
         let choice = *law.choice();
         assert!(law.places().count <= MOST_COEFFICIENTS, "a law has at most {MOST_COEFFICIENTS} coefficients");
@@ -56,7 +51,13 @@ impl BatchLaw {
         if law.has_rolling() {
             runs.push(choice.rolling.visit(run_of));
         }
-        Self { suppressed: Suppressed::of(&choice, &law), booked: law.booking(), law, needs, runs }
+        let (mut suppressed, booked) = (Suppressed::of(&choice, &law), law.booking());
+        if law.is_booked() {
+            runs.splice(0..0, booked.keeps_before().then_some(losses::keep_before as Run));
+            runs.push(losses::book_open);
+            suppressed.book(&booked);
+        }
+        Self { suppressed, booked, law, needs, runs }
     }
 
     /// Whether it is compiled whole.

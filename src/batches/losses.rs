@@ -89,30 +89,52 @@ impl Kernel for Book<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { stage, manner } = self;
-        let ready = N::splat(stage.buffer.ready as f64);
+        let booked = *stage.booked;
         let mut done = 0;
         while done < stage.buffer.ready {
             // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
-            // piece of the list. A register begins at a multiple of its width, and so ends in the eight columns.
+            // piece of the list.
             unsafe {
-                let (mut lost, loads) = seen::<N>(stage, manner, done).losses(stage.booked);
-                let entries = stage.buffer.entry.as_ptr().add(done);
-                stage.remember(true, stage.history.loads, loads[0], entries);
-                stage.remember(true, stage.history.other_loads, loads[1], entries);
-                if let Some(weights) = stage.weights {
-                    let base = weights.as_ptr().cast::<f64>();
-                    weigh(&mut lost, [N::gather(base, entries, 2), N::gather(base.add(1), entries, 2)]);
-                }
-                // The entries that fill the last register are not counted.
-                let counted = ready.greater(N::load(RAMP.as_ptr().add(done)));
-                let mut kind = 0;
-                while kind < LossKind::COUNT {
-                    let sum = stage.buffer.losses.columns[kind].as_mut_ptr().add(done % 8);
-                    (N::load(sum) + N::select(counted, lost[kind], N::zero())).store(sum);
-                    kind += 1;
-                }
+                let seen = seen::<N>(stage, manner, done);
+                book(stage, done, &seen, &booked);
             }
             done += N::WIDTH;
+        }
+    }
+}
+
+/// Adds what a register's worth of contacts lose, and stores what is to be known of them next time.
+///
+/// # Safety
+/// As for [`Stage::press`]; `place` is a multiple of the width, so that the register ends in the eight columns.
+#[inline(always)]
+pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<N>, booked: &Booked) {
+    let (mut lost, loads) = seen.losses(booked);
+    // SAFETY: the caller's promise.
+    unsafe {
+        let entries = stage.buffer.entry.as_ptr().add(place);
+        stage.remember(true, stage.history.loads, loads[0], entries);
+        stage.remember(true, stage.history.other_loads, loads[1], entries);
+        if let Some(weights) = stage.weights {
+            let base = weights.as_ptr().cast::<f64>();
+            weigh(&mut lost, [N::gather(base, entries, 2), N::gather(base.add(1), entries, 2)]);
+        }
+        if stage.buffer.ready < place + N::WIDTH {
+            // The entries that fill the last register are not counted.
+            let counted = N::splat(stage.buffer.ready as f64).greater(N::load(RAMP.as_ptr().add(place)));
+            let mut kind = 0;
+            while kind < LossKind::COUNT {
+                lost[kind] = N::select(counted, lost[kind], N::zero());
+                kind += 1;
+            }
+        }
+        let mut kind = 0;
+        while kind < LossKind::COUNT {
+            if booked.takes(kind) {
+                let sum = stage.buffer.losses.columns[kind].as_mut_ptr().add(place % 8);
+                (N::load(sum) + lost[kind]).store(sum);
+            }
+            kind += 1;
         }
     }
 }
@@ -123,7 +145,7 @@ impl Kernel for Book<'_, '_> {
 /// As for [`Stage::contact`].
 #[inline(always)]
 unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> {
-    let (step, booked, buffer) = (N::splat(stage.step), *stage.booked, &*stage.buffer);
+    let (half, booked, buffer) = (N::splat(0.5 * stage.step), *stage.booked, &*stage.buffer);
     let history = &stage.history;
     // SAFETY: the caller's promise.
     unsafe {
@@ -137,9 +159,9 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
                 None => stage.table.gather(booked.least_force, buffer.row.as_ptr().add(place)),
             },
             acts: !matches!(manner, Manner::Bonded),
-            approach: contact.normal_velocity * step,
-            slip: contact.slip * step,
-            turn: contact.relative_spin * step,
+            half_approach: contact.normal_velocity * half,
+            half_slip: contact.slip * half,
+            half_turn: contact.relative_spin * half,
             force: Vector::zero(),
             rolling: Vector::zero(),
             spring_before: Vector::zero(),
@@ -161,11 +183,11 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             let (spring, velocity) = buffer.before::<N>(place);
             seen.spring_before = spring;
             if booked.moves_otherwise() {
-                seen.approach = velocity * step;
+                seen.half_approach = velocity * half;
             }
             if booked.carries {
                 let carry = buffer.carry::<N>(place);
-                seen.slip = carry.stretch * (N::splat(1.0) / carry.share);
+                seen.half_slip = carry.stretch * (N::splat(0.5) / carry.share);
             }
         }
         seen

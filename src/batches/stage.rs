@@ -8,6 +8,7 @@ use crate::contact::{
     Rolling, Switches, Tangential, foresee_normal,
 };
 use crate::lanes::{Lane, columns};
+use crate::number::Vector;
 use crate::state::contacts::SLIDING;
 
 /// What the sub-models of a law work on.
@@ -36,6 +37,16 @@ pub(super) struct Stage<'a> {
     pub(super) booked: &'a Booked,
     /// The batch.
     pub(super) buffer: &'a mut Buffer,
+}
+
+/// What friction did to a register's worth of contacts.
+pub(super) struct Rubbed<N: Lane> {
+    /// Force on the first body \[N\].
+    pub(super) force: Vector<N>,
+    /// What friction remembers now.
+    pub(super) spring: [N; 4],
+    /// Which of them slide.
+    pub(super) sliding: N::Mask,
 }
 
 impl Stage<'_> {
@@ -155,7 +166,8 @@ impl Stage<'_> {
         unsafe { self.remembered(remembers, self.history.tangential, self.buffer.entry.as_ptr().add(place)) }
     }
 
-    /// Writes force and friction of a register's worth of contacts, of which `history` is remembered.
+    /// Writes force and friction of a register's worth of contacts, of which `history` is remembered. Returns what a book of losses
+    /// looks at.
     ///
     /// # Safety
     /// As for [`Stage::press`].
@@ -167,8 +179,9 @@ impl Stage<'_> {
         contact: &Contact<N>,
         normal: &NormalForce<N>,
         mut history: [N; 4],
-    ) {
-        let mut force = contact.normal * normal.force;
+    ) -> Rubbed<N> {
+        let mut rubbed =
+            Rubbed { force: contact.normal * normal.force, spring: history, sliding: N::zero().greater(N::zero()) };
         let (remembers, own) = (B::HISTORY.is_some(), self.history.tangential);
         // SAFETY: the caller's promise.
         unsafe {
@@ -179,7 +192,11 @@ impl Stage<'_> {
                     (history, step) = (self.buffer.carry(place).spring(contact.normal, history), N::zero());
                 }
                 let friction = B::force(B::lanes(row), contact, normal, history, step);
-                force += friction.force;
+                rubbed = Rubbed {
+                    force: rubbed.force + friction.force,
+                    spring: friction.history,
+                    sliding: friction.sliding,
+                };
                 let couple = contact.normal.cross(friction.force);
                 N::store_block(columns(couple), self.buffer.couple.as_mut_ptr().add(place));
                 let mut sliding = N::bits(friction.sliding);
@@ -190,8 +207,9 @@ impl Stage<'_> {
                 }
                 self.remember(remembers, own, friction.history, entries);
             }
-            N::store_block(columns(force), self.buffer.force.as_mut_ptr().add(place));
+            N::store_block(columns(rubbed.force), self.buffer.force.as_mut_ptr().add(place));
         }
+        rubbed
     }
 
     /// Gives contacts the velocities along the normal that dashpots see, where the scheme predicts them; the weight of γ_t. What is
@@ -228,7 +246,7 @@ impl Stage<'_> {
         }
     }
 
-    /// Writes the rolling torque of a register's worth of contacts.
+    /// Writes the rolling torque of a register's worth of contacts, and returns it \[N m\].
     ///
     /// # Safety
     /// As for [`Stage::press`].
@@ -239,7 +257,7 @@ impl Stage<'_> {
         row: &[N],
         contact: &Contact<N>,
         normal: &NormalForce<N>,
-    ) {
+    ) -> Vector<N> {
         let (remembers, own) = (C::HISTORY.is_some(), self.history.rolling);
         // SAFETY: the caller's promise.
         unsafe {
@@ -259,6 +277,7 @@ impl Stage<'_> {
             }
             N::store_block(columns(torque), self.buffer.rolling.as_mut_ptr().add(place));
             self.remember(remembers, own, history, entries);
+            torque
         }
     }
 

@@ -22,7 +22,7 @@ fn before(entry: usize, row: usize) -> Row {
     [0.125, 0.5 * entry as f64, 0.25 * row as f64, 0.0625]
 }
 
-/// Forces, couples, torques, flags and history of a batch.
+/// Forces, couples, torques, flags and history of a batch, and behind them what it lost.
 fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Option<Manner>) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
@@ -80,6 +80,9 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         }
         rows.extend(history.iter().map(|list| list[entry]));
         found.push((rows, flags[entry]));
+    }
+    if law.law.is_booked() {
+        found.push((buffer.losses.columns.as_flattened().as_chunks().0.to_vec(), 0));
     }
     found
 }
@@ -172,6 +175,27 @@ fn every_law_has_the_bits_of_one_contact_in_every_lane_width_sub_model_by_sub_mo
     }
     // Forms that several models share count once for each of them.
     assert!(whole >= 6 && tried >= 90 * 4, "{whole} laws are compiled whole, {tried} batches");
+}
+
+#[test]
+fn what_a_batch_loses_has_the_same_bits_in_every_lane_width_sub_model_by_sub_model_and_whole() {
+    let mut whole = 0;
+    for choice in every_law() {
+        let law = Law::of(&choice).recorded().booked();
+        let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
+        let laws = [BatchLaw::sub_models(law.clone()), BatchLaw::of(law)];
+        whole += usize::from(laws[1].is_fused());
+        let expected = batch(&laws[0], &rows, true, Width::Least, None);
+        let lost = &expected.last().expect("a batch has losses").0;
+        assert!(lost.as_flattened().iter().any(|energy| *energy != 0.0), "{choice:?} loses nothing: {lost:?}");
+        for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+            for (law, uniform) in laws.iter().flat_map(|law| [(law, true), (law, false)]) {
+                let found = batch(law, &rows, uniform, width, None);
+                assert_eq!(bits(&found), bits(&expected), "{choice:?}, {width:?}\n{found:?}\n{expected:?}");
+            }
+        }
+    }
+    assert!(whole >= 6, "{whole} laws are compiled whole");
 }
 
 #[test]

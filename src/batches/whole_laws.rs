@@ -2,21 +2,23 @@
 //! registers what the others write and read, and their bits are the same.
 
 use super::gathered::Gathered;
-use super::stage::Stage;
+use super::losses;
+use super::stage::{Rubbed, Stage};
 use super::sub_models::Run;
 use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
 use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::HookeStiffness};
 use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
 use crate::contact::tangential::{self, TakeTangential, history::History};
 use crate::contact::{
-    Coefficients, Cohesion, CohesionForm, LawChoice, Normal, NormalForm, Rolling, Switches, Tangential,
+    Booked, Coefficients, Cohesion, CohesionForm, LawChoice, Normal, NormalForm, Rolling, Seen, Switches, Tangential,
 };
 use crate::lanes::{self, Kernel, Lane};
+use crate::number::Vector;
 use std::any::TypeId;
 use std::marker::PhantomData;
 
-/// The law that a scene composed, if it is compiled whole.
-pub(super) fn find(choice: &LawChoice) -> Option<Run> {
+/// The law that a scene composed, if it is compiled whole; with what it loses, if that is booked.
+pub(super) fn find(choice: &LawChoice, is_booked: bool) -> Option<Run> {
     if choice.scheme.carries() {
         return None;
     }
@@ -26,7 +28,11 @@ pub(super) fn find(choice: &LawChoice) -> Option<Run> {
         choice.rolling.visit(FormOf),
         choice.cohesion.visit(FormOf),
     ];
-    FUSED.iter().map(|fused| fused()).find(|fused| fused.forms == forms).map(|fused| fused.run)
+    FUSED
+        .iter()
+        .map(|fused| fused())
+        .find(|fused| fused.forms == forms)
+        .map(|fused| if is_booked { fused.booked } else { fused.run })
 }
 
 /// Goes from the name of a sub-model to the type of what it computes.
@@ -66,13 +72,16 @@ struct Fused {
     forms: [TypeId; 4],
     /// The law on a batch.
     run: Run,
+    /// The same, and what is lost.
+    booked: Run,
 }
 
 /// The law of these four.
 fn fused<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm>() -> Fused {
     Fused {
         forms: [TypeId::of::<A>(), TypeId::of::<B>(), TypeId::of::<C>(), TypeId::of::<D>()],
-        run: |width, stage| lanes::run(width, WholeRun::<A, B, C, D>(stage, PhantomData)),
+        run: |width, stage| lanes::run(width, WholeRun::<A, B, C, D, false>(stage, PhantomData)),
+        booked: |width, stage| lanes::run(width, WholeRun::<A, B, C, D, true>(stage, PhantomData)),
     }
 }
 
@@ -89,10 +98,13 @@ const FUSED: &[fn() -> Fused] = &[
     fused::<HookeStiffness, tangential::none::None, rolling::none::None, cohesion::none::None>,
 ];
 
-/// A whole law over a batch. Roots, for which what follows would wait, are found a register ahead.
-struct WholeRun<'a, 'b, A, B, C, D>(&'a mut Stage<'b>, PhantomData<(A, B, C, D)>);
+/// A whole law over a batch. Roots, for which what follows would wait, are found a register ahead. BOOKED: what contacts lose is
+/// booked with what is in the registers.
+struct WholeRun<'a, 'b, A, B, C, D, const BOOKED: bool>(&'a mut Stage<'b>, PhantomData<(A, B, C, D)>);
 
-impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for WholeRun<'_, '_, A, B, C, D> {
+impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bool> Kernel
+    for WholeRun<'_, '_, A, B, C, D, BOOKED>
+{
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
@@ -100,6 +112,19 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
         let count = after_normal + B::COUNT + C::COUNT + D::COUNT;
         let mut coefficients = Gathered::<N>::of(stage, 0, count);
         let shares_row = stage.history.normal_velocity == stage.history.tangential;
+        let booked = Booked {
+            friction: B::ACTIVE,
+            spring: B::HAS_SPRING,
+            keeps_stiffness: B::KEEPS_STIFFNESS,
+            limits_dashpot: B::LIMITS_DASHPOT,
+            projects: B::PROJECTS,
+            rolling: C::ACTIVE,
+            presses: true,
+            other: D::ACTIVE,
+            carries: false,
+            ..*stage.booked
+        };
+        debug_assert_eq!(booked, *stage.booked);
         let mut done = 0;
         if A::HAS_ROOTS {
             // SAFETY: there is room for a register behind the batch; so below.
@@ -111,6 +136,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
                 let row = coefficients.at(stage, done);
                 let mut contact = stage.contact(done, A::HAS_PAIR_CONSTANT);
                 let mut history = stage.tangential_history::<N, B>(done);
+                let (velocity, spring_before) = (contact.normal_velocity, Vector::of_row(history));
                 let weight = stage.foresee_normal(done, shares_row, &mut contact, &mut history);
                 let mut roots = [N::zero(); 2];
                 if A::HAS_ROOTS {
@@ -123,12 +149,35 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm> Kernel for Whole
                     let law = D::lanes(&row[after_normal + B::COUNT + C::COUNT..]);
                     D::add(law, D::force(law, &contact), &mut normal);
                 }
-                stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal, history);
+                let rubbed = stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal, history);
                 if C::ACTIVE && !B::ACTIVE {
                     stage.leave_couple::<N>(done);
                 }
+                let mut rolling = Vector::zero();
                 if C::ACTIVE {
-                    stage.roll::<N, C, false>(done, &row[after_normal + B::COUNT..], &contact, &normal);
+                    rolling = stage.roll::<N, C, false>(done, &row[after_normal + B::COUNT..], &contact, &normal);
+                }
+                if BOOKED {
+                    let Rubbed { force, spring, sliding } = rubbed;
+                    let (half, entries) = (N::splat(0.5 * stage.step), stage.buffer.entry.as_ptr().add(done));
+                    let before = [stage.history.loads, stage.history.other_loads];
+                    let seen = Seen {
+                        normal,
+                        pressing: contact.overlap,
+                        least_force: row[A::COUNT],
+                        acts: true,
+                        half_approach: velocity * half,
+                        half_slip: contact.slip * half,
+                        half_turn: contact.relative_spin * half,
+                        force,
+                        rolling,
+                        spring_before,
+                        spring,
+                        sliding,
+                        before: before.map(|place| stage.remembered(true, place, entries)),
+                        contact,
+                    };
+                    losses::book(stage, done, &seen, &booked);
                 }
             }
             done += N::WIDTH;

@@ -50,6 +50,8 @@ pub struct Booked {
     pub rolling: bool,
     /// Whether the normal model is a spring k_n δ and a dashpot.
     pub presses: bool,
+    /// Whether part of the normal force is neither the spring nor the dashpot of a pressed contact.
+    pub other: bool,
     /// Whether springs are carried at mid-step.
     pub carries: bool,
     /// Whether dashpots along the normal, and nothing else, see another velocity than that of mid-step.
@@ -62,6 +64,13 @@ impl Booked {
     /// Whether anything is to be kept that sub-models change.
     pub fn keeps_before(&self) -> bool {
         self.spring || self.moves_otherwise()
+    }
+
+    /// Whether a kind of loss, by its place, can occur.
+    #[inline(always)]
+    pub fn takes(&self, kind: usize) -> bool {
+        let [rolling, other] = [LossKind::Rolling as usize, LossKind::Other as usize];
+        (kind != rolling || self.rolling) && (kind != other || self.other)
     }
 
     /// Whether bodies move otherwise than dashpots see.
@@ -82,13 +91,13 @@ pub struct Seen<N: Number> {
     pub least_force: N,
     /// Whether the normal force and rolling torque act.
     pub acts: bool,
-    /// Way along the normal in this step \[m\].
-    pub approach: N,
-    /// Way in the tangent plane in this step \[m\].
-    pub slip: Vector<N>,
-    /// Angle by which i turned against j \[rad\].
-    pub turn: Vector<N>,
-    /// Force on i \[N\]; of it the tangential part is looked at.
+    /// Half the way along the normal in this step \[m\].
+    pub half_approach: N,
+    /// Half the way in the tangent plane in this step \[m\].
+    pub half_slip: Vector<N>,
+    /// Half the angle by which i turned against j \[rad\].
+    pub half_turn: Vector<N>,
+    /// Force on i \[N\], that along the normal among it if it acts.
     pub force: Vector<N>,
     /// Rolling torque \[N m\].
     pub rolling: Vector<N>,
@@ -107,41 +116,47 @@ impl<N: Number> Seen<N> {
     /// What the contact loses \[J\], by [`LossKind`], and what is to be remembered.
     #[inline(always)]
     pub fn losses(&self, booked: &Booked) -> ([N; LossKind::COUNT], [[N; 4]; 2]) {
-        let (half, zero) = (N::splat(0.5), N::zero());
-        let mut lost = [zero; LossKind::COUNT];
+        let mut lost = [N::zero(); LossKind::COUNT];
         let normal = self.contact.normal;
         let (damping, other) = self.dashpot(booked);
         let [stiffness_before, x, y, z] = self.before[0];
         let before = Vector::new(x, y, z);
-        let damping_before = before.dot(normal);
-        lost[LossKind::Normal as usize] = -((damping_before + damping) * self.approach * half);
-        let (mut stiffness, mut loads) = (zero, normal * damping);
+        let along = before.dot(normal) + damping;
+        lost[LossKind::Normal as usize] = -(along * self.half_approach);
+        let (mut stiffness, mut dashpots) = (N::zero(), normal * damping);
         if booked.friction {
-            let mut dashpot = self.force - normal * self.force.dot(normal);
-            let mut slipped = zero;
+            let pressing = if self.acts { self.normal.force - damping } else { N::zero() };
+            dashpots = self.force - normal * pressing;
+            let mut slipped = N::zero();
             if booked.spring {
                 stiffness = self.normal.response.tangential_stiffness;
                 stiffness = if booked.keeps_stiffness { self.spring[3] } else { stiffness };
-                dashpot += Vector::of_row(self.spring) * stiffness;
-                let [slid, stretched, projected] = self.spring_losses([stiffness_before, stiffness], booked.projects);
-                slipped = N::select(self.sliding, slid, zero);
-                lost[LossKind::Stiffness as usize] = stretched - slipped;
+                dashpots += Vector::of_row(self.spring) * stiffness;
+                let [lost_by_both, slid, projected] =
+                    self.spring_losses([stiffness_before, stiffness], booked.projects);
+                slipped = N::select(self.sliding, slid, N::zero());
+                lost[LossKind::Stiffness as usize] = lost_by_both - slipped;
                 lost[LossKind::Projection as usize] = projected;
             }
-            let taken = -((before - normal * damping_before + dashpot).dot(self.slip) * half);
-            let rubbed = if booked.limits_dashpot { N::select(self.sliding, taken, zero) } else { zero };
-            lost[LossKind::Tangential as usize] = taken - rubbed;
+            let mut taken = (before + dashpots).dot(self.half_slip);
+            if booked.carries {
+                // The tangent plane is that of mid-step.
+                taken = taken - along * normal.dot(self.half_slip);
+            }
+            let rubbed = if booked.limits_dashpot { N::select(self.sliding, -taken, N::zero()) } else { N::zero() };
+            lost[LossKind::Tangential as usize] = -(taken + rubbed);
             lost[LossKind::Sliding as usize] = slipped + rubbed;
-            loads += dashpot;
         }
-        let [other_before, x, y, z] = self.before[1];
-        lost[LossKind::Other as usize] = -((other_before + other) * self.approach * half);
         let mut rolling = Vector::zero();
+        let [other_before, x, y, z] = self.before[1];
+        if booked.other {
+            lost[LossKind::Other as usize] = -((other_before + other) * self.half_approach);
+        }
         if booked.rolling && self.acts {
             rolling = self.rolling;
-            lost[LossKind::Rolling as usize] = (Vector::new(x, y, z) + rolling).dot(self.turn) * half;
+            lost[LossKind::Rolling as usize] = (Vector::new(x, y, z) + rolling).dot(self.half_turn);
         }
-        (lost, [[stiffness, loads.x, loads.y, loads.z], [other, rolling.x, rolling.y, rolling.z]])
+        (lost, [[stiffness, dashpots.x, dashpots.y, dashpots.z], [other, rolling.x, rolling.y, rolling.z]])
     }
 
     /// Force of the dashpot along the normal, and of what is neither that nor the spring \[N\].
@@ -151,35 +166,42 @@ impl<N: Number> Seen<N> {
             return (N::zero(), N::zero());
         }
         let response = &self.normal.response;
+        let elastic = response.normal_stiffness * self.pressing;
+        if !booked.other {
+            return (self.normal.force - elastic, N::zero());
+        }
         let damping = -(response.normal_damping * self.contact.normal_velocity);
         if !booked.presses {
             return (damping, self.normal.force - damping);
         }
-        let elastic = response.normal_stiffness * self.pressing;
         let pressed = (elastic + damping).max(self.least_force);
         (pressed - elastic, self.normal.force - pressed)
     }
 
-    /// What friction takes where it is at its limit, what a spring loses by that and by its stiffness together, and what is
+    /// What a spring loses by its stiffness and by friction at its limit together, what friction takes of that, and what is
     /// projected, of stiffnesses before and now \[J\].
     ///
     /// ```text
     /// W = ½ (k₀ s₀ + k s)·Δ                   work on the spring
     /// P = ½ k₀ (s₀·n)²                        projected
+    /// W − ½ k s² + ½ k₀ s₀² − P               lost by both
     /// S = W + ½ (k₀ s₀ + k s)·(s₀ − s) − P    the same mean force times what did not stretch the spring
-    /// W − ½ k s² + ½ k₀ s₀² − P = S − ½ (k − k₀) s₀·s
+    ///   = lost by both + ½ (k − k₀) s₀·s
     /// ```
     #[inline(always)]
     fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 3] {
         let half = N::splat(0.5);
         let (before, now) = (self.spring_before, Vector::of_row(self.spring));
-        let mean = (before * stiffness_before + now * stiffness) * half;
-        let work = mean.dot(self.slip);
-        let held_before = stiffness_before * before.dot(before) * half;
-        let held = stiffness * now.dot(now) * half;
-        let along = before.dot(self.contact.normal);
-        let projected = if projects { stiffness_before * along * along * half } else { N::zero() };
-        [work + mean.dot(before - now) - projected, work - held + held_before - projected, projected]
+        let (loaded_before, loaded) = (before * stiffness_before, now * stiffness);
+        let work = (loaded_before + loaded).dot(self.half_slip);
+        let mut left = work + (loaded_before.dot(before) - loaded.dot(now)) * half;
+        let mut projected = N::zero();
+        if projects {
+            let along = before.dot(self.contact.normal);
+            projected = stiffness_before * along * along * half;
+            left = left - projected;
+        }
+        [left, left + (loaded.dot(before) - loaded_before.dot(now)) * half, projected]
     }
 }
 

@@ -179,6 +179,7 @@ impl Law {
             projects: self.tangential.projects && !carries,
             rolling: self.rolling.active,
             presses: self.takes_offset(),
+            other: self.has_other_force(),
             carries,
             predicts_normal_alone: self.history_places.normal_velocity.is_some(),
             least_force: self.normal.count,

@@ -12,6 +12,7 @@ const BOOKED: Booked = Booked {
     projects: true,
     rolling: true,
     presses: true,
+    other: true,
     carries: false,
     predicts_normal_alone: false,
     least_force: 0,
@@ -28,10 +29,10 @@ fn seen() -> Seen<f64> {
         pressing: contact().overlap,
         least_force: f64::NEG_INFINITY,
         acts: true,
-        approach: 0.0,
-        slip: Vector::zero(),
-        turn: Vector::zero(),
-        force: Vector::zero(),
+        half_approach: 0.0,
+        half_slip: Vector::zero(),
+        half_turn: Vector::zero(),
+        force: contact().normal * normal.force,
         rolling: Vector::zero(),
         spring_before: Vector::zero(),
         spring: [0.0; 4],
@@ -52,7 +53,8 @@ fn a_dashpot_takes_its_mean_force_times_the_way() {
     seen.normal.response.normal_damping = 10.0;
     seen.contact.normal_velocity = -0.5;
     seen.normal.force += 5.0;
-    (seen.before[0], seen.approach) = ([0.0, 0.0, 0.0, 3.0], -0.25);
+    seen.force.z += 5.0;
+    (seen.before[0], seen.half_approach) = ([0.0, 0.0, 0.0, 3.0], -0.125);
     assert_eq!(lost(&seen, LossKind::Normal), 1.0);
     assert_eq!(seen.losses(&BOOKED).1[0], [8.0, 0.0, 0.0, 5.0]);
     assert_eq!(lost(&seen, LossKind::Other), 0.0);
@@ -62,7 +64,8 @@ fn a_dashpot_takes_its_mean_force_times_the_way() {
 fn a_force_beside_spring_and_dashpot_is_booked_by_itself() {
     let mut seen = seen();
     seen.normal.force -= 2.0;
-    (seen.before[1], seen.approach) = ([-4.0, 0.0, 0.0, 0.0], 0.5);
+    seen.force.z -= 2.0;
+    (seen.before[1], seen.half_approach) = ([-4.0, 0.0, 0.0, 0.0], 0.25);
     assert_eq!(lost(&seen, LossKind::Other), 1.5);
     assert_eq!(seen.losses(&BOOKED).1[1], [-2.0, 0.0, 0.0, 0.0]);
 }
@@ -70,7 +73,7 @@ fn a_force_beside_spring_and_dashpot_is_booked_by_itself() {
 #[test]
 fn nothing_along_the_normal_is_lost_where_a_bond_suppresses_it() {
     let (mut seen, way) = (seen(), 0.5);
-    (seen.normal.force, seen.approach, seen.acts) = (7.0, way, false);
+    (seen.normal.force, seen.half_approach, seen.acts) = (7.0, 0.5 * way, false);
     assert_eq!([lost(&seen, LossKind::Normal), lost(&seen, LossKind::Other)], [0.0; 2]);
 }
 
@@ -78,7 +81,8 @@ fn nothing_along_the_normal_is_lost_where_a_bond_suppresses_it() {
 fn a_spring_that_sticks_loses_nothing() {
     let mut seen = seen();
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.0), [1.0, 0.5, 0.0, 0.0]);
-    (seen.slip, seen.force) = (Vector::new(0.0, 0.5, 0.0), Vector::new(-8.0, -4.0, 0.0));
+    seen.half_slip = Vector::new(0.0, 0.25, 0.0);
+    seen.force += Vector::new(-8.0, -4.0, 0.0);
     seen.before[0] = [8.0, 0.0, 0.0, 0.0];
     assert_eq!(seen.losses(&BOOKED).0, [0.0; LossKind::COUNT]);
 }
@@ -88,7 +92,8 @@ fn sliding_takes_the_limit_times_the_way_that_does_not_stretch_the_spring() {
     let mut seen = seen();
     // The spring stays at 8 N while the bodies slip by 0.5 m.
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.0), [1.0, 0.0, 0.0, 0.0]);
-    (seen.slip, seen.force, seen.sliding) = (Vector::new(0.5, 0.0, 0.0), Vector::new(-8.0, 0.0, 0.0), true);
+    (seen.half_slip, seen.sliding) = (Vector::new(0.25, 0.0, 0.0), true);
+    seen.force.x = -8.0;
     seen.before[0] = [8.0, 0.0, 0.0, 0.0];
     assert_eq!(lost(&seen, LossKind::Sliding), 4.0);
     assert_eq!([lost(&seen, LossKind::Stiffness), lost(&seen, LossKind::Tangential)], [0.0; 2]);
@@ -99,7 +104,7 @@ fn a_spring_that_becomes_stiffer_while_it_is_loaded_gains() {
     let mut seen = seen();
     // From 2 to 8 N/m at 1 m: ½ (8 − 2) J out of nothing
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.0), [1.0, 0.0, 0.0, 0.0]);
-    (seen.force, seen.before[0]) = (Vector::new(-8.0, 0.0, 0.0), [2.0, 0.0, 0.0, 0.0]);
+    (seen.force.x, seen.before[0]) = (-8.0, [2.0, 0.0, 0.0, 0.0]);
     assert_eq!(lost(&seen, LossKind::Stiffness), -3.0);
 }
 
@@ -107,14 +112,14 @@ fn a_spring_that_becomes_stiffer_while_it_is_loaded_gains() {
 fn what_is_projected_of_a_spring_is_lost() {
     let mut seen = seen();
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.5), [1.0, 0.0, 0.0, 0.0]);
-    (seen.force, seen.before[0]) = (Vector::new(-8.0, 0.0, 0.0), [8.0, 0.0, 0.0, 0.0]);
+    (seen.force.x, seen.before[0]) = (-8.0, [8.0, 0.0, 0.0, 0.0]);
     assert_eq!([lost(&seen, LossKind::Projection), lost(&seen, LossKind::Stiffness)], [1.0, 0.0]);
 }
 
 #[test]
 fn rolling_takes_the_mean_torque_times_the_angle() {
     let mut seen = seen();
-    (seen.rolling, seen.turn) = (Vector::new(3.0, 0.0, 0.0), Vector::new(0.5, 7.0, 0.0));
+    (seen.rolling, seen.half_turn) = (Vector::new(3.0, 0.0, 0.0), Vector::new(0.25, 3.5, 0.0));
     seen.before[1] = [0.0, 1.0, 0.0, 0.0];
     assert_eq!(lost(&seen, LossKind::Rolling), 1.0);
 }
