@@ -10,6 +10,7 @@ mod bond_passes;
 mod books;
 mod boundaries;
 mod choices;
+mod coefficients;
 pub mod contact;
 mod document;
 pub mod dual;

@@ -1,7 +1,7 @@
 //! Coefficients of a law in lanes.
 
-use super::coefficients::MOST_COEFFICIENTS;
 use super::stage::Stage;
+use crate::coefficients::MOST_COEFFICIENTS;
 use crate::lanes::Lane;
 
 /// Coefficients in lanes: some that stand side by side in the rows of the law.

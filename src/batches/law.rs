@@ -1,10 +1,10 @@
 //! Phase 3: what a law does to a batch, sub-model by sub-model or as one.
 
 use super::Manner;
-use super::coefficients::MOST_COEFFICIENTS;
 use super::sub_models::{ArmsRun, Run, RunOf, before_sub_models};
 use super::suppressed::Suppressed;
 use super::{losses, whole_laws};
+use crate::coefficients::MOST_COEFFICIENTS;
 use crate::contact::{Booked, Law, Needs};
 use crate::lanes;
 

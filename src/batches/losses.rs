@@ -151,6 +151,11 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
     unsafe {
         let entries = buffer.entry.as_ptr().add(place);
         let contact: Contact<N> = stage.contact(place, false);
+        let (mut sliding, mut lane) = ([0.0; 8], 0);
+        while booked.friction && lane < N::WIDTH {
+            sliding[lane] = f64::from(*stage.entries.flags.at(*entries.add(lane) as usize) & SLIDING);
+            lane += 1;
+        }
         let mut seen = Seen {
             normal: buffer.normal(place),
             pressing: if matches!(manner, Manner::Open) { contact.overlap } else { buffer.pressing(place) },
@@ -166,7 +171,7 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             rolling: Vector::zero(),
             spring_before: Vector::zero(),
             spring: stage.remembered(booked.spring, history.tangential, entries),
-            sliding: sliding::<N>(stage, entries),
+            sliding: N::load(sliding.as_ptr()).greater(N::zero()),
             before: [
                 stage.remembered(true, history.loads, entries),
                 stage.remembered(true, history.other_loads, entries),
@@ -191,24 +196,6 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             }
         }
         seen
-    }
-}
-
-/// Which of a register's worth of contacts slide.
-///
-/// # Safety
-/// As for [`Stage::remembered`].
-#[inline(always)]
-unsafe fn sliding<N: Lane>(stage: &Stage, entries: *const u32) -> N::Mask {
-    let mut numbers = [0.0; 8];
-    // SAFETY: the caller's promise: there are as many entries as lanes; there is room for the widest register.
-    unsafe {
-        let mut lane = 0;
-        while stage.booked.friction && lane < N::WIDTH {
-            numbers[lane] = f64::from(*stage.entries.flags.at(*entries.add(lane) as usize) & SLIDING);
-            lane += 1;
-        }
-        N::load(numbers.as_ptr()).greater(N::zero())
     }
 }
 

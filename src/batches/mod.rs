@@ -16,7 +16,6 @@
 //! of the list. Pieces that run at the same time must not write to the same body.
 
 mod buffer;
-pub(crate) mod coefficients;
 mod gathered;
 mod law;
 mod losses;
@@ -29,12 +28,12 @@ mod sub_models;
 mod suppressed;
 mod whole_laws;
 
+use crate::coefficients::CoefficientTable;
 use crate::contact::{Contact, MOST_KEPT, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use buffer::Buffer;
-pub(crate) use coefficients::{CoefficientTable, Partners, in_lanes, overlap_of};
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};

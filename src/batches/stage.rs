@@ -2,7 +2,7 @@
 
 use super::Entries;
 use super::buffer::Buffer;
-use super::coefficients::CoefficientTable;
+use crate::coefficients::CoefficientTable;
 use crate::contact::{
     Booked, Carry, CoefficientPlaces, Coefficients, Contact, Foreseen, HistoryPlaces, NormalForce, NormalForm, Onset,
     Rolling, Switches, Tangential, foresee_normal,

@@ -1,8 +1,8 @@
 //! How stiff interactions are, and how stiff they may get before anybody looks again: what the stable time step is found
 //! from.
 
-use crate::batches::overlap_of;
 use crate::bond::creation::Window;
+use crate::coefficients::overlap_of;
 use crate::contact::{Contact, Law, MOST_HISTORY};
 use crate::number::{Row, Vector};
 use crate::state::Particles;

@@ -2,7 +2,8 @@
 //! entries of the list at a time.
 
 use super::contacts::ContactPass;
-use crate::batches::{ContactGeometry, SpherePair, in_lanes};
+use crate::batches::{ContactGeometry, SpherePair};
+use crate::coefficients::in_lanes;
 use crate::contact::{Contact, Law, MOST_HISTORY, Needs, Reaction};
 use crate::dual::Dual;
 use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of};

@@ -1,10 +1,11 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
-use crate::batches::{BatchLaw, CoefficientTable, coefficients};
+use crate::batches::BatchLaw;
 use crate::bond_passes::BondPass;
 use crate::bond_passes::walls::WallBondPass;
 use crate::boundaries::RigidBody;
 use crate::boundaries::{course, sphere_inertia};
+use crate::coefficients::{self, CoefficientTable};
 use crate::flow;
 use crate::interactions::Pass;
 use crate::interactions::contacts::ContactPass;

@@ -16,7 +16,7 @@ use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
 use crate::batches::{BatchLaw, Batches, Bodies, Entries};
-use crate::batches::{CoefficientTable, Partners};
+use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::Response;
 use crate::lanes::Shared;
 use crate::number::Vector;

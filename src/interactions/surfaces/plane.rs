@@ -2,8 +2,8 @@
 
 use super::AtSurface;
 use super::sphere::{Load, Loaded, SphereAt, lanes};
-use crate::batches::coefficients::CoefficientTable;
 use crate::batches::{Bodies, ContactGeometry, FOUND, Touching};
+use crate::coefficients::CoefficientTable;
 use crate::contact::{Contact, Law, Needs};
 use crate::interactions::ahead::Ahead;
 use crate::interactions::listed::{self, Kept, Listed, Met};

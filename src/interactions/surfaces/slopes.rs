@@ -3,7 +3,7 @@
 use super::plane::Plane;
 use super::sphere::lanes;
 use super::{AtSurface, SurfacePass, Touched};
-use crate::batches::in_lanes;
+use crate::coefficients::in_lanes;
 use crate::contact::{MOST_HISTORY, Reaction};
 use crate::dual::Dual;
 use crate::interactions::slopes::{Touching, beyond, constants, materials, needed, part, react};

@@ -1,8 +1,8 @@
 //! Particles at their feet on a surface, as batches see them.
 
 use super::standing::Standing;
-use crate::batches::coefficients::CoefficientTable;
 use crate::batches::{Bodies, ContactGeometry, FOUND, Touching};
+use crate::coefficients::CoefficientTable;
 use crate::contact::Needs;
 use crate::interactions::surfaces::nodes::HeldColumns;
 use crate::interactions::surfaces::sphere::{Load, Loaded, SphereAt, along};
