@@ -9,7 +9,7 @@ mod compare;
 #[path = "../tests/random_scenes/scenes.rs"]
 mod scenes;
 
-use compare::{ALLOWED, Outcome, judge};
+use compare::{ALLOWED, Agreement, Outcome, judge};
 
 fn main() {
     let seeds: Vec<u64> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
@@ -17,14 +17,16 @@ fn main() {
     let scheme = std::env::args().skip(1).find(|word| word.parse::<u64>().is_err() && !word.starts_with('-'));
     let lines = scheme.map_or(String::new(), |scheme| format!("scheme = \"{scheme}\""));
     let (mut agree, mut whole, mut differ, mut stopped, mut refused) = (0, 0, 0, 0, 0);
-    let mut differences = Vec::new();
+    let (mut differences, mut of_means, mut errors) = (Vec::new(), Vec::new(), Vec::new());
     for seed in first..=last {
         let (name, outcome) = judge(seed, 80, &lines);
         match &outcome {
-            Outcome::Agrees(until, apart) => {
+            Outcome::Agrees(Agreement { apart, means, .. }) => {
                 agree += 1;
-                whole += usize::from(*until >= 7.9e-3);
+                whole += usize::from(means.is_none());
                 differences.push(*apart);
+                of_means.extend(means.map(|[apart, _]| apart));
+                errors.extend(means.map(|[_, error]| error));
             }
             Outcome::Differs(..) => differ += 1,
             Outcome::Stopped(_) => stopped += 1,
@@ -32,10 +34,17 @@ fn main() {
         }
         println!("{name} {outcome}");
     }
-    differences.sort_by(f64::total_cmp);
-    let middle = differences.get(differences.len() / 2).copied().unwrap_or(0.0);
     println!(
-        "{agree} agree within {ALLOWED} ({whole} of them to the end, the others until chaos; median {middle:.1e}), \
-         {differ} differ, {stopped} stop, {refused} are refused"
+        "{agree} agree within {ALLOWED} ({whole} of them run by run to the end, the others until chaos and then in the mean; median of the \
+         largest difference {:.1e}, of means {:.1e} with an error of {:.1e}), {differ} differ, {stopped} stop, {refused} are refused",
+        median(differences),
+        median(of_means),
+        median(errors)
     );
+}
+
+/// The middle one; 0 of none.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }

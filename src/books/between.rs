@@ -2,10 +2,11 @@
 //!
 //! Loads are stored only where the next kind may act: near surfaces, and everywhere for bonds and fields.
 
-use super::{bodies, dot, plus, row};
+use super::{bodies, multiply, plus, row};
 use crate::boundaries::RigidBody;
+use crate::lanes::{self, Kernel, Lane, Width};
 use crate::state::ledger::Source;
-use crate::state::{Particles, Row, State};
+use crate::state::{Particles, Row, State, WallContacts};
 
 /// Loads on particles between two kinds of force.
 #[derive(Default)]
@@ -44,10 +45,6 @@ pub(crate) struct Between {
     walls: Loads,
     /// Loads before fields acted.
     pub(super) fields: Loads,
-    /// The particles (slots) near surfaces, each once.
-    near: Vec<u32>,
-    /// Whether a particle is among them, for each slot; all false between two calls.
-    is_near: Vec<bool>,
 }
 
 impl Between {
@@ -88,42 +85,81 @@ impl Between {
         }
     }
 
-    /// Power of surfaces on particles \[W\], and how fast it grows in a kick \[W/s\], if they follow another kind.
-    pub(super) fn of_walls(&self, particles: &Particles, gravity: Option<[f64; 3]>) -> Option<[f64; 2]> {
-        let before = self.walls.rows()?;
-        let gravity = row(gravity.unwrap_or_default());
-        let mut walls = [0.0; 2];
-        for (place, slot) in self.near.iter().map(|&slot| slot as usize).enumerate() {
-            if particles.owner[slot] != 0 {
-                continue;
-            }
-            let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
-            let loads = [&particles.force[slot], &particles.torque[slot]];
-            let after = self.fields.rows().map_or(loads, |rows| rows.map(|rows| &rows[slot]));
-            let [force, torque] = [0, 1].map(|part| plus(after[part], &before[part][place], -1.0));
-            walls[0] += dot(&force, velocity) + dot(&torque, spin);
-            let growth = dot(&force, loads[0]) / velocity[3] + dot(&torque, loads[1]) / spin[3];
-            walls[1] += growth + dot(&force, &gravity);
-        }
-        Some(walls)
-    }
-
     /// Stores the loads on the particles near surfaces.
     fn store_near(&mut self, state: &State) {
-        let Self { walls: Loads { stored, force, torque }, near, is_near, .. } = self;
-        let particles = &state.particles;
+        let (Loads { stored, force, torque }, particles) = (&mut self.walls, &state.particles);
         *stored = true;
-        force.clear();
-        torque.clear();
-        near.clear();
-        is_near.resize(particles.len(), false);
-        for &slot in state.walls.iter().flat_map(|list| list.particle.iter().chain(&list.near.particle)) {
-            if !std::mem::replace(&mut is_near[slot as usize], true) {
-                near.push(slot);
-                force.push(particles.force[slot as usize]);
-                torque.push(particles.torque[slot as usize]);
+        force.resize(particles.len(), [0.0; 4]);
+        torque.resize(particles.len(), [0.0; 4]);
+        for slot in near(&state.walls) {
+            (force[slot], torque[slot]) = (particles.force[slot], particles.torque[slot]);
+        }
+    }
+
+    /// Sums of the loads of surfaces, if they follow another kind: [`Sums`](super::work::Sums). Weight may not yet be among the loads.
+    pub(super) fn of_walls(
+        &mut self,
+        particles: &Particles,
+        walls: &[WallContacts],
+        gravity: Option<[f64; 3]>,
+        width: Width,
+    ) -> Option<[Row; 2]> {
+        let (before, fields) = (&mut self.walls, self.fields.rows());
+        let mut sums = [[0.0; 4]; 2];
+        let gravity = row(gravity.unwrap_or_default());
+        lanes::run(width, OfWalls { particles, walls, fields, gravity, before, sums: &mut sums });
+        before.stored.then_some(sums)
+    }
+}
+
+/// The particles (slots) near surfaces, some of them several times.
+#[inline(always)]
+fn near(walls: &[WallContacts]) -> impl Iterator<Item = usize> {
+    walls.iter().flat_map(|list| list.particle.iter().chain(&list.near.particle)).map(|&slot| slot as usize)
+}
+
+/// What surfaces do to the particles near them.
+struct OfWalls<'a, 'b> {
+    /// The particles.
+    particles: &'a Particles,
+    /// Who is near.
+    walls: &'a [WallContacts],
+    /// Loads when surfaces had acted, if others followed.
+    fields: Option<[&'a [Row]; 2]>,
+    /// Gravity that is not yet among the forces \[m/s²\].
+    gravity: Row,
+    /// Loads before surfaces acted.
+    before: &'b mut Loads,
+    /// Products of the loads of surfaces with velocities and with accelerations.
+    sums: &'b mut [Row; 2],
+}
+
+impl Kernel for OfWalls<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { particles, walls, fields, gravity, before, sums } = self;
+        let Loads { stored: true, force: forces, torque: torques } = before else { return };
+        let mut found = [[0.0; 4]; 2];
+        for list in walls {
+            for slots in [&list.particle, &list.near.particle] {
+                for &slot in slots {
+                    let slot = slot as usize;
+                    if particles.owner[slot] != 0 {
+                        continue;
+                    }
+                    let loads = [&particles.force[slot], &particles.torque[slot]];
+                    let after = fields.map_or(loads, |[forces, torques]| [&forces[slot], &torques[slot]]);
+                    let pushed = plus(after[0], &forces[slot], -1.0);
+                    let turned = plus(after[1], &torques[slot], -1.0);
+                    // Who is met again was counted.
+                    (forces[slot], torques[slot]) = (*after[0], *after[1]);
+                    let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
+                    let acceleration = plus(&gravity, loads[0], 1.0 / velocity[3]);
+                    let turning = plus(&[0.0; 4], loads[1], 1.0 / spin[3]);
+                    multiply(&mut found, [&pushed, &turned], [[velocity, spin], [&acceleration, &turning]]);
+                }
             }
         }
-        near.iter().for_each(|&slot| is_near[slot as usize] = false);
+        *sums = found;
     }
 }

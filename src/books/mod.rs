@@ -49,3 +49,13 @@ fn plus(row: &Row, other: &Row, factor: f64) -> Row {
 fn row([x, y, z]: [f64; 3]) -> Row {
     [x, y, z, 0.0]
 }
+
+/// Adds to sums the products of force and torque with velocities and with accelerations.
+#[inline(always)]
+fn multiply(sums: &mut [Row; 2], [force, torque]: [&Row; 2], motion: [[&Row; 2]; 2]) {
+    for (sum, [along, about]) in sums.iter_mut().zip(motion) {
+        for axis in 0..4 {
+            sum[axis] += force[axis] * along[axis] + torque[axis] * about[axis];
+        }
+    }
+}

@@ -5,7 +5,7 @@
 //! for both the powers Σ F_k · v and how fast they grow, Σ F_k · a.
 
 use super::between::Between;
-use super::{bodies, dot, plus, row};
+use super::{bodies, dot, multiply, plus, row};
 use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::lanes::{self, Kernel, Lane};
@@ -28,15 +28,17 @@ pub(crate) fn book_first(state: &mut State, fields: &Fields, bodies: &[Option<Ri
 /// that is not yet among them. At time 0 its length is 0: the powers are found.
 pub(crate) fn book_second(
     state: &mut State,
-    between: &Between,
+    between: &mut Between,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
     bodies: &[Option<RigidBody>],
     step: f64,
     context: &Context,
 ) {
-    let State { particles, ledger: Some(ledger), .. } = state else { return };
+    let State { particles, walls, ledger: Some(ledger), .. } = state else { return };
     let particles = &*particles;
     let half = 0.5 * step;
+    let of_walls = between.of_walls(particles, walls, gravity, context.width);
+    let between = &*between;
     let on_piece = |piece: usize| {
         let mut sums = Sums::default();
         lanes::run(context.width, OnPiece { particles, between, fields, gravity, piece, sums: &mut sums });
@@ -48,8 +50,8 @@ pub(crate) fn book_second(
     };
     let pieces = particles.len().div_ceil(CHUNK);
     let (mut powers, turned_over) = context.fold(pieces, on_piece, (Powers::default(), 0.0), add);
-    if let Some(walls) = between.of_walls(particles, gravity) {
-        powers.tell_walls(between, walls);
+    if let Some(walls) = of_walls {
+        powers.tell_walls(between, walls.map(|sums| sums[0] + sums[1] + sums[2]));
     }
     for source in 0..Source::COUNT {
         let (now, growth) = (powers.now[source], powers.growth[source]);
@@ -198,15 +200,5 @@ impl Kernel for OnPiece<'_, '_> {
             }
         }
         *sums = found;
-    }
-}
-
-/// Adds to sums the products of force and torque with velocities and with accelerations.
-#[inline(always)]
-fn multiply(sums: &mut [Row; 2], [force, torque]: [&Row; 2], motion: [[&Row; 2]; 2]) {
-    for (sum, [along, about]) in sums.iter_mut().zip(motion) {
-        for axis in 0..4 {
-            sum[axis] += force[axis] * along[axis] + torque[axis] * about[axis];
-        }
     }
 }

@@ -64,7 +64,9 @@ pub(crate) fn of(
         + frames as f64 * trial.frame.time
         + checkpoints.unwrap_or(2) as f64 * trial.checkpoint.time;
     let Steps { least, most } = steps;
-    let time = |steps: &Counted| writing + steps.all as f64 * trial.step;
+    // Each particle costs as much as in the second half of the trial.
+    let full = trial.passing.map_or(trial.step, |passing| trial.step.max(passing.mean * trial.particle));
+    let time = |steps: &Counted, step: f64| writing + steps.all as f64 * step;
     let given = matches!(scene.run.step, Step::Given(_));
     let shortened = |steps: &Counted| match steps.shortened {
         0 => "none of them shortened to meet an output".to_owned(),
@@ -77,10 +79,10 @@ pub(crate) fn of(
         } else {
             format!("{} to {} up to t = {end} s, as the step is automatic", least.all, most.all)
         },
-        time: if given {
-            duration(time(&least))
+        time: if given && full == trial.step {
+            duration(time(&least, trial.step))
         } else {
-            format!("{} to {}", duration(time(&least)), duration(time(&most)))
+            format!("{} to {}", duration(time(&least, trial.step)), duration(time(&most, full)))
         },
     }
 }
@@ -140,6 +142,9 @@ fn duration(seconds: f64) -> String {
         seconds if seconds >= 2.0 * 86400.0 => format!("{:.1} days", seconds / 86400.0),
         seconds if seconds >= 7200.0 => format!("{:.1} h", seconds / 3600.0),
         seconds if seconds >= 120.0 => format!("{:.1} min", seconds / 60.0),
+        seconds if seconds >= 100.0 => format!("{seconds:.0} s"),
+        seconds if seconds >= 10.0 => format!("{seconds:.1} s"),
+        seconds if seconds >= 0.1 => format!("{seconds:.2} s"),
         seconds => format!("{seconds:.2e} s"),
     }
 }

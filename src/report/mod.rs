@@ -70,8 +70,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let cost = cost(&simulation, &trial);
     let savings = savings::of(scene, &simulation);
     if scene.changes_number() {
-        let what =
-            "the number of particles changes: memory, cost, time and what is written are as measured at the start";
+        let what = "the number of particles changes: memory and cost are as measured at the start; time is a range, from as many particles as in the trial to all that come and none that go";
         remarks.push(what.to_owned());
     }
     remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));

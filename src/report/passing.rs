@@ -19,6 +19,8 @@ pub(crate) struct Passing {
     present: f64,
     /// How many may be left at least and, where nothing goes, be there at most.
     pub(crate) counts: [f64; 2],
+    /// How many are there in the mean over the run, where nothing goes and all find room.
+    pub(crate) mean: f64,
     /// What each adds to a frame and to a checkpoint \[bytes\].
     each: [f64; 2],
 }
@@ -40,14 +42,26 @@ impl Passing {
             return Ok(None);
         }
         let present = simulation.state().particles.len() as f64;
-        let come: f64 = scene.insertions.iter().map(|insertion| count(scene, insertion, duration)).sum();
+        let come = |share: fn(Amount) -> f64| -> f64 {
+            let of = |insertion: &Insertion| share(insertion.amount) * count(scene, insertion, duration);
+            scene.insertions.iter().map(of).sum()
+        };
+        let mean = present + come(share_present);
         let least = if scene.removes() { 0.0 } else { present };
-        Ok(Some(Self { present, counts: [least, present + come], each: each(simulation)? }))
+        Ok(Some(Self { present, counts: [least, present + come(|_| 1.0)], mean, each: each(simulation)? }))
     }
 
     /// Least and largest size of a file that has this size now \[bytes\].
     pub(crate) fn sizes(&self, files: Files, now: f64) -> [f64; 2] {
         self.counts.map(|count| (now + (count - self.present) * self.each[files as usize]).max(0.0))
+    }
+}
+
+/// Which share of what comes is there in the mean over the time in which it comes: what a mass lets come may do so at once.
+fn share_present(amount: Amount) -> f64 {
+    match amount {
+        Amount::CountRate(_) | Amount::MassRate(_) => 0.5,
+        Amount::Mass(_) => 1.0,
     }
 }
 

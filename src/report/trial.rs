@@ -29,6 +29,8 @@ pub(crate) struct Price {
 pub(crate) struct Trial {
     /// Wall time of a time step \[s\].
     pub step: f64,
+    /// The same for each particle, in the second half of the trial; 0 where there were none \[s\].
+    pub particle: f64,
     /// Time steps made.
     pub steps: u64,
     /// Wall time of the whole trial \[s\].
@@ -77,6 +79,7 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     let mut trial = Trial::default();
     let begun = Instant::now();
     let (mut counted, mut since) = (0, begun);
+    let (mut late_time, mut late_particles) = (0.0, 0.0);
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
     let mut at_once = 1.0;
     while begun.elapsed() < patience {
@@ -102,7 +105,12 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
             counted += made;
         }
         trial.steps += made;
-        let each = looked.elapsed().as_secs_f64() / made.max(1) as f64;
+        let took = looked.elapsed().as_secs_f64();
+        if looked.duration_since(begun) >= patience / 2 {
+            late_time += took;
+            late_particles += made as f64 * simulation.state().particles.len() as f64;
+        }
+        let each = took / made.max(1) as f64;
         at_once = (BETWEEN_LOOKS / each.max(1e-9)).clamp(1.0, 1e6).floor();
     }
     trial.step = match (counted, trial.steps) {
@@ -110,6 +118,7 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
         (0, steps) => begun.elapsed().as_secs_f64() / steps as f64,
         (counted, _) => since.elapsed().as_secs_f64() / counted as f64,
     };
+    trial.particle = if late_particles > 0.0 { late_time / late_particles } else { 0.0 };
     trial
 }
 

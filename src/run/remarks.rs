@@ -1,5 +1,6 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
+use crate::contact::{Law, LawChoice};
 use crate::exchange::Amount;
 use crate::scene::{Scene, Step};
 use crate::step::{COLLAPSING_COHESION, Simulation};
@@ -23,6 +24,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(intervals(scene));
     remarks.extend(moduli(scene));
     remarks.extend(cohesion(scene));
+    remarks.extend(friction(scene));
     remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
     remarks.extend(full(scene, simulation));
@@ -109,6 +111,24 @@ fn cohesion(scene: &Scene) -> Vec<String> {
     deep.collect()
 }
 
+/// On friction whose spring is stretched backwards where its dashpot exceeds the limit, as it does at first touch: what follows then depends on
+/// how deep the first time step finds the contact.
+fn friction(scene: &Scene) -> Vec<String> {
+    let stretches = |choice: &LawChoice| {
+        let law = Law::of(choice);
+        law.limits_dashpot() && law.spring().is_some() && choice.switches.damps_slip()
+    };
+    let named = scene.contacts.iter().filter(|law| stretches(&law.choice()));
+    let told = named.map(|law| {
+        format!(
+            "[contact.{}] tangential: impacts with {} that slide first depend on the time step by some percent, however short it is; history does not",
+            law.name,
+            law.tangential.name()
+        )
+    });
+    told.collect()
+}
+
 /// On overlaps that contact laws are not made for.
 fn overlap(simulation: &Simulation) -> Option<String> {
     let overlap = simulation.largest_overlap();
@@ -121,4 +141,27 @@ fn falling(scene: &Scene) -> Option<String> {
     let endless =
         scene.boundaries.is_empty() && scene.domain.is_none() && scene.gravity.iter().any(|part| *part != 0.0);
     endless.then(|| "gravity acts and there is no boundary and no [domain]: particles fall for ever".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    #[test]
+    fn a_spring_that_its_dashpot_stretches_backwards_is_remarked() {
+        let told = |tangential: &str, damping: &str| {
+            let text = format!(
+                "[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\n\
+                 [contact.c]\ntangential_damping = {damping}\n[contact.c.normal.hertz]\n[contact.c.tangential.{tangential}]\n\
+                 [particles.p]\nmaterial = \"a\"\nlist = [{{ position = [0.0, 0.0, 0.0], radius = 1e-3 }}]\n"
+            );
+            let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+            friction(&Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+        };
+        assert!(told("turned_history", "true")[0].starts_with("[contact.c] tangential: impacts with turned_history"));
+        for [tangential, damping] in [["turned_history", "false"], ["history", "true"], ["no_history", "true"]] {
+            assert!(told(tangential, damping).is_empty(), "{tangential}, damping {damping}");
+        }
+    }
 }

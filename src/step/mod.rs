@@ -494,7 +494,7 @@ impl Simulation {
     /// Books the half kick that is about to end a step of this length \[s\], with gravity \[m/s²\] where that is not yet among the
     /// forces.
     fn book_second(&mut self, gravity: Option<[f64; 3]>, step: f64, context: &Context) {
-        let between = &self.room.between;
+        let between = &mut self.room.between;
         books::work::book_second(&mut self.state, between, (&self.fields, gravity), &self.bodies, step, context);
     }
 

@@ -1,10 +1,14 @@
-//! The default time step of a scene against a tenth of it.
+//! The default time step of a scene against a tenth of it: run against run as long as the motion is not chaotic, then means over
+//! ensembles of runs that begin a little otherwise.
 
 use super::scenes::{Random, random};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
+use std::num::NonZero;
+use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Length of a communication step \[s\].
 const INTERVAL: f64 = 1e-4;
@@ -15,18 +19,23 @@ const WINDOW: usize = 8;
 /// Part of the stable step: the default, a tenth of it, and another to see what is chaotic.
 const PARTS: [f64; 3] = [0.2, 0.02, 0.028];
 
+/// Runs in an ensemble.
+const MEMBERS: u64 = 16;
+
+/// A difference of means counts where it is larger than so many of its standard errors.
+const SURE: f64 = 4.0;
+
 /// What a user may expect, over the largest of its kind.
 pub(crate) const ALLOWED: f64 = 0.02;
 
-/// How well the two fine runs agree where a motion is not chaotic: over the largest of its kind, and over the difference of the
-/// default from them. An error of the first order in the step would be 0.2 − 0.02 to 0.028 − 0.02, or 0.044.
-const CHAOTIC: [f64; 2] = [0.003, 0.08];
+/// How far apart two fine runs may be before their motion counts as chaotic, over the largest of its kind.
+const CHAOTIC: f64 = 0.003;
 
 /// What became of a scene.
 pub(crate) enum Outcome {
-    /// Both agree up to this time \[s\], with the largest difference.
-    Agrees(f64, f64),
-    /// They differ by this much at this time \[s\], in this quantity.
+    /// Both agree.
+    Agrees(Agreement),
+    /// They, or their means, differ by this much at this time \[s\], in this quantity.
     Differs(f64, f64, &'static str),
     /// A run stopped, in these words.
     Stopped(String),
@@ -34,10 +43,26 @@ pub(crate) enum Outcome {
     Refused(String),
 }
 
+/// How a scene's runs agree.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Agreement {
+    /// Up to this time run by run \[s\].
+    pub(crate) until: f64,
+    /// The largest difference there.
+    pub(crate) apart: f64,
+    /// The largest difference of means of ensembles after that, and its standard error.
+    pub(crate) means: Option<[f64; 2]>,
+}
+
 impl std::fmt::Display for Outcome {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Agrees(until, apart) => write!(out, "agrees until {until:.1e} s, largest difference {apart:.1e}"),
+            Self::Agrees(Agreement { until, apart, means }) => {
+                write!(out, "agrees run by run until {until:.1e} s, largest difference {apart:.1e}")?;
+                means.map_or(Ok(()), |[apart, error]| {
+                    write!(out, ", then in the mean, {apart:.1e} with error {error:.1e}")
+                })
+            }
             Self::Differs(apart, at, what) => write!(out, "differs by {apart:.3} at {at:.1e} s: {what}"),
             Self::Stopped(words) => write!(out, "stops: {words}"),
             Self::Refused(words) => write!(out, "is refused: {words}"),
@@ -115,7 +140,7 @@ fn difference(course: &Course, other: &Course, window: usize) -> (f64, &'static 
 
 /// What becomes of the scene of a seed, with these lines in `[run]`, in so many communication steps.
 pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcome) {
-    let scene = random(seed);
+    let scene = random(seed, 0);
     let name = format!("seed {seed}: {}", scene.name);
     let courses: Result<Vec<Course>, Outcome> = PARTS.iter().map(|part| run(&scene, *part, intervals, lines)).collect();
     let courses = match courses {
@@ -123,19 +148,79 @@ pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcom
         Err(outcome) => return (name, outcome),
     };
     let [default, fine, other] = courses.as_slice() else { unreachable!("three parts") };
-    let (mut largest, mut agreed) = (0.0_f64, 0.0);
+    let mut agreement = Agreement::default();
     for window in 0..intervals / WINDOW {
-        let (apart, what) = difference(default, fine, window);
+        let (apart, _) = difference(default, fine, window);
         let unsure = difference(other, fine, window).0;
-        // Here two converged runs part: a matter of the scene, not of the step.
-        if unsure > CHAOTIC[0] || (apart > ALLOWED && unsure > CHAOTIC[1] * apart) {
-            break;
+        if apart > ALLOWED || unsure > CHAOTIC {
+            return (name, judge_means(seed, window..intervals / WINDOW, lines, agreement));
         }
-        agreed = (window + 1) as f64 * WINDOW as f64 * INTERVAL;
-        if apart > ALLOWED {
-            return (name, Outcome::Differs(apart, agreed, what));
-        }
-        largest = largest.max(apart);
+        agreement.until = (window + 1) as f64 * WINDOW as f64 * INTERVAL;
+        agreement.apart = agreement.apart.max(apart);
     }
-    (name, Outcome::Agrees(agreed, largest))
+    (name, Outcome::Agrees(agreement))
+}
+
+/// The same in these windows, by means over ensembles: two runs have parted there, as a motion is chaotic or as the step is too long.
+/// A step that is too long changes the means.
+fn judge_means(seed: u64, windows: Range<usize>, lines: &str, mut agreement: Agreement) -> Outcome {
+    let ensembles = [PARTS[0], PARTS[1]].map(|part| ensemble(seed, part, windows.end * WINDOW, lines));
+    let [default, fine] = match ensembles {
+        [Ok(default), Ok(fine)] => [default, fine],
+        [Err(outcome), _] | [_, Err(outcome)] => return outcome,
+    };
+    for window in windows {
+        let found = differences_of_means(&default, &fine, window);
+        let most =
+            |[apart, error]: [f64; 2], (next, _): &([f64; 2], _)| if next[0] > apart { *next } else { [apart, error] };
+        agreement.means = Some(found.iter().fold(agreement.means.unwrap_or_default(), most));
+        if let Some(&([apart, _], what)) = found.iter().find(|([apart, error], _)| *apart > ALLOWED + SURE * error) {
+            return Outcome::Differs(apart, (window + 1) as f64 * WINDOW as f64 * INTERVAL, what);
+        }
+    }
+    Outcome::Agrees(agreement)
+}
+
+/// Runs of a scene that begin a little otherwise, on all processors.
+fn ensemble(seed: u64, part: f64, intervals: usize, lines: &str) -> Result<Vec<Course>, Outcome> {
+    let next = AtomicU64::new(1);
+    let work = || {
+        let mut courses = Vec::new();
+        loop {
+            let member = next.fetch_add(1, Ordering::Relaxed);
+            if member > MEMBERS {
+                return courses;
+            }
+            courses.push((member, run(&random(seed, member), part, intervals, lines)));
+        }
+    };
+    let count = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let mut courses: Vec<(u64, Result<Course, Outcome>)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().expect("a run does not panic")).collect()
+    });
+    courses.sort_by_key(|(member, _)| *member);
+    courses.into_iter().map(|(_, course)| course).collect()
+}
+
+/// The differences of the means of two ensembles in a window and their standard errors, both over what each quantity is measured by, and
+/// whose they are.
+fn differences_of_means(some: &[Course], others: &[Course], window: usize) -> Vec<([f64; 2], &'static str)> {
+    let numbers = |courses: &[Course]| courses.iter().map(|course| means(course, window)).collect::<Vec<_>>();
+    let (a, b) = (numbers(some), numbers(others));
+    let mut found = Vec::new();
+    for quantity in 0..4 {
+        let largest = others.iter().map(|course| course.scales[SCALES[quantity]]).fold(f64::MIN_POSITIVE, f64::max);
+        for k in 0..a[0][quantity].len() {
+            let of = |rows: &[[Vec<f64>; 4]]| {
+                let count = rows.len() as f64;
+                let mean = rows.iter().map(|row| row[quantity][k]).sum::<f64>() / count;
+                let squares: f64 = rows.iter().map(|row| (row[quantity][k] - mean).powi(2)).sum();
+                [mean, squares / (count - 1.0) / count]
+            };
+            let ([a, doubt_of_a], [b, doubt_of_b]) = (of(&a), of(&b));
+            found.push(([(a - b).abs() / largest, (doubt_of_a + doubt_of_b).sqrt() / largest], NAMES[quantity]));
+        }
+    }
+    found
 }

@@ -197,12 +197,29 @@ fn bonds(numbers: &mut Numbers, spheres: &[[f64; 7]]) -> (String, &'static str) 
     (text, when)
 }
 
-/// The scene of a seed.
-pub(crate) fn random(seed: u64) -> Random {
+/// By how much velocities stray at most in members of an ensemble, over themselves: far less than what the comparison allows.
+const STRAY: f64 = 1e-3;
+
+/// Lets each pair of spheres begin a little faster or slower, and in another direction.
+fn stray(spheres: &mut [[f64; 7]], seed: u64, member: u64) {
+    let mut numbers = Numbers::of(seed.wrapping_add(member << 32));
+    for pair in spheres.chunks_mut(2) {
+        for axis in 4..7 {
+            let factor = 1.0 + numbers.between(-STRAY, STRAY);
+            pair.iter_mut().for_each(|sphere| sphere[axis] *= factor);
+        }
+    }
+}
+
+/// The scene of a seed: that itself (member 0), or one that begins a little otherwise.
+pub(crate) fn random(seed: u64, member: u64) -> Random {
     let mut numbers = Numbers::of(seed);
     let (law, law_name) = law(&mut numbers);
     let sizes = numbers.spread(1.0, 10.0);
-    let spheres = spheres(&mut numbers, sizes);
+    let mut spheres = spheres(&mut numbers, sizes);
+    if member > 0 {
+        stray(&mut spheres, seed, member);
+    }
     let (walls, driven, lid) = walls(&mut numbers);
     let (bonds, when) = bonds(&mut numbers, &spheres);
     let gravity = numbers.one(&["0.0", "-9.81"]);
