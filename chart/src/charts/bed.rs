@@ -1,19 +1,21 @@
-//! A column of grains that settles behind a gate and collapses when the gate is drawn: its measures over the time step.
+//! A column of grains that settles behind a gate and collapses when the gate is drawn: its measures over the time step and the processor time.
 //!
 //! Grains that fall and roll are chaotic: a trajectory does not converge, its measures do, up to what another packing would
 //! change. So each step is run from several packings, and the picture shows each of them.
 
+use super::block::processor_time;
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, linear, logarithmic};
 use crate::stage::Stage;
 use crate::table::Table;
 use cograin::interface::Interface;
+use std::time::Instant;
 
 /// The chart.
 pub(super) const CHART: Chart = Chart {
     name: "bed",
-    shows: "settled column and collapse: height, force on the gate, coordination, run-out, over the time step and packings",
+    shows: "settled column and collapse: height, force on the gate, coordination, run-out, over processor time, time steps and packings",
     seconds: 33.0,
     draw,
 };
@@ -63,12 +65,14 @@ fn mean(stage: &Stage, axis: usize) -> f64 {
 }
 
 /// What is measured: force on the gate \[N\], height of the settled centre of mass \[m\], contacts a grain, how far nine tenths of the
-/// grains ran out \[m\], height of the heap's centre of mass \[m\]; and time steps.
-fn measure(part: f64, seed: u32) -> Result<([f64; 5], f64), ChartError> {
+/// grains ran out \[m\], height of the heap's centre of mass \[m\]; time steps; and processor time \[s\].
+fn measure(part: f64, seed: u32) -> Result<([f64; 5], [f64; 2]), ChartError> {
     let mut stage = Stage::of(&text(part, seed))?;
     let interface = Interface::of(stage.simulation.scene());
     let force = interface.find("gate.mean_force.x").expect("a boundary has a mean force");
     let (count, interval) = AVERAGED;
+    let begun = Instant::now();
+    let before = processor_time(begun);
     stage.advance(TIMES[0] - f64::from(count) * interval)?;
     let mut pushed = 0.0;
     for _ in 0..count {
@@ -82,8 +86,14 @@ fn measure(part: f64, seed: u32) -> Result<([f64; 5], f64), ChartError> {
     ways.sort_by(f64::total_cmp);
     let run_out = ways[ways.len() * 9 / 10];
     let steps = stage.simulation.state().clock.steps as f64;
-    Ok(([pushed, settled, coordination, run_out, mean(&stage, 2)], steps))
+    Ok(([pushed, settled, coordination, run_out, mean(&stage, 2)], [steps, processor_time(begun) - before]))
 }
+
+/// Column of the fraction of the stable step.
+const PART: &str = "fraction of the stable step";
+
+/// Column of what a run costs.
+const COST: &str = "processor time of the run";
 
 /// Columns of what is measured.
 const COLUMNS: [(&str, &str); 5] = [
@@ -97,18 +107,17 @@ const COLUMNS: [(&str, &str); 5] = [
 /// Computes the chart.
 fn draw() -> Result<Drawing, ChartError> {
     let [a, b, c, d, e] = COLUMNS;
-    let mut table =
-        Table::new([("series", ""), ("fraction of the stable step", "1"), ("time steps", "1"), a, b, c, d, e]);
+    let mut table = Table::new([("series", ""), (PART, "1"), ("time steps", "1"), (COST, "s"), a, b, c, d, e]);
     for seed in SEEDS {
         for part in PARTS {
-            let ([a, b, c, d, e], steps) = measure(part, seed)?;
-            let series = format!("packing {seed}");
-            table.push([series.into(), part.into(), steps.into(), a.into(), b.into(), c.into(), d.into(), e.into()]);
+            let (measured, [steps, time]) = measure(part, seed)?;
+            let [a, b, c, d, e] = measured.map(Into::into);
+            table.push([format!("packing {seed}").into(), part.into(), steps.into(), time.into(), a, b, c, d, e]);
         }
     }
     let panel = |(column, _): (&'static str, &str)| {
         let title = format!("{} grains: {column}", GRAINS.0);
-        Panel::new(&title, logarithmic("fraction of the stable step"), linear(column), "series")
+        Panel::new(&title, logarithmic(COST), linear(column), "series")
     };
     let notes = COLUMNS.map(|(column, unit)| scatter(&table, column, unit)).into();
     Ok(Drawing { table, picture: Picture { panels: COLUMNS.map(panel).into(), ..Picture::default() }, notes })
@@ -117,7 +126,7 @@ fn draw() -> Result<Drawing, ChartError> {
 /// How much the step changes a measure, and how much the packing does.
 fn scatter(table: &Table, column: &str, unit: &str) -> String {
     let of = |part: f64| {
-        let rows = (0..table.rows.len()).filter(|row| table.number(*row, "fraction of the stable step") == Some(part));
+        let rows = (0..table.rows.len()).filter(|row| table.number(*row, PART) == Some(part));
         rows.filter_map(|row| table.number(row, column)).collect::<Vec<_>>()
     };
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;

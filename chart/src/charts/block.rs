@@ -104,7 +104,7 @@ fn text(feature: &Feature) -> String {
 }
 
 /// Processor time of this thread \[s\], or wall time where the system does not tell it.
-fn processor_time(begun: Instant) -> f64 {
+pub(super) fn processor_time(begun: Instant) -> f64 {
     // The system counts when it looks for another thread to run, or some milliseconds later.
     std::thread::yield_now();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();

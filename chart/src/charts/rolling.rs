@@ -5,7 +5,7 @@
 //! sliding and ends rolling.
 
 use super::runs::{Sampled, apart, given};
-use super::schemes::{MIDWAY, PREDICTED, PREDICTED_NORMAL};
+use super::schemes::{MIDWAY, PREDICTED, PREDICTED_NORMAL, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
 use crate::picture::{Panel, Picture, logarithmic};
@@ -94,6 +94,20 @@ fn observe(stage: &Stage) -> Vec<f64> {
     vec![stage.velocity(0)[0], RADIUS * stage.spin(0)[1]]
 }
 
+/// The largest errors of speed over the first, over time steps in a period of the bounce.
+fn errors(case: &Case, tangential: &str, scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
+    let [_, period] = rest();
+    let sampled = Sampled { interval: period / 4.0, count: 12, observe };
+    let run = |steps: f64| sampled.of(&text(case, tangential, &(given(period / steps) + scheme.run)));
+    let right = run(FINEST)?;
+    STEPS.iter().map(|&steps| Ok([steps, apart(&run(steps)?, &right) / case.speed])).collect()
+}
+
+/// Those of a sphere that rocks on its rolling spring (`epsd2`) with `history`.
+pub(super) fn rocking_errors(scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
+    errors(&CASES[0], "history", scheme)
+}
+
 /// Computes the chart.
 fn draw() -> Result<Drawing, ChartError> {
     let mut table = Table::new([
@@ -103,21 +117,15 @@ fn draw() -> Result<Drawing, ChartError> {
         ("largest error of speed over the first", "1"),
     ]);
     let mut notes = Vec::new();
-    let [_, period] = rest();
-    let sampled = Sampled { interval: period / 4.0, count: 12, observe };
     for case in &CASES {
         for tangential in ["history", "turned_history"] {
             // The curves of `engine` are those of the default.
             for scheme in [PREDICTED_NORMAL, MIDWAY, PREDICTED] {
-                let run = |steps: f64| sampled.of(&text(case, tangential, &(given(period / steps) + scheme.run)));
-                let right = run(FINEST)?;
-                let mut errors = Vec::new();
-                for steps in STEPS {
-                    let error = apart(&run(steps)?, &right) / case.speed;
-                    errors.push(error);
+                let errors = errors(case, tangential, &scheme)?;
+                for &[steps, error] in &errors {
                     table.push([case.name.into(), scheme.named(tangential).into(), steps.into(), error.into()]);
                 }
-                let [.., coarse, fine] = errors[..] else { continue };
+                let [.., [_, coarse], [_, fine]] = errors[..] else { continue };
                 let (series, order) = (scheme.named(tangential), libm::log2(coarse / fine));
                 notes.push(format!("{}, {series}: order {order:.2} between the two finest", case.name));
             }

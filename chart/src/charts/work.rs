@@ -1,14 +1,15 @@
 //! How exact a result is for the processor time that it takes: error over cost, scheme by scheme, and other programs beside.
 //!
 //! The cost of an impact is that of one contact: its time steps times what a contact and step takes in the block of `features`,
-//! with the same law and scheme (all have friction there). That of a cantilever is the same for one bond. Other programs rebound the
-//! same way, and compute the same block.
+//! with the same law and scheme (all have friction there). That of a sphere that rocks is that of its contact, over a period of its bounce; that of a
+//! cantilever is the same for one bond. Other programs rebound the same way, and compute the same block.
 
 use super::block::{BOND, Feature, HERTZ, HOOKE, ROUGH, times};
 use super::cantilever::deflection_errors;
 use super::impact::{self, RESTITUTIONS};
 use super::oblique;
 use super::peers::{PEERS, Peer};
+use super::rolling::rocking_errors;
 use super::schemes::{PREDICTED, SCHEMES, Scheme};
 use super::{Chart, Drawing};
 use crate::ChartError;
@@ -18,7 +19,7 @@ use crate::table::Table;
 /// The chart.
 pub(super) const CHART: Chart = Chart {
     name: "work",
-    shows: "error over processor time: impacts and a bonded cantilever, over schemes, formulations and other programs",
+    shows: "error over processor time: impacts, a sphere that rocks and a bonded cantilever, over schemes, formulations and other programs",
     seconds: 40.0,
     draw,
 };
@@ -43,11 +44,18 @@ const BONDS: [([&str; 2], Feature); 4] = [
 /// Restitution and friction of the oblique impacts.
 const OBLIQUE: [f64; 2] = [0.5, 0.4];
 
+/// The law of the sphere that rocks.
+const ROCKING: [&str; 3] = [HERTZ, ROUGH, "[contact.c.rolling.epsd2]\n"];
+
 /// The diagrams: cases and their titles.
-const CASES: [(&str, &str); 4] = [
+const CASES: [(&str, &str); 5] = [
     ("impact, hertz", "impact, hertz: restitution, largest error over e = 0.1 to 1"),
     ("impact, hooke", "impact, hooke: restitution, largest error over e = 0.1 to 1"),
     ("oblique impact", "oblique impact, hertz + history, e = 0.5, µ = 0.4: rebound, largest error over 5° to 70°"),
+    (
+        "rocking",
+        "sphere that rocks on its rolling spring, hertz + history + epsd2: speed, over 3 periods of the bounce",
+    ),
     ("cantilever", "bonded cantilever: deflection over a period"),
 ];
 
@@ -121,6 +129,16 @@ fn peer_errors(peer: &Peer, model: &str) -> Result<Vec<[f64; 2]>, ChartError> {
     Ok(points)
 }
 
+/// The sphere that rocks, with every scheme.
+fn rocking(table: &mut Table) -> Result<(), ChartError> {
+    let features: Vec<Feature> =
+        SCHEMES.iter().map(|scheme| Feature::new(scheme.name, &ROCKING).with(*scheme)).collect();
+    for (scheme, timed) in SCHEMES.iter().zip(times(&features)?) {
+        fill(table, "rocking", scheme.name, &rocking_errors(scheme)?, 1e9 * timed.least / timed.contacts());
+    }
+    Ok(())
+}
+
 /// The cantilever with every kind of bond.
 fn cantilevers(table: &mut Table) -> Result<(), ChartError> {
     let timed = times(&BONDS.map(|(_, feature)| feature))?;
@@ -138,6 +156,7 @@ fn draw() -> Result<Drawing, ChartError> {
     let mut table =
         Table::new([(COLUMNS[0], ""), (COLUMNS[1], ""), (COLUMNS[2], "1"), (COLUMNS[3], "ns"), (COLUMNS[4], "1")]);
     let mut notes = impacts(&mut table)?;
+    rocking(&mut table)?;
     cantilevers(&mut table)?;
     for (case, _) in CASES {
         notes.extend(costs(&table, case));
