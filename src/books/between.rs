@@ -1,4 +1,4 @@
-//! What particles bear between one kind of force and the next: by that the energy book tells kinds apart.
+//! The loads on particles between one kind of force and the next, by which the energy book tells the kinds apart.
 //!
 //! Loads are stored only where the next kind may act: near surfaces, and everywhere for bonds and fields.
 
@@ -37,7 +37,7 @@ impl Loads {
 /// What the book stores from the evaluation of the forces to the kick that follows.
 #[derive(Default)]
 pub(crate) struct Between {
-    /// The kind of force that the passes added last but for surfaces that follow another kind.
+    /// The kind of force that passes added last; that before surfaces where these follow another kind.
     pub(super) last: Option<Source>,
     /// Loads before bonds acted.
     pub(super) bonds: Loads,
@@ -96,7 +96,8 @@ impl Between {
         }
     }
 
-    /// Sums of the loads of surfaces, if they follow another kind: [`Sums`](super::work::Sums). Weight may not yet be among the loads.
+    /// Products of the loads of surfaces with velocities and with accelerations, if surfaces follow another kind of force. `gravity`
+    /// \[m/s²\] is given where the weight is not yet among the loads.
     pub(super) fn of_walls(
         &mut self,
         particles: &Particles,

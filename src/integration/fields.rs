@@ -99,6 +99,11 @@ impl Fields {
         (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
     }
 
+    /// Whether they add anything to the forces.
+    pub(crate) fn act(&self) -> bool {
+        self.damps || self.applies() || self.gravity != [0.0; 3]
+    }
+
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
     pub(crate) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
         if !self.damps && self.applied.is_empty() {

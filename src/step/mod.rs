@@ -475,7 +475,7 @@ impl Simulation {
                 self.done(source.name());
             }
         }
-        if fields {
+        if fields && self.fields.act() {
             self.room.between.note_before_fields(&self.state);
         }
         let state = &mut self.state;
