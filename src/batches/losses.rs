@@ -1,5 +1,5 @@
-//! What contacts lose, over a batch: what sub-models leave in the columns is looked at when they are through. One kernel for
-//! all laws.
+//! What contacts lose, over a batch. One kernel for all laws reads what their sub-models left in the columns; laws that are compiled
+//! whole call [`book`] with what stands in their registers.
 //!
 //! Losses are summed in eight columns, by the place of the contact in the batch: the same bits in every lane width.
 

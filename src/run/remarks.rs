@@ -111,8 +111,8 @@ fn cohesion(scene: &Scene) -> Vec<String> {
     deep.collect()
 }
 
-/// On friction whose spring is stretched backwards where its dashpot exceeds the limit, as it does at first touch: what follows then depends on
-/// how deep the first time step finds the contact.
+/// On friction whose dashpot stretches its spring backwards where it exceeds the limit, as it does at first touch: what follows then depends
+/// on how deep the first time step finds the contact.
 fn friction(scene: &Scene) -> Vec<String> {
     let stretches = |choice: &LawChoice| {
         let law = Law::of(choice);
@@ -121,7 +121,7 @@ fn friction(scene: &Scene) -> Vec<String> {
     let named = scene.contacts.iter().filter(|law| stretches(&law.choice()));
     let told = named.map(|law| {
         format!(
-            "[contact.{}] tangential: impacts with {} that slide first depend on the time step by some percent, however short it is; history does not",
+            "[contact.{}] tangential: with {}, rebounds of impacts that slide first may depend on the time step by some percent, and a shorter one need not help; with history they converge",
             law.name,
             law.tangential.name()
         )
@@ -159,7 +159,7 @@ mod tests {
             let source = Source { name: "scene.toml".into(), text, files: Default::default() };
             friction(&Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
         };
-        assert!(told("turned_history", "true")[0].starts_with("[contact.c] tangential: impacts with turned_history"));
+        assert!(told("turned_history", "true")[0].starts_with("[contact.c] tangential: with turned_history, rebounds"));
         for [tangential, damping] in [["turned_history", "false"], ["history", "true"], ["no_history", "true"]] {
             assert!(told(tangential, damping).is_empty(), "{tangential}, damping {damping}");
         }

@@ -7,12 +7,14 @@
 mod compare;
 mod scenes;
 
-use compare::{Outcome, judge};
+use compare::{Agreement, Outcome, judge};
 
 #[test]
 fn agree_with_a_tenth_of_the_default_step() {
     for seed in 1..=12 {
         let (name, outcome) = judge(seed, 40, "");
-        assert!(matches!(outcome, Outcome::Agrees(..) | Outcome::Stopped(_)), "{name} {outcome}");
+        // Run by run: none of these is chaotic so early.
+        let agrees = matches!(outcome, Outcome::Agrees(Agreement { means: None, .. }) | Outcome::Stopped(_));
+        assert!(agrees, "{name} {outcome}");
     }
 }
