@@ -44,7 +44,7 @@ impl LawChoice {
             stiffness: friction.has_spring || self.rolling.visit(Parts).takes_tangential_stiffness,
             damping: friction.has_dashpot && self.switches.damps_slip(),
         };
-        let ask = Ask(pair, needs);
+        let ask = Ask(pair, needs, self.normal.visit(DampedAtTouch));
         let mut row = Vec::new();
         let mut missing = Vec::new();
         let mut take = |found: Result<Vec<f64>, Missing>| match found {
@@ -115,7 +115,22 @@ impl LawChoice {
                          true, or tangential model none without this key, is right",
             });
         }
+        if self.normal.visit(DampedAtTouch) && self.stretches_backwards() {
+            return Some(Objection {
+                table: "tangential",
+                key: "backward_spring",
+                reason: "true found, with a normal model whose dashpot acts in full at first touch, before the spring has a stiffness: \
+                         it would stretch the spring without bound; false, another tangential model, or \
+                         tangential_damping = false is right",
+            });
+        }
         None
+    }
+
+    /// Whether a dashpot beyond the limit of friction stretches the tangential spring backwards.
+    pub fn stretches_backwards(&self) -> bool {
+        let damped_at_touch = self.normal.visit(DampedAtTouch);
+        self.switches.damps_slip() && self.tangential.visit(StretchesBackwards { damped_at_touch })
     }
 }
 
@@ -168,6 +183,16 @@ impl TakeNormal for Sticks {
     }
 }
 
+/// Asks a normal model whether its tangential dashpot acts in full at first touch.
+struct DampedAtTouch;
+
+impl TakeNormal for DampedAtTouch {
+    type Output = bool;
+    fn take<M: Normal>(self, _keys: &M::Keys) -> bool {
+        M::DAMPED_AT_TOUCH
+    }
+}
+
 /// Asks a normal model what speaks against its keys.
 struct OfKeys;
 
@@ -212,6 +237,19 @@ impl TakeTangential for Parts {
     }
 }
 
+/// Asks a tangential model whether its dashpot stretches its spring backwards.
+struct StretchesBackwards {
+    /// [`Normal::DAMPED_AT_TOUCH`].
+    damped_at_touch: bool,
+}
+
+impl TakeTangential for StretchesBackwards {
+    type Output = bool;
+    fn take<M: Tangential>(self, keys: &M::Keys) -> bool {
+        M::stretches_backwards(keys, self.damped_at_touch)
+    }
+}
+
 /// Asks a cohesion model whether friction sees the attraction.
 struct Reduces;
 
@@ -222,9 +260,10 @@ impl TakeCohesion for Reduces {
     }
 }
 
-/// Asks a sub-model for its coefficients.
+/// Asks a sub-model for its coefficients between these materials, beside friction and a normal model
+/// ([`Normal::DAMPED_AT_TOUCH`]) as said.
 #[derive(Clone, Copy)]
-struct Ask<'a>(&'a MaterialPair<'a>, FrictionNeeds);
+struct Ask<'a>(&'a MaterialPair<'a>, FrictionNeeds, bool);
 
 impl TakeNormal for Ask<'_> {
     type Output = Result<Vec<f64>, Missing>;
@@ -236,7 +275,7 @@ impl TakeNormal for Ask<'_> {
 impl TakeTangential for Ask<'_> {
     type Output = Result<Vec<f64>, Missing>;
     fn take<M: Tangential>(self, keys: &M::Keys) -> Self::Output {
-        Ok(numbers(&M::between(self.0, keys)?))
+        Ok(numbers(&M::between(self.0, keys, self.2)?))
     }
 }
 

@@ -70,7 +70,11 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
             TangentialChoice::History(NoKeys {}),
             TangentialChoice::NoHistory(NoKeys {}),
             TangentialChoice::Rescaled(NoKeys {}),
-            TangentialChoice::TurnedHistory(turned_history::Keys { rescale: true, given_stiffness: false }),
+            TangentialChoice::TurnedHistory(turned_history::Keys { rescale: true, ..Default::default() }),
+            TangentialChoice::TurnedHistory(turned_history::Keys {
+                backward_spring: Some(false),
+                ..Default::default()
+            }),
         ] {
             for rolling in [
                 RollingChoice::None(NoKeys {}),

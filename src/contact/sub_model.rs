@@ -32,6 +32,9 @@ pub trait Normal: Copy + Send + Sync + 'static {
     }
     /// How γ_n and γ_t begin as the bodies touch.
     const ONSET: Onset = Onset::Unweighed;
+    /// Whether γ_t has its full strength as the bodies touch, where k_t is still 0: a spring that the dashpot stretches backwards then has
+    /// no bound. Models that an engine combines with such springs do not declare it.
+    const DAMPED_AT_TOUCH: bool = false;
     /// Whether slip is that of the undeformed bodies, and torques at walls have their arms, as in the engine.
     fn has_undeformed_arms(_keys: &Self::Keys) -> bool {
         false
@@ -127,14 +130,18 @@ pub trait Tangential: Coefficients {
     const KEEPS_STIFFNESS: bool = false;
     /// Whether spring and dashpot together stand at the limit while it slides, not the spring alone.
     const LIMITS_DASHPOT: bool = false;
+    /// Whether a dashpot beyond the limit stretches the spring backwards, where γ_t has its full strength at first touch or has not.
+    fn stretches_backwards(_keys: &Self::Keys, _damped_at_touch: bool) -> bool {
+        false
+    }
     /// Whether the part of the spring along the normal is lost as the contact turns.
     const PROJECTS: bool = false;
     /// Stiffness of the spring where that of the normal model is k_t \[N/m\].
     fn stiffness(&self, from_normal_model: f64) -> f64 {
         from_normal_model
     }
-    /// The coefficients for two materials.
-    fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
+    /// The coefficients for two materials, beside a normal model that says [`Normal::DAMPED_AT_TOUCH`] or does not.
+    fn between(pair: &MaterialPair, keys: &Self::Keys, damped_at_touch: bool) -> Result<Self, Missing>;
     /// Force on i, its limit, and what is to be remembered. `step` is the time since the history was last advanced
     /// \[s\] (0 in the evaluation before the first step).
     fn force<N: Number>(

@@ -1,6 +1,5 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
-use crate::contact::{Law, LawChoice};
 use crate::exchange::Amount;
 use crate::scene::{Scene, Step};
 use crate::step::{COLLAPSING_COHESION, Simulation};
@@ -114,14 +113,10 @@ fn cohesion(scene: &Scene) -> Vec<String> {
 /// On friction whose dashpot stretches its spring backwards where it exceeds the limit, as it does at first touch: what follows then depends
 /// on how deep the first time step finds the contact.
 fn friction(scene: &Scene) -> Vec<String> {
-    let stretches = |choice: &LawChoice| {
-        let law = Law::of(choice);
-        law.limits_dashpot() && law.spring().is_some() && choice.switches.damps_slip()
-    };
-    let named = scene.contacts.iter().filter(|law| stretches(&law.choice()));
+    let named = scene.contacts.iter().filter(|law| law.choice().stretches_backwards());
     let told = named.map(|law| {
         format!(
-            "[contact.{}] tangential: with {}, rebounds of impacts that slide first may depend on the time step by some percent, and a shorter one need not help; with history they converge",
+            "[contact.{}] tangential: with {}, rebounds of impacts that slide first may depend on the time step by some percent, and a shorter one need not help; with backward_spring = false, or history, they converge",
             law.name,
             law.tangential.name()
         )
@@ -160,6 +155,7 @@ mod tests {
             friction(&Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
         };
         assert!(told("turned_history", "true")[0].starts_with("[contact.c] tangential: with turned_history, rebounds"));
+        assert!(told("turned_history]\nbackward_spring = false\n[contact.c.rolling.none", "true").is_empty());
         for [tangential, damping] in [["turned_history", "false"], ["history", "true"], ["no_history", "true"]] {
             assert!(told(tangential, damping).is_empty(), "{tangential}, damping {damping}");
         }

@@ -32,7 +32,7 @@ fn sticking_impacts_gain_a_little_energy_at_grazing_angles() {
 
 #[test]
 fn a_spring_that_shrinks_with_its_stiffness_gains_none() {
-    let keys = turned_history::Keys { rescale: true, given_stiffness: false };
+    let keys = turned_history::Keys { rescale: true, ..Default::default() };
     let law = LawChoice { tangential: TangentialChoice::TurnedHistory(keys), ..HERTZ };
     for (friction, angle) in [(1.0, 30.0), (5.0, 75.0), (5.0, 45.0)] {
         let found = energy_ratio(law, friction, angle);

@@ -1,6 +1,7 @@
 //! What the program computes, held against theory and published numbers: one claim a file.
 
 mod axial_chain;
+mod backward_spring;
 mod bending_frequencies;
 mod bond_energy;
 mod bond_orders;

@@ -7,7 +7,7 @@ use super::error::Mistake;
 use cograin::contact::cohesion::{CohesionChoice, sjkr};
 use cograin::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
 use cograin::contact::rolling::{RollingChoice, rocking};
-use cograin::contact::tangential::{TangentialChoice, turned_history};
+use cograin::contact::tangential::{TangentialChoice, turned_history::Keys as Turned};
 use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
@@ -211,8 +211,7 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         }
     };
     misplaced(case)?;
-    let turned =
-        |rescale, given_stiffness| TangentialChoice::TurnedHistory(turned_history::Keys { rescale, given_stiffness });
+    let turned = Turned::default();
     let rocking =
         rocking::Keys { torsion: model.torsion_torque, engine_exact: true, set_up_step: Positive::new(case.dt) };
     let keys = sjkr::Keys { tangential_reduce: model.tangential_reduce };
@@ -222,9 +221,9 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
             "off" => TangentialChoice::None(NoKeys {}),
             "history" => TangentialChoice::History(NoKeys {}),
             "no_history" | "linear_nohistory" => TangentialChoice::NoHistory(NoKeys {}),
-            "linear_history" => turned(false, true),
-            "mindlin" => turned(false, false),
-            "mindlin_rescale" => turned(true, false),
+            "linear_history" => TangentialChoice::TurnedHistory(Turned { given_stiffness: true, ..turned }),
+            "mindlin" => TangentialChoice::TurnedHistory(turned),
+            "mindlin_rescale" => TangentialChoice::TurnedHistory(Turned { rescale: true, ..turned }),
             other => {
                 let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
                 return Err(unknown("tangential", other, right));

@@ -111,6 +111,7 @@ impl Normal for Eepa {
     type Keys = Keys;
     type Form = Self;
     const ONSET: Onset = Onset::Constant;
+    const DAMPED_AT_TOUCH: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let (modulus, linear) = (pair.effective_youngs_modulus()?, keys.overlap_exponent == 1.0);

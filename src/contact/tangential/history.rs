@@ -43,7 +43,7 @@ impl Tangential for History {
     const HAS_DASHPOT: bool = true;
     const PROJECTS: bool = true;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))
     }
 

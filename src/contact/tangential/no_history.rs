@@ -33,7 +33,7 @@ impl Tangential for NoHistory {
     const HAS_DASHPOT: bool = true;
     const LIMITS_DASHPOT: bool = true;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))
     }
 

@@ -14,7 +14,7 @@ impl Tangential for None {
     const HAS_SPRING: bool = false;
     const HAS_DASHPOT: bool = false;
 
-    fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+    fn between(_pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
         Ok(Self::new())
     }
 

@@ -47,7 +47,7 @@ impl Tangential for Rescaled {
     const KEEPS_STIFFNESS: bool = true;
     const PROJECTS: bool = true;
 
-    fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
         Ok(Self::new(pair.friction()?))
     }
 

@@ -13,6 +13,7 @@ coefficients! {
     /// s ← s + v_t Δt
     /// F_t = −k s − γ_t v_t
     /// |F_t| > µ N:   F_t ← F_t µ N/|F_t|,  s ← −(F_t + γ_t v_t)/k      (s = 0: F_t = 0)
+    ///                without `backward_spring`: s ← s less its part along F_t where that points as F_t does
     /// ```
     ///
     /// | symbol   | meaning                            | unit      | comes from       |
@@ -28,6 +29,11 @@ coefficients! {
     /// at the limit. The spring is left as it is while its part along n is below 1e-10 µ N/k. With `rescale`, a contact
     /// that shrinks while sheared gains no energy.
     ///
+    /// Where the dashpot alone exceeds the limit, as it does at first touch, the engine stretches the spring backwards, to
+    /// (µ N − γ_t v_t)/k, which has no bound as k goes to 0 with the overlap: later the spring pushes the way the bodies slip, by an amount that
+    /// depends on the depth at which the first time step finds the contact. Without `backward_spring` the dashpot takes friction to
+    /// its limit and the spring stays at rest until the dashpot falls below it.
+    ///
     /// Source: S. Luding, *Granul. Matter* 10 (2008) 235–246; C. Thornton, S. J. Cummins & P. W. Cleary, *Powder
     /// Technol.* 233 (2013) 30–46 (`rescale`); LAMMPS manual, `pair_style granular`: `linear_history`, `mindlin`,
     /// `mindlin_rescale`.
@@ -40,19 +46,22 @@ coefficients! {
         given_stiffness,
         /// 1 with `rescale`, otherwise 0.
         rescale,
+        /// 1 with `backward_spring`, otherwise 0.
+        backward,
     }
 }
 
 /// `[contact.<law>.tangential.turned_history]`
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Keys {
     /// Whether the spring shortens with its stiffness when a contact shrinks.
-    #[serde(default)]
     pub rescale: bool,
     /// Whether the stiffness is `tangential_stiffness` \[N/m\] rather than the normal model's.
-    #[serde(default)]
     pub given_stiffness: bool,
+    /// Whether a dashpot beyond the limit stretches the spring backwards, as in the engine; where the scene does not say, unless the
+    /// dashpot has its full strength at first touch.
+    pub backward_spring: Option<bool>,
 }
 
 impl Tangential for TurnedHistory {
@@ -68,11 +77,22 @@ impl Tangential for TurnedHistory {
     const KEEPS_STIFFNESS: bool = true;
     const LIMITS_DASHPOT: bool = true;
 
-    fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
+    fn between(pair: &MaterialPair, keys: &Keys, damped_at_touch: bool) -> Result<Self, Missing> {
         let friction = pair.friction()?;
-        let rescale = if keys.rescale { 1.0 } else { 0.0 };
+        let number = |yes: bool| if yes { 1.0 } else { 0.0 };
         let given = if keys.given_stiffness { pair.tangential_stiffness()? } else { 0.0 };
-        Ok(Self::new(friction, if keys.given_stiffness { 0.0 } else { 1.0 }, given, rescale))
+        let of_normal_model = number(!keys.given_stiffness);
+        Ok(Self::new(
+            friction,
+            of_normal_model,
+            given,
+            number(keys.rescale),
+            number(Self::stretches_backwards(keys, damped_at_touch)),
+        ))
+    }
+
+    fn stretches_backwards(keys: &Keys, damped_at_touch: bool) -> bool {
+        keys.backward_spring.unwrap_or(!damped_at_touch)
     }
 
     fn stiffness(&self, from_normal_model: f64) -> f64 {
@@ -108,7 +128,13 @@ impl Tangential for TurnedHistory {
         let held = N::both(spring.dot(spring).greater(zero), stiffness.greater(zero));
         let kept = N::select(sliding, N::select(held, limit / square.sqrt(), zero), one);
         let force = whole * kept;
-        let at_limit = -(force + dashpot) * (one / stiffness);
+        let mut pull = force + dashpot;
+        let along = pull.dot(whole);
+        let released = N::both(zero.greater(along), N::splat(0.5).greater(law.backward));
+        if N::any(released) {
+            pull = Vector::select(released, pull - whole * (along / square), pull);
+        }
+        let at_limit = -pull * (one / stiffness);
         let spring = Vector::select(N::both(sliding, held), at_limit, spring);
         Friction { force, history: spring.row_with(stiffness), sliding }
     }
@@ -127,7 +153,7 @@ mod tests {
 
     /// With the stiffness of the normal model.
     fn law(rescale: f64) -> TurnedHistory {
-        TurnedHistory::new(0.25, 1.0, 0.0, rescale)
+        TurnedHistory::new(0.25, 1.0, 0.0, rescale, 1.0)
     }
 
     #[test]
@@ -161,8 +187,22 @@ mod tests {
     }
 
     #[test]
+    fn a_dashpot_beyond_the_limit_does_not_stretch_the_spring_backwards_unless_asked() {
+        // −8 (0.1, 0, 0) − 2 (3, 4, 0) = (−6.8, −8, 0); limit 2 N, and the dashpot alone has 10 N
+        let of = |backward| force(TurnedHistory { backward, ..law(0.0) }, 8.0, [0.1, 0.0, 0.0, 8.0], 0.0);
+        let [engine, at_rest] = [of(1.0), of(0.0)];
+        assert_eq!(engine.force, at_rest.force);
+        let stretched = |found: &Friction| Vector::of_row(found.history).dot(found.force);
+        assert!(stretched(&engine) > 0.1, "against the slip");
+        assert!(stretched(&at_rest).abs() < 1e-15, "{:e}", stretched(&at_rest));
+        // Where the spring leads, nothing is taken from it: −80 − 2 · 3, −2 · 4; limit 60 N
+        let of = |backward| force(TurnedHistory { backward, ..law(0.0) }, 240.0, [10.0, 0.0, 0.0, 8.0], 0.0).history;
+        assert_eq!(of(1.0), of(0.0));
+    }
+
+    #[test]
     fn takes_a_given_stiffness() {
-        let given = TurnedHistory::new(0.25, 0.0, 100.0, 0.0);
+        let given = TurnedHistory::new(0.25, 0.0, 100.0, 0.0, 1.0);
         assert_eq!(force(given, 1e4, [1.0, 0.0, 0.0, 0.0], 0.0).force.x, -106.0);
         assert_eq!([given.stiffness(8.0), law(0.0).stiffness(8.0)], [100.0, 8.0]);
     }
