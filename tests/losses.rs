@@ -192,11 +192,12 @@ losses = true
 }
 
 /// Laws of contacts, and how far from the stable step they are followed.
-const LAWS: [(&str, f64); 12] = [
+const LAWS: [(&str, f64); 13] = [
     ("[contact.touch.normal.hertz]", 1.0),
     ("[contact.touch.normal.hertz]\n[contact.touch.tangential.history]", 1.0),
     ("[contact.touch.normal.hertz]\n[contact.touch.tangential.rescaled]", 1.0),
     ("[contact.touch.normal.hertz]\n[contact.touch.tangential.turned_history]", 1.0),
+    ("[contact.touch.normal.hertz]\n[contact.touch.tangential.turned_history]\nbackward_spring = false", 1.0),
     ("[contact.touch.normal.hertz]\n[contact.touch.tangential.no_history]", 1.0),
     (
         "[contact.touch]\nlimit_force = true\n[contact.touch.normal.hooke]\ncharacteristic_velocity = 1.0\n\

@@ -31,18 +31,28 @@ const ANGLES: [f64; 4] = [5.0, 20.0, 40.0, 70.0];
 /// What the default step is called.
 const DEFAULT: &str = "default step, all angles";
 
-/// A diagram: its name, the tangential model, restitution and friction.
+/// The tangential model `history`.
+pub(super) const HISTORY: &str = "[contact.touch.tangential.history]";
+
+/// `turned_history`, as in LAMMPS.
+const TURNED: &str = "[contact.touch.tangential.turned_history]";
+
+/// `turned_history` with a spring that is at rest while the dashpot exceeds the limit.
+const AT_REST: &str = "[contact.touch.tangential.turned_history]\nbackward_spring = false";
+
+/// A diagram: its name, the tangential model as a scene writes it, restitution and friction.
 type Case = (&'static str, &'static str, [f64; 2]);
 
 /// Schemes of which the picture has diagrams: the curves of `midway` lie on the others; the table has them.
 const DRAWN: [Scheme; 3] = [ENGINE, PREDICTED_NORMAL, PREDICTED];
 
 /// The diagrams.
-const CASES: [Case; 4] = [
-    ("history, e = 0.98, µ = 0.092", "history", [0.98, 0.092]),
-    ("turned_history, e = 0.98, µ = 0.092", "turned_history", [0.98, 0.092]),
-    ("history, e = 0.5, µ = 0.4", "history", [0.5, 0.4]),
-    ("turned_history, e = 0.5, µ = 0.4", "turned_history", [0.5, 0.4]),
+const CASES: [Case; 5] = [
+    ("history, e = 0.98, µ = 0.092", HISTORY, [0.98, 0.092]),
+    ("turned_history, e = 0.98, µ = 0.092", TURNED, [0.98, 0.092]),
+    ("history, e = 0.5, µ = 0.4", HISTORY, [0.5, 0.4]),
+    ("turned_history, e = 0.5, µ = 0.4", TURNED, [0.5, 0.4]),
+    ("turned_history, at rest, e = 0.5, µ = 0.4", AT_REST, [0.5, 0.4]),
 ];
 
 /// Mean of what spheres leave with.
@@ -64,7 +74,7 @@ fn largest(rebounds: &[Rebound], right: &Rebound) -> f64 {
 
 /// The largest errors over all angles of a case, over numbers of time steps in an elastic contact.
 pub(super) fn largest_errors(tangential: &str, coefficients: [f64; 2], run: &str) -> Result<Vec<[f64; 2]>, ChartError> {
-    let law = format!("[contact.touch.normal.hertz]\n[contact.touch.tangential.{tangential}]");
+    let law = format!("[contact.touch.normal.hertz]\n{tangential}");
     let mut errors = STEPS.map(|steps| [steps, 0.0_f64]);
     for angle in ANGLES.map(f64::to_radians) {
         let duration = hertz_duration(SPEED * libm::cos(angle));
@@ -88,7 +98,7 @@ fn draw() -> Result<Drawing, ChartError> {
     ]);
     let mut notes = Vec::new();
     for (case, tangential, coefficients) in CASES {
-        let law = format!("[contact.touch.normal.hertz]\n[contact.touch.tangential.{tangential}]");
+        let law = format!("[contact.touch.normal.hertz]\n{tangential}");
         for scheme in SCHEMES {
             let case = scheme.named(case);
             let mut defaults = Vec::new();

@@ -93,7 +93,7 @@ fn impacts(table: &mut Table) -> Result<Vec<String>, ChartError> {
             let cost = 1e9 * timed.least / timed.contacts();
             fill(table, &case, scheme.name, &impact_errors(normal, scheme)?, cost);
             if normal.name == "hertz" {
-                let points = oblique::largest_errors("history", OBLIQUE, scheme.run)?;
+                let points = oblique::largest_errors(oblique::HISTORY, OBLIQUE, scheme.run)?;
                 fill(table, "oblique impact", scheme.name, &points, cost);
             }
         }

@@ -129,9 +129,10 @@ impl Tangential for TurnedHistory {
         let kept = N::select(sliding, N::select(held, limit / square.sqrt(), zero), one);
         let force = whole * kept;
         let mut pull = force + dashpot;
-        let along = pull.dot(whole);
-        let released = N::both(zero.greater(along), N::splat(0.5).greater(law.backward));
-        if N::any(released) {
+        let rests = N::both(sliding, N::splat(0.5).greater(law.backward));
+        if N::any(rests) {
+            let along = pull.dot(whole);
+            let released = N::both(rests, zero.greater(along));
             pull = Vector::select(released, pull - whole * (along / square), pull);
         }
         let at_limit = -pull * (one / stiffness);
