@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::fixtures::{contact, corners, every_law, properties, with_pair};
+use crate::contact::tangential::turned_history;
 use crate::contact::{Contact, Law, NoKeys, Offset, PairProperties, Reaction};
 use crate::number::{Row, Vector};
 use crate::quantity::Restitution;
@@ -119,4 +120,23 @@ fn says_which_property_is_missing_and_where() {
     let choice = LawChoice { tangential: TangentialChoice::History(NoKeys {}), ..every_law()[0] };
     let missing = with_pair(&bare, |pair| choice.coefficients(pair)).unwrap_err();
     assert_eq!(missing, [Missing { table: "pair.soft.soft".into(), key: "friction" }]);
+}
+
+#[test]
+fn a_dashpot_stretches_its_spring_backwards_unless_it_acts_in_full_at_touch_or_the_scene_says_no() {
+    let stretches = |eepa: bool, backward_spring: Option<bool>| {
+        let choice =
+            every_law().into_iter().find(|choice| matches!(choice.normal, NormalChoice::Eepa(_)) == eepa).unwrap();
+        let keys = turned_history::Keys { backward_spring, ..Default::default() };
+        let tangential = TangentialChoice::TurnedHistory(keys);
+        let choice = LawChoice { tangential, switches: Switches::of(false, true), ..choice };
+        let undamped = LawChoice { switches: Switches::of(false, false), ..choice };
+        assert!(!undamped.stretches_backwards());
+        assert_eq!(undamped.objection(), None);
+        (choice.stretches_backwards(), choice.objection().map(|objection| objection.key))
+    };
+    assert_eq!(stretches(false, None), (true, None));
+    assert_eq!(stretches(false, Some(false)), (false, None));
+    assert_eq!(stretches(true, None), (false, None));
+    assert_eq!(stretches(true, Some(true)), (true, Some("backward_spring")));
 }
