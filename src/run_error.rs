@@ -164,6 +164,23 @@ pub enum RunError {
         /// Position \[m\].
         z: f64,
     },
+    /// A particle left the plane in which the scene says that all stay.
+    #[error(
+        "particle {id} left the [run] plane at t = {time} s: {quantity} is {value:e} {unit}; a scene that keeps all forces and motions in the plane, or \
+         one without this key, is right"
+    )]
+    LeftPlane {
+        /// The particle.
+        id: u32,
+        /// What shows it.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// Time \[s\].
+        time: f64,
+    },
     /// A bond is bent further than its formulation can follow.
     #[error(
         "the bond of particle {first} and {} is bent beyond half a turn at t = {time} s: {cause}",

@@ -27,6 +27,7 @@ mod neighbours;
 mod nodes;
 mod packings;
 mod physics;
+mod plane;
 mod quadratic_motion;
 mod random_scenes;
 mod region_meshes;

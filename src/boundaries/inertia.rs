@@ -3,21 +3,16 @@
 use crate::geometry::Quaternion;
 use crate::number::Vector;
 
-/// Moment of inertia of a full sphere \[kg m²\].
-pub(crate) fn sphere_inertia(mass: f64, radius: f64) -> f64 {
-    0.4 * mass * radius * radius
-}
-
 /// A symmetric 3 × 3 matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Matrix(pub(super) [[f64; 3]; 3]);
 
 impl Matrix {
-    /// Adds the inertia of a sphere at an arm \[m\].
-    pub(super) fn add_sphere(&mut self, mass: f64, radius: f64, arm: Vector) {
+    /// Adds that of a particle with this mass \[kg\] and moment of inertia \[kg m²\] at an arm \[m\].
+    pub(super) fn add_particle(&mut self, mass: f64, inertia: f64, arm: Vector) {
         let square = arm.dot(arm);
         for axis in 0..3 {
-            self.0[axis][axis] += sphere_inertia(mass, radius) + mass * square;
+            self.0[axis][axis] += inertia + mass * square;
         }
         self.take_products(mass, arm);
     }

@@ -9,5 +9,4 @@ pub(crate) mod placing;
 pub(crate) mod rigid_body;
 pub(crate) mod slopes;
 
-pub(crate) use inertia::sphere_inertia;
 pub(crate) use rigid_body::{RigidBody, Turning};

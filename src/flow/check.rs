@@ -1,7 +1,6 @@
 //! Whether particles of a saved state can be those of a scene in which particles come and go.
 
-use crate::boundaries::sphere_inertia;
-use crate::scene::Scene;
+use crate::scene::{ParticleShape, Scene};
 use crate::state::exchange::Exchange;
 use crate::state::{Particles, StateFault, demand};
 
@@ -43,14 +42,17 @@ fn number_at(particles: &Particles, index: u32) -> Option<u32> {
 fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: u32) -> bool {
     let (radius, mass) = (particles.position[slot][3], particles.velocity[slot][3]);
     let (inertia, material) = (particles.angular_velocity[slot][3], particles.material[slot]);
-    let same =
-        |right: f64| mass.to_bits() == right.to_bits() && inertia.to_bits() == sphere_inertia(right, radius).to_bits();
+    let same = |shape: ParticleShape, right: f64| {
+        mass.to_bits() == right.to_bits() && inertia.to_bits() == shape.inertia(right, radius).to_bits()
+    };
     if particles.owner[slot] != owner {
         return false;
     }
     match scene.particles.get(particles.id[slot] as usize) {
-        Some(own) => own.radius.to_bits() == radius.to_bits() && own.material.0 == material && same(own.mass()),
-        None => same(mass) && is_made(scene, radius, mass, material),
+        Some(own) => {
+            own.radius.to_bits() == radius.to_bits() && own.material.0 == material && same(own.shape, own.mass())
+        }
+        None => same(ParticleShape::Sphere, mass) && is_made(scene, radius, mass, material),
     }
 }
 

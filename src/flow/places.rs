@@ -2,13 +2,12 @@
 
 use super::occupied::Occupied;
 use super::{book, cost, is_owed};
-use crate::boundaries::sphere_inertia;
 use crate::exchange::Amount;
 use crate::integration::Fields;
 use crate::number::Vector;
 use crate::packing::generator::{generator_after, uniform};
 use crate::run_error::RunError;
-use crate::scene::{Insertion, Scene};
+use crate::scene::{Insertion, ParticleShape, Scene};
 use crate::state::exchange::{Feed, Net};
 use crate::state::{Newcomer, State};
 
@@ -49,7 +48,7 @@ pub(super) fn feed(
         net.potential = -Vector::from(fields.weight(velocity[3])).dot(position.into());
         exchange.net.add(&net);
         feed.came.add(velocity[3]);
-        let (material, inertia) = (insertion.material.0, sphere_inertia(velocity[3], position[3]));
+        let (material, inertia) = (insertion.material.0, ParticleShape::Sphere.inertia(velocity[3], position[3]));
         state.particles.add(&Newcomer { position, velocity, inertia, material, number }, turning);
     }
     if let Some(kept) = state.exchange.as_mut().and_then(|exchange| exchange.feeds.get_mut(index)) {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::contact::{Material, PairProperties};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::{AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Particle, Shape};
+use crate::scene::{AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Particle, ParticleShape, Shape};
 use crate::state::BoundaryState;
 use crate::surface::{Group, Plane};
 
@@ -23,6 +23,7 @@ fn scene() -> Scene {
         id: ParticleId(7),
         set: SetIndex(0),
         material: MaterialIndex(0),
+        shape: ParticleShape::Sphere,
         radius: 0.5,
         density: 6.0,
         position: [0.0, 0.0, 1.0],

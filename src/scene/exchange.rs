@@ -1,10 +1,9 @@
 //! How the number of particles changes, as parts of a scene.
 
-use super::{Boundary, Scene};
+use super::{Boundary, ParticleShape, Scene};
 use crate::document::Mistake;
 use crate::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
 use crate::quantity::{BoundaryIndex, MaterialIndex};
-use std::f64::consts::PI;
 
 /// `[insertion.<name>]`: particles that come.
 #[derive(Clone, Debug)]
@@ -30,7 +29,7 @@ pub struct Insertion {
 impl Insertion {
     /// Mass of a new sphere of this radius \[m\] \[kg\].
     pub fn mass(&self, radius: f64) -> f64 {
-        4.0 / 3.0 * PI * radius.powi(3) * self.density
+        ParticleShape::Sphere.volume(radius) * self.density
     }
 
     /// Largest speed of a new sphere \[m/s\].

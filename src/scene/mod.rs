@@ -11,6 +11,7 @@ mod exchange;
 mod governing;
 mod output;
 mod parameters;
+mod plane;
 mod region;
 mod source;
 mod statics;
@@ -30,6 +31,7 @@ pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
+pub use plane::{MotionPlane, ParticleShape};
 pub use region::Region;
 pub use source::Source;
 
@@ -112,6 +114,8 @@ pub struct Run {
     pub settle_damping: f64,
     /// Largest overlap that is accepted at the start, over the smaller radius.
     pub max_overlap: f64,
+    /// The plane in which all particles stay, if the scene says so: a run in which one leaves it stops.
+    pub plane: Option<MotionPlane>,
 }
 
 impl Default for Run {
@@ -128,6 +132,7 @@ impl Default for Run {
             settle_tolerance: 1e-4,
             settle_damping: 0.7,
             max_overlap: 0.05,
+            plane: None,
         }
     }
 }
@@ -206,7 +211,7 @@ impl Bond {
     }
 }
 
-/// A sphere as the scene starts it.
+/// A particle as the scene starts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
     /// Its number, unique in the scene.
@@ -215,6 +220,8 @@ pub struct Particle {
     pub set: SetIndex,
     /// What it is made of.
     pub material: MaterialIndex,
+    /// What its mass and moment of inertia are those of.
+    pub shape: ParticleShape,
     /// Radius \[m\].
     pub radius: f64,
     /// Density \[kg/m³\]: its own, or the material's.
@@ -228,9 +235,14 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// Mass of the full sphere \[kg\].
+    /// Mass \[kg\].
     pub fn mass(&self) -> f64 {
-        4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
+        self.shape.volume(self.radius) * self.density
+    }
+
+    /// Moment of inertia \[kg m²\].
+    pub fn inertia(&self) -> f64 {
+        self.shape.inertia(self.mass(), self.radius)
     }
 }
 

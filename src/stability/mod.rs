@@ -12,11 +12,11 @@ mod limiter;
 mod network;
 mod surfaces;
 
-use crate::boundaries::{RigidBody, sphere_inertia};
+use crate::boundaries::RigidBody;
 use crate::contact::Response;
 use crate::integration::Fields;
 use crate::interactions::{Ahead, Kind, Link, Pass};
-use crate::scene::{Insertion, Scene};
+use crate::scene::{Insertion, ParticleShape, Scene};
 use crate::state::{GONE, Particles, State};
 use crate::threads::Context;
 pub use limiter::{Limiter, LimiterKind, Mode};
@@ -229,7 +229,7 @@ impl Meeting {
 fn smallest_to_come(insertion: &Insertion) -> Meeting {
     let [radius, _] = insertion.sizes.bounds();
     let mass = insertion.mass(radius);
-    let turn = 1.0 / mass + radius * radius / sphere_inertia(mass, radius);
+    let turn = 1.0 / mass + radius * radius / ParticleShape::Sphere.inertia(mass, radius);
     Meeting { radius, mass, turn, particle: GONE, across: false }
 }
 

@@ -392,7 +392,10 @@ impl Simulation {
                 progress = Progress { done: 0, count, step, passed: elapsed / length, ..progress };
             }
         }
-        (progress.passed * length + progress.done as f64 * progress.step, self.check_domain())
+        (
+            progress.passed * length + progress.done as f64 * progress.step,
+            self.check_domain().and_then(|()| self.check_plane()),
+        )
     }
 
     /// Makes one time step.

@@ -4,7 +4,7 @@ use super::{RunError, Simulation};
 use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
-use crate::scene::{Outside, Scene};
+use crate::scene::{MotionPlane, Outside, Scene};
 use crate::state::{Clock, GONE, Particles};
 use crate::surface;
 
@@ -150,6 +150,31 @@ impl Simulation {
         Ok(())
     }
 
+    /// Finds a particle that left the plane in which the scene says that all stay. Its place changes by its velocity alone, and
+    /// groups move their particles, so both are looked at.
+    pub(super) fn check_plane(&self) -> Result<(), RunError> {
+        let Some(MotionPlane::Xz) = self.scene.run.plane else { return Ok(()) };
+        let (particles, level) = (&self.state.particles, self.scene.particles.first().map(|first| first.position[1]));
+        for slot in 0..particles.len() {
+            let (position, velocity, spin) =
+                (particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot]);
+            let found = if Some(position[1]) != level {
+                ("its y", position[1], "m")
+            } else if velocity[1] != 0.0 {
+                ("its velocity along y", velocity[1], "m/s")
+            } else if spin[0] != 0.0 {
+                ("its angular velocity about x", spin[0], "rad/s")
+            } else if spin[2] != 0.0 {
+                ("its angular velocity about z", spin[2], "rad/s")
+            } else {
+                continue;
+            };
+            let (id, time, (quantity, value, unit)) = (particles.id[slot], self.time(), found);
+            return Err(RunError::LeftPlane { id, quantity, value, unit, time });
+        }
+        Ok(())
+    }
+
     /// Why a particle, by its index, is behind a plane.
     fn cause_behind(&self, id: u32, plane: &str) -> Cause {
         if let Some(cause) = self.step_as_cause() {
@@ -177,6 +202,7 @@ impl Simulation {
             RunError::Runaway { id, .. }
             | RunError::NotFinite { id, .. }
             | RunError::Escaped { id, .. }
+            | RunError::LeftPlane { id, .. }
             | RunError::GroupLeaves { id, .. } => {
                 *id = self.number(*id);
             }

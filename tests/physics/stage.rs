@@ -7,7 +7,7 @@ use cograin::contact::tangential::TangentialChoice;
 use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{
-    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, Run, Scene, Shape, Step,
+    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, Scene, Shape, Step,
 };
 use cograin::step::Simulation;
 use cograin::surface::Plane;
@@ -64,6 +64,7 @@ pub(crate) fn sphere(radius: f64, density: f64) -> Particle {
         id: ParticleId(0),
         set: SetIndex(0),
         material: MaterialIndex(0),
+        shape: ParticleShape::Sphere,
         radius,
         density,
         position: [0.0; 3],

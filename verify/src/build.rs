@@ -8,8 +8,8 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, Run, Scene,
-    Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, ParticleShape,
+    Run, Scene, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -94,6 +94,7 @@ fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
             id: ParticleId(particle.id),
             set: SetIndex(material.0),
             material,
+            shape: ParticleShape::Sphere,
             radius: positive(place("radius"), particle.radius)?.get(),
             density: positive(place("density"), particle.density)?.get(),
             position: finite(place("position"), particle.position)?,

@@ -6,7 +6,7 @@ mod kick;
 pub(crate) use groups::{coming_speed, kick_again, place_groups};
 
 use super::implicit::{self, Triangle};
-use super::inertia::{Matrix, sphere_inertia};
+use super::inertia::Matrix;
 use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
@@ -102,7 +102,7 @@ impl RigidBody {
             let arm = Vector::from(particle.position) - boundary.reference.into();
             body.mass += mass;
             body.offset += arm * mass;
-            body.inertia.add_sphere(mass, radius, arm);
+            body.inertia.add_particle(mass, particle.inertia(), arm);
             body.farthest = body.farthest.max(arm.length());
             body.smallest = body.smallest.min(radius);
             body.largest = body.largest.max(radius);
@@ -263,11 +263,10 @@ impl RigidBody {
         }
         let (mut momentum, mut angular) = (Vector::zero(), Vector::zero());
         for particle in self.members.iter().map(|&member| &scene.particles[member as usize]) {
-            let (mass, radius) = (particle.mass(), particle.radius);
             let arm = Vector::from(particle.position) - boundary.reference.into();
-            let push = Vector::from(particle.velocity) * mass;
+            let push = Vector::from(particle.velocity) * particle.mass();
             momentum += push;
-            let roll = Vector::from(particle.angular_velocity) * sphere_inertia(mass, radius);
+            let roll = Vector::from(particle.angular_velocity) * particle.inertia();
             angular += roll + arm.cross(push);
         }
         let velocity = (momentum * (1.0 / self.mass)).to_array();

@@ -2,6 +2,7 @@
 
 use super::bonded_pairs::{Bonded, idle};
 use super::finding::Finding;
+use super::plane;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
@@ -121,6 +122,7 @@ pub(super) fn places(scene: &Scene) -> Vec<Finding> {
     surfaces(scene, &mut findings);
     overlaps(scene, &mut findings);
     findings.extend(idle(scene));
+    findings.extend(plane::objections(scene));
     findings
 }
 
@@ -130,9 +132,7 @@ const COARSE: f64 = 1e-6;
 /// Particles whose mass or inertia no number holds, or which are so far away that numbers do not resolve their radius.
 fn numbers(scene: &Scene) -> Vec<Finding> {
     let holds = |value: f64| value.is_normal();
-    let light = |particle: &&Particle| {
-        !holds(particle.mass()) || !holds(0.4 * particle.mass() * particle.radius * particle.radius)
-    };
+    let light = |particle: &&Particle| !holds(particle.mass()) || !holds(particle.inertia());
     let far = |particle: &&Particle| {
         let most = particle.position.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         most * f64::EPSILON > COARSE * particle.radius

@@ -13,6 +13,7 @@ mod motion;
 mod named_tables;
 mod particles;
 mod place;
+mod plane;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
@@ -115,6 +116,10 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
             ("an automatic step is never above the stable one", "a given step, or leave allow_unstable out");
         faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
+    if table.plane_particles.is_some() && table.plane.is_none() {
+        let (what, right) = ("plane_particles needs a plane", "plane = \"xz\" beside it, or leave it out");
+        faults.add("run", "plane_particles", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    }
     Run {
         end: table.end.map(crate::quantity::Positive::get),
         step: match table.step {
@@ -132,6 +137,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         settle_tolerance: table.settle_tolerance.map_or(defaults.settle_tolerance, crate::quantity::Positive::get),
         settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::quantity::Fraction::get),
         max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::quantity::NonNegative::get),
+        plane: table.plane,
     }
 }
 

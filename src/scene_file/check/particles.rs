@@ -42,12 +42,13 @@ pub(super) fn particles(
         .filter_map(|(_, damping)| damping.scale.as_ref().and_then(|scale| scale.column.clone()))
         .collect();
     let seed = written.run.seed.unwrap_or(Run::default().seed);
+    let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = Born::default();
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
         let set = SetIndex(index as u32);
-        let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed };
+        let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed, shape };
         let (list, place, columns) = reader.read(source, &extra, faults, tell);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());

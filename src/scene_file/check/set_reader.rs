@@ -8,8 +8,8 @@ use crate::document::Mistake;
 use crate::import::{self, REPORTED, Request, Rows};
 use crate::packing::{self, PackingProgress};
 use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
-use crate::scene::Particle;
 use crate::scene::Source;
+use crate::scene::{Particle, ParticleShape};
 use crate::scene_file::tables::{ListEntry, ParticlesTable, Triple};
 use std::collections::BTreeMap;
 
@@ -33,6 +33,8 @@ pub(super) struct SetReader<'a> {
     pub(super) materials: &'a [Material],
     /// The scene's seed.
     pub(super) seed: u64,
+    /// What all particles are.
+    pub(super) shape: ParticleShape,
 }
 
 /// The particles of a set, their place, and the columns that damping asks for.
@@ -254,6 +256,7 @@ impl SetReader<'_> {
             id: ParticleId(0),
             set: self.set,
             material,
+            shape: self.shape,
             radius,
             density: own.unwrap_or(self.materials[material.index()].density),
             position,

@@ -15,7 +15,7 @@ pub(super) use values::{Between, StepKey};
 use crate::contact::Scheme;
 use crate::exchange::Outside;
 use crate::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
-use crate::scene::Accuracy;
+use crate::scene::{Accuracy, MotionPlane, ParticleShape};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
@@ -69,6 +69,10 @@ pub(in crate::scene_file) struct RunTable {
     pub(in crate::scene_file) settle_damping: Option<Fraction>,
     /// Largest overlap at the start over the smaller radius.
     pub(in crate::scene_file) max_overlap: Option<NonNegative>,
+    /// The plane in which all particles stay.
+    pub(in crate::scene_file) plane: Option<MotionPlane>,
+    /// What they are in it.
+    pub(in crate::scene_file) plane_particles: Option<ParticleShape>,
 }
 
 /// `[material.<name>]`

@@ -225,13 +225,14 @@ fn course(scene: &Scene) -> u64 {
         hashed.0.update(&particle.id.0.to_le_bytes());
         hashed.0.update(&particle.material.0.to_le_bytes());
         let [position, velocity, spin] = [particle.position, particle.velocity, particle.angular_velocity];
-        for number in [position, velocity, spin].as_flattened().iter().chain(&[particle.radius, particle.density]) {
+        for number in [position, velocity, spin].as_flattened().iter().chain(&[particle.radius, particle.mass()]) {
             hashed.0.update(&number.to_bits().to_le_bytes());
         }
     }
     let mut rest = Scene { particles: Vec::new(), fingerprint: 0, ..scene.clone() };
     rest.run.end = None;
     rest.run.threads = None;
+    rest.run.plane = None;
     // Their numbers stand in the laws; what may be tuned is part of the state.
     for parameter in scene.tunables() {
         hashed.0.update(parameter.name.as_bytes());

@@ -1,9 +1,8 @@
 //! Particles that came or went in the other scene.
 
 use super::{Description, Numbers};
-use crate::boundaries::sphere_inertia;
 use crate::flow;
-use crate::scene::Scene;
+use crate::scene::{ParticleShape, Scene};
 use crate::state::exchange::Feed;
 use crate::state::{Newcomer, State};
 
@@ -24,7 +23,7 @@ pub(super) fn put_newcomers(
             let material = from.material_here(scene, other.material[slot])?;
             let number = other.number_of_newcomer(there)?;
             let fits = number > last && flow::is_made(scene, position[3], velocity[3], material);
-            let inertia = sphere_inertia(velocity[3], position[3]);
+            let inertia = ParticleShape::Sphere.inertia(velocity[3], position[3]);
             (fits && state.exchange.is_some()).then_some(Newcomer { position, velocity, inertia, material, number })
         });
         numbers.here.push(newcomer.as_ref().map(|newcomer| {
