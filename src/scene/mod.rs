@@ -31,6 +31,7 @@ pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
+pub(crate) use plane::objections as plane_objections;
 pub use plane::{MotionPlane, ParticleShape};
 pub use region::Region;
 pub use source::Source;

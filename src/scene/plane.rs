@@ -1,5 +1,7 @@
 //! Scenes whose particles stay in one plane.
 
+use super::{Mistake, Particle, Scene};
+use crate::contact::rolling::RollingChoice;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -42,4 +44,75 @@ impl ParticleShape {
         };
         share * mass * radius * radius
     }
+}
+
+/// The table and the key that are wrong, and why.
+pub(crate) type Objection = (String, &'static str, Mistake);
+
+/// What speaks against `[run] plane` in this scene.
+pub(crate) fn objections(scene: &Scene) -> Vec<Objection> {
+    let Some(MotionPlane::Xz) = scene.run.plane else { return Vec::new() };
+    let mut objections = Vec::new();
+    let mut leaves = |table: String, key: &'static str, found: String, right: &str| {
+        objections.push((table, key, Mistake::Wrong { found, right: format!("{right} with plane = \"xz\"") }));
+    };
+    if scene.gravity[1] != 0.0 {
+        leaves("gravity".to_owned(), "", format!("{:?} m/s²", scene.gravity), "gravity without a component along y");
+    }
+    for force in scene.forces.iter().filter(|force| force.force[1] != 0.0) {
+        let found = format!("{:?} N", force.force);
+        leaves(format!("force.{}", force.name), "force", found, "a force without a component along y");
+    }
+    for insertion in &scene.insertions {
+        let found = "particles that come anywhere in a region".to_owned();
+        leaves(format!("insertion.{}", insertion.name), "region", found, "a scene without insertions");
+    }
+    if let Some((particle, found, right)) = first_outside(scene) {
+        let table =
+            scene.sets.get(particle.set.index()).map_or("particles".to_owned(), |set| format!("particles.{set}"));
+        leaves(table, "", found, right);
+    }
+    if scene.particles.iter().any(|particle| particle.shape == ParticleShape::Disc) {
+        objections.extend(discs(scene));
+    }
+    objections
+}
+
+/// The first particle that is not in the plane of the first one or leaves it; what it has, and what is right.
+fn first_outside(scene: &Scene) -> Option<(&Particle, String, &'static str)> {
+    let level = scene.particles.first()?.position[1];
+    scene.particles.iter().find_map(|particle| {
+        let ([.., v, _], [a, _, c]) = (particle.velocity, particle.angular_velocity);
+        let id = particle.id.0;
+        if particle.position[1] != level {
+            let found = format!("particle {id} at y = {:?} m, the first one at {level:?} m,", particle.position[1]);
+            Some((particle, found, "the same y for all particles"))
+        } else if v != 0.0 {
+            Some((particle, format!("particle {id} with {v:?} m/s along y"), "a velocity without a component along y"))
+        } else if a != 0.0 || c != 0.0 {
+            let found = format!("particle {id} with an angular velocity of {:?} rad/s", particle.angular_velocity);
+            Some((particle, found, "an angular velocity about y alone"))
+        } else {
+            None
+        }
+    })
+}
+
+/// What reckons with the volume or the moment of inertia of spheres.
+fn discs(scene: &Scene) -> Vec<Objection> {
+    let refused = |table: String, found: &str, right: &str| {
+        let message = format!(
+            "{found} with plane_particles = \"discs\" found; {right}, or plane_particles = \"spheres\", is right"
+        );
+        (table, "", Mistake::Refused { message })
+    };
+    let epsd = scene.contacts.iter().filter(|law| matches!(law.rolling, RollingChoice::Epsd(_))).map(|law| {
+        let found = "epsd, whose dashpot is made for the moment of inertia of spheres,";
+        refused(format!("contact.{}.rolling.epsd", law.name), found, "another rolling model")
+    });
+    let regions = scene.regions.iter().map(|region| {
+        let found = "a region, which reckons with the volume of spheres,";
+        refused(format!("region.{}", region.name), found, "a scene without regions")
+    });
+    epsd.chain(regions).collect()
 }

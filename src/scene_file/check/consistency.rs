@@ -2,13 +2,12 @@
 
 use super::bonded_pairs::{Bonded, idle};
 use super::finding::Finding;
-use super::plane;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
 use crate::document::{SceneError, SceneErrors};
 use crate::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, Scene};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, Scene, plane_objections};
 use std::collections::BTreeSet;
 
 impl Scene {
@@ -122,7 +121,7 @@ pub(super) fn places(scene: &Scene) -> Vec<Finding> {
     surfaces(scene, &mut findings);
     overlaps(scene, &mut findings);
     findings.extend(idle(scene));
-    findings.extend(plane::objections(scene));
+    findings.extend(plane_objections(scene).into_iter().map(|(table, key, mistake)| Finding::at(table, key, mistake)));
     findings
 }
 

@@ -13,7 +13,6 @@ mod motion;
 mod named_tables;
 mod particles;
 mod place;
-mod plane;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
