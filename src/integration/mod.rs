@@ -3,6 +3,7 @@
 mod braking;
 mod damped;
 mod fields;
+pub(crate) mod plane;
 mod slopes;
 
 pub(crate) use fields::Fields;

@@ -11,6 +11,7 @@ use crate::batches::SpherePair;
 use crate::batches::{BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
+use crate::integration::plane;
 use crate::lanes::{Lane, Shared};
 use crate::memory::prefetch;
 use crate::number::{add, subtract};
@@ -37,51 +38,10 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        let list = &mut state.contacts[self.index];
-        let particles = &mut state.particles;
-        let batches = Batches {
-            bodies: Pairs {
-                first: &list.first,
-                second: &list.second,
-                position: &particles.position,
-                velocity: &particles.velocity,
-                angular_velocity: &particles.angular_velocity,
-                material: &particles.material,
-                force: Shared::new(&mut particles.force),
-                torque: Shared::new(&mut particles.torque),
-            },
-            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
-            law: &self.law,
-            table: &self.table,
-            uniform: self.table.uniform(),
-            step: context.step,
-            width: context.width,
-        };
-        let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
-        let slabs = ends.len().saturating_sub(1);
-        let piece = |slab: usize| {
-            // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
-            let next = slab + if slab.is_multiple_of(2) { 2 } else { 4 };
-            let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
-            (ends[slab] as usize, ends[slab + 1] as usize, ahead)
-        };
-        let Some(losses) = &mut state.losses else {
-            context.slabs(slabs, |slab| {
-                let (from, to, ahead) = piece(slab);
-                batches.run(from, to, ahead);
-            });
-            return Ok(());
-        };
-        let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
-        lost.clear();
-        lost.resize(slabs, Lost::default());
-        let places = Shared::new(&mut lost);
-        context.slabs(slabs, |slab| {
-            let (from, to, ahead) = piece(slab);
-            // SAFETY: each slab is done once, and has a place of its own.
-            unsafe { *places.at(slab) = batches.run_booked(from, to, ahead).1 };
-        });
-        lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
+        match context.plane_rows {
+            false => self.evaluate::<false>(state, context),
+            true => self.evaluate::<true>(state, context),
+        }
         Ok(())
     }
 
@@ -140,6 +100,57 @@ impl Pass for ContactPass {
     }
 }
 
+impl ContactPass {
+    /// Evaluates the law on all contacts; with PLANE, of particles in plane rows.
+    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context) {
+        let list = &mut state.contacts[self.index];
+        let particles = &mut state.particles;
+        let batches = Batches {
+            bodies: Pairs::<PLANE> {
+                first: &list.first,
+                second: &list.second,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut particles.force),
+                torque: Shared::new(&mut particles.torque),
+            },
+            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
+            law: &self.law,
+            table: &self.table,
+            uniform: self.table.uniform(),
+            step: context.step,
+            width: context.width,
+        };
+        let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
+        let slabs = ends.len().saturating_sub(1);
+        let piece = |slab: usize| {
+            // Where slabs follow each other, an even one and then the odd one before it, these are the next to be needed.
+            let next = slab + if slab.is_multiple_of(2) { 2 } else { 4 };
+            let ahead = slots.get(next..next + 2).map_or(0..0, |ends| ends[0] as usize..ends[1] as usize);
+            (ends[slab] as usize, ends[slab + 1] as usize, ahead)
+        };
+        let Some(losses) = &mut state.losses else {
+            context.slabs(slabs, |slab| {
+                let (from, to, ahead) = piece(slab);
+                batches.run(from, to, ahead);
+            });
+            return;
+        };
+        let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.clear();
+        lost.resize(slabs, Lost::default());
+        let places = Shared::new(&mut lost);
+        context.slabs(slabs, |slab| {
+            let (from, to, ahead) = piece(slab);
+            // SAFETY: each slab is done once, and has a place of its own.
+            unsafe { *places.at(slab) = batches.run_booked(from, to, ahead).1 };
+        });
+        lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
+    }
+}
+
 /// Effective radius \[m\] and mass \[kg\] of two particles.
 pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
     let (i, j) = (i as usize, j as usize);
@@ -186,9 +197,9 @@ impl Listed for ContactPass {
     }
 }
 
-/// Pairs of particles.
+/// Pairs of particles. PLANE: in plane rows (`integration::plane`).
 #[derive(Clone, Copy)]
-struct Pairs<'a> {
+struct Pairs<'a, const PLANE: bool> {
     /// First particle of each pair.
     first: &'a [u32],
     /// Second particle of each pair.
@@ -207,7 +218,7 @@ struct Pairs<'a> {
     torque: Shared<Row>,
 }
 
-impl Bodies for Pairs<'_> {
+impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
     type Sum = ();
     const FOUND: usize = FOUND;
 
@@ -248,10 +259,16 @@ impl Bodies for Pairs<'_> {
     ) -> ContactGeometry<N> {
         let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
         // SAFETY: a list holds slots of particles, below their number.
-        let (velocities, spins) = unsafe {
-            let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+        let (mut velocities, mut spins) = unsafe {
+            let read = TORQUE && !PLANE;
+            let spins = if read { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
+        if PLANE {
+            let parted = velocities.map(plane::part);
+            velocities = parted.map(|[velocity, _]| velocity);
+            spins = parted.map(|[_, spin]| spin);
+        }
         SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
     }
 
@@ -265,7 +282,7 @@ impl Bodies for Pairs<'_> {
             prefetch(self.position.as_ptr().wrapping_add(slot));
             prefetch(self.velocity.as_ptr().wrapping_add(slot));
             prefetch(self.force.pointer().wrapping_add(slot));
-            if needs.torque {
+            if needs.torque && !PLANE {
                 prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
                 prefetch(self.torque.pointer().wrapping_add(slot));
             }
@@ -279,6 +296,10 @@ impl Bodies for Pairs<'_> {
             let (i, j) = (first[place] as usize, second[place] as usize);
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
+                if PLANE {
+                    self.spread_in_plane(touching, place, needs);
+                    continue;
+                }
                 add(self.force.at(i), &force[place]);
                 subtract(self.force.at(j), &force[place]);
                 if needs.torque {
@@ -290,6 +311,34 @@ impl Bodies for Pairs<'_> {
                     add(self.torque.at(i), &on_i);
                     add(self.torque.at(j), &on_j);
                 }
+            }
+        }
+    }
+}
+
+impl<const PLANE: bool> Pairs<'_, PLANE> {
+    /// Adds the loads of an entry to its bodies, which are in plane rows.
+    ///
+    /// # Safety
+    /// As for [`Bodies::spread`]: no other thread adds to the same particles meanwhile.
+    #[inline(always)]
+    unsafe fn spread_in_plane(&self, touching: &Touching, place: usize, needs: Needs) {
+        let (i, j) = (touching.first[place] as usize, touching.second[place] as usize);
+        let force = touching.force[place];
+        let mut torques = [[0.0; 4]; 2];
+        if needs.torque {
+            torques = touching.torques(place);
+            if needs.spin {
+                subtract(&mut torques[0], &touching.rolling[place]);
+                add(&mut torques[1], &touching.rolling[place]);
+            }
+        }
+        // SAFETY: the caller's promise.
+        unsafe {
+            add(self.force.at(i), &plane::load(force, torques[0]));
+            add(self.force.at(j), &plane::load(force.map(|part| -part), torques[1]));
+            if plane::leaves(force, torques[0]) {
+                plane::mark(self.torque.at(i), force, torques[0]);
             }
         }
     }

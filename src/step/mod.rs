@@ -9,6 +9,7 @@ mod limits;
 mod losses;
 mod observe;
 mod placement;
+mod plane;
 mod probe;
 mod room;
 mod run_checks;
@@ -42,7 +43,7 @@ use crate::interactions::suppression::Suppression;
 use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
-use crate::scene::Scene;
+use crate::scene::{ParticleShape, Scene};
 use crate::state::{Foresight, State, StateFault};
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
@@ -75,6 +76,10 @@ pub struct Simulation {
     turning: bool,
     /// Whether a servo moves a boundary.
     serves: bool,
+    /// Whether particles stand in plane rows just now, inside a communication step ([`integration::plane`]).
+    plane_rows: bool,
+    /// [`plane::shape_in_plane`]
+    shape_in_plane: Option<ParticleShape>,
     /// Lane width.
     width: Width,
     /// Threads.
@@ -131,13 +136,16 @@ impl Simulation {
     /// The scene in a state of its own.
     fn with(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
+        let turning = passes.iter().any(|pass| pass.has_torque());
         let mut simulation = Self {
             flow: Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations())),
-            turning: passes.iter().any(|pass| pass.has_torque()),
+            turning,
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
+            plane_rows: false,
+            shape_in_plane: plane::shape_in_plane(&scene, turning),
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
@@ -201,13 +209,13 @@ impl Simulation {
     pub fn renew_lists(&mut self) {
         self.way_back.forget();
         let mut workers = std::mem::take(&mut self.workers);
-        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, threads }));
+        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, plane_rows: false, threads }));
         self.workers = workers;
     }
 
     /// What passes know while time does not advance.
     fn standing(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, threads: None }
+        Context { step: 0.0, width: self.width, plane_rows: false, threads: None }
     }
 
     /// Makes the lists anew.
@@ -349,14 +357,22 @@ impl Simulation {
         result.map_err(|error| self.named(error))
     }
 
-    /// Makes the time steps of a communication step: as many as fit when it begins; where the stable one becomes shorter on
-    /// the way, the rest is divided again. Returns how long they took \[s\], and why they ended early.
+    /// Makes the time steps of a communication step and looks at where they led. Returns how long they took \[s\], and why they
+    /// ended early.
     fn run(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
-        let width = self.width;
+        let (elapsed, result) = self.make_steps(interval, threads);
+        self.leave_plane_rows(&Context { threads, ..self.standing() });
+        (elapsed, result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
+    }
+
+    /// Makes as many time steps as fit when a communication step begins; where the stable one becomes shorter on the way, the
+    /// rest is divided again.
+    fn make_steps(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
+        let standing = Context { threads, ..self.standing() };
         let mut boundaries = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
         if self.is_due(boundaries, step) {
-            if let Err(error) = self.look(step, &Context { step, width, threads }) {
+            if let Err(error) = self.look(step, &Context { step, ..standing }) {
                 return (0.0, Err(error));
             }
             self.shorten_step();
@@ -367,6 +383,7 @@ impl Simulation {
         let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
         while progress.done < progress.count {
             let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
+            self.use_plane_rows(progress.count - progress.done, &standing);
             if let Err(error) = self.check_way(step) {
                 return (elapsed(progress.done), Err(error));
             }
@@ -374,7 +391,8 @@ impl Simulation {
                 return (elapsed(progress.done), Err(RunError::Stopped { time: self.time() }));
             }
             progress.done += 1;
-            let (context, elapsed) = (Context { step, width, threads }, elapsed(progress.done));
+            let (context, elapsed) =
+                (Context { step, plane_rows: self.plane_rows, ..standing }, elapsed(progress.done));
             if let Err(error) = self.step(progress, &context) {
                 return (elapsed, Err(error));
             }
@@ -384,7 +402,8 @@ impl Simulation {
             if !self.is_due(boundaries, step) {
                 continue;
             }
-            if let Err(error) = self.look(step, &context) {
+            self.leave_plane_rows(&standing);
+            if let Err(error) = self.check_plane().and_then(|()| self.look(step, &Context { step, ..standing })) {
                 return (elapsed, Err(error));
             }
             if self.shorten_step() && progress.done < progress.count {
@@ -392,10 +411,7 @@ impl Simulation {
                 progress = Progress { done: 0, count, step, passed: elapsed / length, ..progress };
             }
         }
-        (
-            progress.passed * length + progress.done as f64 * progress.step,
-            self.check_domain().and_then(|()| self.check_plane()),
-        )
+        (progress.passed * length + progress.done as f64 * progress.step, Ok(()))
     }
 
     /// Makes one time step.
@@ -408,7 +424,10 @@ impl Simulation {
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
-        let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
+        let speed = match self.shape_in_plane.filter(|_| context.plane_rows) {
+            Some(shape) => integration::plane::kick_and_drift(&mut self.state.particles, shape, step, context),
+            None => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
+        };
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
         let time = self.state.clock.time;
@@ -448,7 +467,10 @@ impl Simulation {
         self.kick_slopes(gravity.is_none(), step);
         self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
-        let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
+        let speed = match context.plane_rows {
+            true => integration::plane::kick_again(&mut self.state.particles, gravity, step, context),
+            false => integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context),
+        };
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;

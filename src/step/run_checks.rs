@@ -1,10 +1,11 @@
 //! What stops a run before its numbers become meaningless, and the messages for it.
 
 use super::{RunError, Simulation};
+use crate::integration::plane::ParticleMotion;
 use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
-use crate::scene::{MotionPlane, Outside, Scene};
+use crate::scene::{Outside, Scene};
 use crate::state::{Clock, GONE, Particles};
 use crate::surface;
 
@@ -34,7 +35,7 @@ impl Simulation {
         }
         let particles = &self.state.particles;
         for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
-            let (velocity, force) = (particles.velocity[slot], particles.force[slot]);
+            let ParticleMotion { velocity, force, .. } = ParticleMotion::of(particles, slot, self.plane_rows);
             let next = |axis: usize| velocity[axis] + 0.5 * step / velocity[3] * force[axis];
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
@@ -121,12 +122,13 @@ impl Simulation {
         let particles = &self.state.particles;
         let finite = |row: &[f64; 4]| row.iter().all(|number| number.is_finite());
         for slot in 0..particles.len() {
+            let ParticleMotion { velocity, spin, force, torque } = ParticleMotion::of(particles, slot, self.plane_rows);
             let quantities = [
                 ("position", &particles.position[slot]),
-                ("force", &particles.force[slot]),
-                ("torque", &particles.torque[slot]),
-                ("velocity", &particles.velocity[slot]),
-                ("angular velocity", &particles.angular_velocity[slot]),
+                ("force", &force),
+                ("torque", &torque),
+                ("velocity", &velocity),
+                ("angular velocity", &spin),
             ];
             if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
                 let (time, cause) = (self.time(), self.step_or_unseen());
@@ -146,31 +148,6 @@ impl Simulation {
                 let [x, y, z, _] = *row;
                 return Err(RunError::Escaped { id: particles.id[slot], time: self.time(), x, y, z });
             }
-        }
-        Ok(())
-    }
-
-    /// Finds a particle that left the plane in which the scene says that all stay. Its place changes by its velocity alone, and
-    /// groups move their particles, so both are looked at.
-    pub(super) fn check_plane(&self) -> Result<(), RunError> {
-        let Some(MotionPlane::Xz) = self.scene.run.plane else { return Ok(()) };
-        let (particles, level) = (&self.state.particles, self.scene.particles.first().map(|first| first.position[1]));
-        for slot in 0..particles.len() {
-            let (position, velocity, spin) =
-                (particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot]);
-            let found = if Some(position[1]) != level {
-                ("its y", position[1], "m")
-            } else if velocity[1] != 0.0 {
-                ("its velocity along y", velocity[1], "m/s")
-            } else if spin[0] != 0.0 {
-                ("its angular velocity about x", spin[0], "rad/s")
-            } else if spin[2] != 0.0 {
-                ("its angular velocity about z", spin[2], "rad/s")
-            } else {
-                continue;
-            };
-            let (id, time, (quantity, value, unit)) = (particles.id[slot], self.time(), found);
-            return Err(RunError::LeftPlane { id, quantity, value, unit, time });
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 use crate::batches::{ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
+use crate::integration::plane;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
 use crate::state::{Particles, Row};
@@ -89,12 +90,15 @@ pub(super) struct Loaded<'a> {
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
+    /// Whether all these are plane rows (`integration::plane`).
+    plane_rows: bool,
 }
 
 impl<'a> Loaded<'a> {
     /// The particles of a state.
-    pub(super) fn of(particles: &'a mut Particles) -> Self {
+    pub(super) fn of(particles: &'a mut Particles, plane_rows: bool) -> Self {
         Self {
+            plane_rows,
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
@@ -110,6 +114,10 @@ impl<'a> Loaded<'a> {
     /// `slots` points to [`Lane::WIDTH`] slots of particles.
     #[inline(always)]
     pub(super) unsafe fn motion<N: Lane, const TORQUE: bool>(&self, slots: *const u32) -> [[N; 4]; 2] {
+        if self.plane_rows {
+            // SAFETY: the caller's promise.
+            return plane::part(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
+        }
         // SAFETY: the caller's promise.
         unsafe {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), slots) } else { [N::zero(); 4] };
@@ -133,13 +141,23 @@ impl<'a> Loaded<'a> {
     ) {
         // SAFETY: the caller's promise.
         unsafe {
-            add(self.force.at(slot), force);
+            let mut torque = [0.0; 4];
             if needs.torque {
-                let mut torque = couple.map(|part| -(part * arm));
+                torque = couple.map(|part| -(part * arm));
                 if needs.spin {
                     subtract(&mut torque, rolling);
                 }
-                add(self.torque.at(slot), &torque);
+            }
+            if !self.plane_rows {
+                add(self.force.at(slot), force);
+                if needs.torque {
+                    add(self.torque.at(slot), &torque);
+                }
+            } else {
+                add(self.force.at(slot), &plane::load(*force, torque));
+                if plane::leaves(*force, torque) {
+                    plane::mark(self.torque.at(slot), *force, torque);
+                }
             }
         }
         let point = Vector::from(self.position[slot]) - normal * arm;
