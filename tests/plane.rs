@@ -167,5 +167,9 @@ fn a_run_stops_where_a_particle_leaves_the_plane() {
     let error = dragged("y").expect_err("it leaves the plane");
     assert!(matches!(error, RunError::LeftPlane { id: 1, .. }), "{error}");
     let text = error.to_string();
-    assert!(text.starts_with("particle 1 left the [run] plane at t = 0.1") && text.contains(": the force on it along y is "), "{text}");
+    assert!(
+        text.starts_with("particle 1 left the [run] plane at t = 0.1")
+            && text.contains(": the force on it along y is "),
+        "{text}"
+    );
 }

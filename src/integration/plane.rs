@@ -7,7 +7,6 @@
 
 use super::{Rows, plus};
 use crate::lanes::{self, Kernel, Lane};
-use crate::scene::ParticleShape;
 use crate::state::{Particles, Row};
 use crate::threads::Context;
 
@@ -52,6 +51,8 @@ pub(crate) fn to_plane(particles: &mut Particles, context: &Context) {
     context.each(rows.pieces(), |piece| {
         rows.each_free(piece, |body| {
             body.velocity[1] = body.spin[1];
+            // A zero that is negative becomes positive, as in the first step of three dimensions.
+            body.position[1] += 0.0;
             (body.force[1], body.force[3]) = (body.torque[1], body.spin[3]);
             *body.torque = [0.0; 4];
         });
@@ -81,13 +82,24 @@ pub(crate) fn part<N: Lane>([u, w, v, mass]: [N; 4]) -> [[N; 4]; 2] {
 /// A force and a torque as they are added to a plane row of force.
 #[inline(always)]
 pub(crate) fn load(force: Row, torque: Row) -> Row {
-    [force[0], torque[1], force[2], 0.0]
+    [force[0], torque[1], force[2], force[3]]
 }
 
-/// Whether a load would take its particle out of the plane.
-#[inline(always)]
-pub(crate) fn leaves(force: Row, torque: Row) -> bool {
-    force[1] != 0.0 || torque[0] != 0.0 || torque[2] != 0.0
+/// Whether any of some loads would take its particle out of the plane.
+#[derive(Default)]
+pub(crate) struct Leave(u64);
+
+impl Leave {
+    /// Looks at a force and at what turns the particle.
+    #[inline(always)]
+    pub(crate) fn look(&mut self, force: &Row, turning: &Row) {
+        self.0 |= (force[1].to_bits() | turning[0].to_bits() | turning[2].to_bits()) << 1;
+    }
+
+    /// Whether one does: a number other than zero, whatever its sign.
+    pub(crate) fn is_any(&self) -> bool {
+        self.0 != 0
+    }
 }
 
 /// Marks in the row of torque of a particle what would take it out of the plane: a force along y, a torque about x or z. The first of
@@ -101,19 +113,25 @@ pub(crate) fn mark(marked: &mut Row, force: Row, torque: Row) {
     }
 }
 
-/// Half a kick of plane rows, with the half step over the mass and over the moment of inertia.
+/// Half a step \[s\] over what each number of a plane row of velocity resists with: mass, moment of inertia, mass; the fourth
+/// number stays. Divided as a row, since divisions one by one would take longer than all the rest.
 #[inline(always)]
-fn kicked(velocity: Row, force: Row, [moving, turning]: [f64; 2]) -> Row {
-    let [u, w, v, mass] = velocity;
-    [u + moving * force[0], w + turning * force[1], v + moving * force[2], mass]
+fn factors(half: f64, mass: f64, inertia: f64) -> Row {
+    [mass, inertia, mass, f64::INFINITY].map(|divisor| half / divisor)
 }
 
-/// [`super::kick_and_drift`] of plane rows, of particles of this shape.
-pub(crate) fn kick_and_drift(particles: &mut Particles, shape: ParticleShape, step: f64, context: &Context) -> f64 {
+/// A row plus another one, each number by a factor of its own.
+#[inline(always)]
+fn plus_each(row: Row, other: Row, factors: Row) -> Row {
+    [0, 1, 2, 3].map(|k| row[k] + factors[k] * other[k])
+}
+
+/// [`super::kick_and_drift`] of plane rows.
+pub(crate) fn kick_and_drift(particles: &mut Particles, step: f64, context: &Context) -> f64 {
     let rows = Rows::of(particles);
     let square = |piece| {
         let mut fastest = 0.0;
-        lanes::run(context.width, First { rows, piece, shape, step, fastest: &mut fastest });
+        lanes::run(context.width, First { rows, piece, step, fastest: &mut fastest });
         fastest
     };
     context.fold(rows.pieces(), square, 0.0, f64::max).sqrt()
@@ -125,8 +143,6 @@ struct First<'a, 'b> {
     rows: Rows<'a>,
     /// Which piece.
     piece: usize,
-    /// What they are.
-    shape: ParticleShape,
     /// The time step \[s\].
     step: f64,
     /// Largest squared speed \[m²/s²\].
@@ -136,16 +152,14 @@ struct First<'a, 'b> {
 impl Kernel for First<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { rows, piece, shape, step, fastest } = self;
+        let Self { rows, piece, step, fastest } = self;
         let (half, mut most) = (0.5 * step, 0.0);
         rows.each_free(piece, |body| {
-            let (velocity, position) = (*body.velocity, *body.position);
-            // The row of the angular velocity has the same number, but it is not read.
-            let inertia = shape.inertia(velocity[3], position[3]);
-            let v = kicked(velocity, *body.force, [half / velocity[3], half / inertia]);
+            let (velocity, force) = (*body.velocity, *body.force);
+            let v = plus_each(velocity, force, factors(half, velocity[3], force[3]));
             *body.velocity = v;
-            *body.position = plus(position, [v[0], 0.0, v[2], 0.0], step);
-            *body.force = [0.0, 0.0, 0.0, inertia];
+            *body.position = plus_each(*body.position, v, [step, 0.0, step, 0.0]);
+            *body.force = [0.0, 0.0, 0.0, force[3]];
             let square = v[0] * v[0] + v[2] * v[2];
             most = if square > most { square } else { most };
         });
@@ -192,10 +206,10 @@ impl Kernel for Second<'_, '_> {
                 force = plus(force, [x, 0.0, z, 0.0], velocity[3]);
                 *body.force = force;
             }
-            let factors = [half / velocity[3], half / force[3]];
-            let v = kicked(velocity, force, factors);
+            let factors = factors(half, velocity[3], force[3]);
+            let v = plus_each(velocity, force, factors);
             *body.velocity = v;
-            let next = kicked(v, force, factors);
+            let next = plus_each(v, force, factors);
             sums = plus(sums, next, 0.0);
             let square = next[0] * next[0] + next[2] * next[2];
             most = if square > most { square } else { most };

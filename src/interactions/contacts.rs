@@ -291,15 +291,15 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
 
     #[inline(always)]
     fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
+        if PLANE {
+            self.spread_in_plane(touching, needs);
+            return;
+        }
         let Touching { first, second, force, .. } = *touching;
         for place in 0..first.len() {
             let (i, j) = (first[place] as usize, second[place] as usize);
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
-                if PLANE {
-                    self.spread_in_plane(touching, place, needs);
-                    continue;
-                }
                 add(self.force.at(i), &force[place]);
                 subtract(self.force.at(j), &force[place]);
                 if needs.torque {
@@ -317,28 +317,34 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
 }
 
 impl<const PLANE: bool> Pairs<'_, PLANE> {
-    /// Adds the loads of an entry to its bodies, which are in plane rows.
-    ///
-    /// # Safety
-    /// As for [`Bodies::spread`]: no other thread adds to the same particles meanwhile.
+    /// Adds the loads of touching entries to their bodies, which are in plane rows.
     #[inline(always)]
-    unsafe fn spread_in_plane(&self, touching: &Touching, place: usize, needs: Needs) {
-        let (i, j) = (touching.first[place] as usize, touching.second[place] as usize);
-        let force = touching.force[place];
-        let mut torques = [[0.0; 4]; 2];
-        if needs.torque {
-            torques = touching.torques(place);
+    fn spread_in_plane(&self, touching: &Touching, needs: Needs) {
+        let Touching { first, second, force, couple, rolling, .. } = *touching;
+        let mut leave = plane::Leave::default();
+        for place in 0..first.len() {
+            let (i, j, force) = (first[place] as usize, second[place] as usize, force[place]);
+            let [mut on_i, mut on_j] = [[0.0; 4]; 2];
+            if needs.torque {
+                [on_i, on_j] = touching.torques(place);
+                leave.look(&force, &couple[place]);
+            }
             if needs.spin {
-                subtract(&mut torques[0], &touching.rolling[place]);
-                add(&mut torques[1], &touching.rolling[place]);
+                subtract(&mut on_i, &rolling[place]);
+                add(&mut on_j, &rolling[place]);
+                leave.look(&force, &rolling[place]);
+            }
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                add(self.force.at(i), &plane::load(force, on_i));
+                add(self.force.at(j), &plane::load(force.map(|part| -part), on_j));
             }
         }
-        // SAFETY: the caller's promise.
-        unsafe {
-            add(self.force.at(i), &plane::load(force, torques[0]));
-            add(self.force.at(j), &plane::load(force.map(|part| -part), torques[1]));
-            if plane::leaves(force, torques[0]) {
-                plane::mark(self.torque.at(i), force, torques[0]);
+        if leave.is_any() {
+            for place in 0..first.len() {
+                let torque = if needs.torque { touching.torques(place)[0] } else { [0.0; 4] };
+                // SAFETY: as above.
+                plane::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
             }
         }
     }

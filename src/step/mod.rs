@@ -43,7 +43,7 @@ use crate::interactions::suppression::Suppression;
 use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
-use crate::scene::{ParticleShape, Scene};
+use crate::scene::Scene;
 use crate::state::{Foresight, State, StateFault};
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
@@ -78,8 +78,8 @@ pub struct Simulation {
     serves: bool,
     /// Whether particles stand in plane rows just now, inside a communication step ([`integration::plane`]).
     plane_rows: bool,
-    /// [`plane::shape_in_plane`]
-    shape_in_plane: Option<ParticleShape>,
+    /// [`plane::permits_plane_rows`]
+    permits_plane_rows: bool,
     /// Lane width.
     width: Width,
     /// Threads.
@@ -145,7 +145,7 @@ impl Simulation {
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             plane_rows: false,
-            shape_in_plane: plane::shape_in_plane(&scene, turning),
+            permits_plane_rows: plane::permits_plane_rows(&scene, turning),
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
@@ -424,9 +424,9 @@ impl Simulation {
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
-        let speed = match self.shape_in_plane.filter(|_| context.plane_rows) {
-            Some(shape) => integration::plane::kick_and_drift(&mut self.state.particles, shape, step, context),
-            None => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
+        let speed = match context.plane_rows {
+            true => integration::plane::kick_and_drift(&mut self.state.particles, step, context),
+            false => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
         };
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");

@@ -3,22 +3,19 @@
 use super::Simulation;
 use crate::integration::plane::{self, ParticleMotion};
 use crate::run_error::RunError;
-use crate::scene::{MotionPlane, ParticleShape, Scene};
+use crate::scene::{MotionPlane, Scene};
 use crate::state::State;
 use crate::threads::Context;
 
 /// Time steps from which plane rows are worth the two passes over the particles that making them and leaving them takes.
 const WORTH: u64 = 8;
 
-/// What the particles of a scene are whose steps can be made in plane rows; none where they cannot: groups, bonds and particles that
-/// come or go look at rows on the way, and where nothing turns there is nothing to spare.
-pub(super) fn shape_in_plane(scene: &Scene, turning: bool) -> Option<ParticleShape> {
-    let MotionPlane::Xz = scene.run.plane?;
-    let shape = scene.particles.first()?.shape;
-    let alike = scene.particles.iter().all(|particle| particle.shape == shape);
+/// Whether the time steps of a scene can be made in plane rows. Groups, bonds and particles that come or go look at rows on the way,
+/// and where nothing turns there is nothing to spare.
+pub(super) fn permits_plane_rows(scene: &Scene, turning: bool) -> bool {
     let grouped = scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let exchanged = !(scene.insertions.is_empty() && scene.outlets.is_empty() && scene.meters.is_empty());
-    (alike && turning && !grouped && !exchanged && scene.bonds.is_empty()).then_some(shape)
+    scene.run.plane.is_some() && turning && !grouped && !exchanged && scene.bonds.is_empty()
 }
 
 impl Simulation {
@@ -29,7 +26,7 @@ impl Simulation {
         let booked = ledger.is_some() || losses.is_some() || !self.followed.is_empty();
         let moved = self.bodies.iter().any(Option::is_some);
         let weight_alone = self.fields.weight_alone().is_some() || !self.fields.act();
-        let can = self.shape_in_plane.is_some() && !booked && !moved && weight_alone;
+        let can = self.permits_plane_rows && !booked && !moved && weight_alone;
         if can && steps >= WORTH && !self.plane_rows {
             plane::to_plane(&mut self.state.particles, context);
             self.plane_rows = true;

@@ -155,7 +155,9 @@ impl<'a> Loaded<'a> {
                 }
             } else {
                 add(self.force.at(slot), &plane::load(*force, torque));
-                if plane::leaves(*force, torque) {
+                let mut leave = plane::Leave::default();
+                leave.look(force, &torque);
+                if leave.is_any() {
                     plane::mark(self.torque.at(slot), *force, torque);
                 }
             }
