@@ -98,7 +98,7 @@ energy = true
 "#;
 
 /// Every contact law there is: name, and scene.
-fn contact_laws() -> BTreeMap<String, String> {
+pub(crate) fn contact_laws() -> BTreeMap<String, String> {
     let mut scenes = BTreeMap::new();
     for &normal in NormalChoice::NAMES {
         for &tangential in TangentialChoice::NAMES {

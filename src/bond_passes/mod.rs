@@ -175,6 +175,7 @@ impl Pass for BondPass {
             orientation: &particles.orientation,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
+            plane_rows: particles.plane_rows,
             step: context.step,
         };
         let ends = &list.slabs;
@@ -350,13 +351,14 @@ pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 /// A particle as a body of a bond.
 pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
     let orientation = particles.orientation.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let [velocity, spin] = particles.velocities(slot);
     Body {
         position: particles.position[slot].into(),
-        velocity: particles.velocity[slot].into(),
-        spin: particles.angular_velocity[slot].into(),
+        velocity: velocity.into(),
+        spin: spin.into(),
         orientation: Quaternion::from_row(orientation),
         radius: particles.position[slot][3],
-        mass: particles.velocity[slot][3],
-        inertia: particles.angular_velocity[slot][3],
+        mass: velocity[3],
+        inertia: spin[3],
     }
 }

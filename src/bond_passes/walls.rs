@@ -11,12 +11,12 @@ use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link};
 use crate::lanes::Shared;
-use crate::number::Vector;
+use crate::number::{Vector, add};
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, StateFault};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault, plane_rows};
 use crate::threads::{CHUNK, Context};
 use std::sync::{Mutex, PoisonError};
 
@@ -203,9 +203,13 @@ impl Work<'_> {
             }
             // SAFETY: a particle stands once in a list.
             let (force, torque) = unsafe { (self.force.at(slot), self.torque.at(slot)) };
-            for (axis, (f, t)) in reaction.force.to_array().into_iter().zip(reaction.torque_i.to_array()).enumerate() {
-                force[axis] += f;
-                torque[axis] += t;
+            let (push, turn) = (reaction.force.row_with(0.0), reaction.torque_i.row_with(0.0));
+            if self.particles.plane_rows {
+                add(force, &plane_rows::load(push, turn));
+                plane_rows::mark_any(torque, &push, &turn);
+            } else {
+                add(force, &push);
+                add(torque, &turn);
             }
             let arm = Vector::from(self.foot[bond]) - *reference;
             piece.force += -reaction.force;

@@ -7,6 +7,7 @@ use crate::geometry::Quaternion;
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::scene::Scene;
+use crate::state::plane_rows::ParticleMotion;
 use crate::state::{BoundaryState, Loss, Particles, Row, State};
 use crate::threads::{CHUNK, Context};
 
@@ -120,7 +121,7 @@ impl Fields {
         let (rows, books) = (Rows::of(&mut state.particles), state.losses.is_some());
         let of_piece = |piece| {
             let mut sum = [0.0; 6];
-            rows.each_free(piece, |body| {
+            rows.each_free(piece, |mut body| {
                 let id = ids[body.slot];
                 if !self.damps {
                     add(body.force, self.loads(body.velocity[3], id));
@@ -128,19 +129,21 @@ impl Fields {
                 }
                 let damped = self.damped(id);
                 let (before, after) = self.split(body.velocity[3], id, damped);
-                add(body.force, before);
+                let ParticleMotion { velocity, spin, mut force, mut torque } = rows.motion(&body);
+                add(&mut force, before);
                 let (mut losses, mut turns) = ([0.0; 3], [0.0; 3]);
                 for axis in 0..3 {
-                    losses[axis] = brake(damped.linear, body.force[axis], body.velocity[axis]);
-                    body.force[axis] -= losses[axis];
+                    losses[axis] = brake(damped.linear, force[axis], velocity[axis]);
+                    force[axis] -= losses[axis];
                     sum[axis] -= losses[axis];
-                    turns[axis] = brake(damped.angular, body.torque[axis], body.spin[axis]);
-                    body.torque[axis] -= turns[axis];
+                    turns[axis] = brake(damped.angular, torque[axis], spin[axis]);
+                    torque[axis] -= turns[axis];
                 }
-                add(body.force, after);
+                add(&mut force, after);
+                rows.put_loads(&mut body, force, torque);
                 if books {
-                    let moved = taken(losses, body.velocity, body.force, context.step);
-                    let turned = taken(turns, body.spin, body.torque, context.step);
+                    let moved = taken(losses, &velocity, &force, context.step);
+                    let turned = taken(turns, &spin, &torque, context.step);
                     for kind in 0..3 {
                         sum[3 + kind] += moved[kind] + turned[kind];
                     }

@@ -11,13 +11,12 @@ use crate::batches::SpherePair;
 use crate::batches::{BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
-use crate::integration::plane;
 use crate::lanes::{Lane, Shared};
 use crate::memory::prefetch;
 use crate::number::{add, subtract};
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
-use crate::state::{ContactList, Particles, Row, State, StateFault};
+use crate::state::{ContactList, Particles, Row, State, StateFault, plane_rows};
 use crate::threads::Context;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -38,7 +37,7 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        match context.plane_rows {
+        match state.particles.plane_rows {
             false => self.evaluate::<false>(state, context),
             true => self.evaluate::<true>(state, context),
         }
@@ -197,7 +196,7 @@ impl Listed for ContactPass {
     }
 }
 
-/// Pairs of particles. PLANE: in plane rows (`integration::plane`).
+/// Pairs of particles. PLANE: in plane rows (`state::plane_rows`).
 #[derive(Clone, Copy)]
 struct Pairs<'a, const PLANE: bool> {
     /// First particle of each pair.
@@ -265,7 +264,7 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
         if PLANE {
-            let parted = velocities.map(plane::part);
+            let parted = velocities.map(plane_rows::part);
             velocities = parted.map(|[velocity, _]| velocity);
             spins = parted.map(|[_, spin]| spin);
         }
@@ -321,7 +320,7 @@ impl<const PLANE: bool> Pairs<'_, PLANE> {
     #[inline(always)]
     fn spread_in_plane(&self, touching: &Touching, needs: Needs) {
         let Touching { first, second, force, couple, rolling, .. } = *touching;
-        let mut leave = plane::Leave::default();
+        let mut leave = plane_rows::Leave::default();
         for place in 0..first.len() {
             let (i, j, force) = (first[place] as usize, second[place] as usize, force[place]);
             let [mut on_i, mut on_j] = [[0.0; 4]; 2];
@@ -336,15 +335,15 @@ impl<const PLANE: bool> Pairs<'_, PLANE> {
             }
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe {
-                add(self.force.at(i), &plane::load(force, on_i));
-                add(self.force.at(j), &plane::load(force.map(|part| -part), on_j));
+                add(self.force.at(i), &plane_rows::load(force, on_i));
+                add(self.force.at(j), &plane_rows::load(force.map(|part| -part), on_j));
             }
         }
         if leave.is_any() {
             for place in 0..first.len() {
                 let torque = if needs.torque { touching.torques(place)[0] } else { [0.0; 4] };
                 // SAFETY: as above.
-                plane::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
+                plane_rows::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
             }
         }
     }

@@ -76,8 +76,6 @@ pub struct Simulation {
     turning: bool,
     /// Whether a servo moves a boundary.
     serves: bool,
-    /// Whether particles stand in plane rows just now, inside a communication step ([`integration::plane`]).
-    plane_rows: bool,
     /// [`plane::permits_plane_rows`]
     permits_plane_rows: bool,
     /// Lane width.
@@ -137,15 +135,15 @@ impl Simulation {
     fn with(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
         let turning = passes.iter().any(|pass| pass.has_torque());
+        let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
         let mut simulation = Self {
-            flow: Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations())),
             turning,
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
-            plane_rows: false,
-            permits_plane_rows: plane::permits_plane_rows(&scene, turning),
+            permits_plane_rows: plane::permits_plane_rows(&scene, turning, flow.is_some()),
+            flow,
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
@@ -209,13 +207,13 @@ impl Simulation {
     pub fn renew_lists(&mut self) {
         self.way_back.forget();
         let mut workers = std::mem::take(&mut self.workers);
-        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, plane_rows: false, threads }));
+        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, threads }));
         self.workers = workers;
     }
 
     /// What passes know while time does not advance.
     fn standing(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, plane_rows: false, threads: None }
+        Context { step: 0.0, width: self.width, threads: None }
     }
 
     /// Makes the lists anew.
@@ -391,8 +389,7 @@ impl Simulation {
                 return (elapsed(progress.done), Err(RunError::Stopped { time: self.time() }));
             }
             progress.done += 1;
-            let (context, elapsed) =
-                (Context { step, plane_rows: self.plane_rows, ..standing }, elapsed(progress.done));
+            let (context, elapsed) = (Context { step, ..standing }, elapsed(progress.done));
             if let Err(error) = self.step(progress, &context) {
                 return (elapsed, Err(error));
             }
@@ -424,7 +421,7 @@ impl Simulation {
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
-        let speed = match context.plane_rows {
+        let speed = match self.state.particles.plane_rows {
             true => integration::plane::kick_and_drift(&mut self.state.particles, step, context),
             false => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
         };
@@ -467,7 +464,7 @@ impl Simulation {
         self.kick_slopes(gravity.is_none(), step);
         self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
-        let speed = match context.plane_rows {
+        let speed = match self.state.particles.plane_rows {
             true => integration::plane::kick_again(&mut self.state.particles, gravity, step, context),
             false => integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context),
         };

@@ -215,7 +215,7 @@ impl Simulation {
 
     /// A context for reading.
     fn quiet(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, plane_rows: false, threads: None }
+        Context { step: 0.0, width: self.width, threads: None }
     }
 }
 

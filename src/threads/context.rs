@@ -14,8 +14,6 @@ pub(crate) struct Context<'a> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
-    /// Whether particles stand in plane rows (`integration::plane`).
-    pub plane_rows: bool,
     /// The helper threads, if several threads work.
     pub threads: Option<&'a Threads>,
 }

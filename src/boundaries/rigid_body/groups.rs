@@ -21,8 +21,31 @@ pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &
             let home = scene.particles[member as usize].position;
             for axis in 0..3 {
                 particles.position[slot][axis] = home[axis] + moved.displacement[axis];
-                particles.velocity[slot][axis] = moved.velocity[axis];
             }
+        }
+        give_velocity(moved, members, particles);
+    }
+}
+
+/// Gives the particles of groups the motion that their boundary has, where they stand.
+pub(crate) fn give_motions(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State) {
+    let State { boundaries, particles, .. } = state;
+    for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&*boundaries) {
+        match body {
+            Some(body) if body.turning != Turning::Still => give_motion(moved, boundary.shape.members(), particles),
+            _ => give_velocity(moved, boundary.shape.members(), particles),
+        }
+    }
+}
+
+/// Gives the particles of a group that does not turn the velocity of their boundary.
+fn give_velocity(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+    for &member in members {
+        let slot = particles.slot[member as usize] as usize;
+        let kept = particles.velocity[slot][1];
+        particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
+        if particles.plane_rows {
+            particles.velocity[slot][1] = kept;
         }
     }
 }
@@ -50,6 +73,9 @@ fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles
         let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
         particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(arm)).to_array());
         particles.angular_velocity[slot][..3].copy_from_slice(&spin.to_array());
+        if particles.plane_rows {
+            particles.velocity[slot][1] = spin.y;
+        }
     }
 }
 
@@ -83,8 +109,5 @@ fn give_free_motion(body: &RigidBody, moved: &BoundaryState, particles: &mut Par
     if body.turning != Turning::Still {
         return give_motion(moved, &body.members, particles);
     }
-    for &member in &body.members {
-        let slot = particles.slot[member as usize] as usize;
-        particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
-    }
+    give_velocity(moved, &body.members, particles);
 }

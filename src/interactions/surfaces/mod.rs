@@ -241,7 +241,7 @@ impl Pass for SurfacePass {
             entries: &room.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
-            particles: Loaded::of(&mut state.particles, context.plane_rows),
+            particles: Loaded::of(&mut state.particles),
             context,
         };
         let (loads, contacts) = (Shared::new(&mut room.loads), Shared::new(&mut room.contacts));

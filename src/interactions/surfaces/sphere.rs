@@ -2,10 +2,9 @@
 
 use crate::batches::{ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
-use crate::integration::plane;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
-use crate::state::{Particles, Row};
+use crate::state::{Particles, Row, plane_rows};
 use std::f64::consts::PI;
 
 /// A sphere that touches a surface.
@@ -81,24 +80,24 @@ pub(super) struct Loaded<'a> {
     /// Positions and radii.
     pub(super) position: &'a [Row],
     /// Velocities and masses.
-    pub(super) velocity: &'a [Row],
+    velocity: &'a [Row],
     /// Angular velocities.
-    pub(super) angular_velocity: &'a [Row],
+    angular_velocity: &'a [Row],
     /// Materials.
     pub(super) material: &'a [u32],
     /// Forces.
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
-    /// Whether all these are plane rows (`integration::plane`).
+    /// Whether all these are plane rows (`state::plane_rows`).
     plane_rows: bool,
 }
 
 impl<'a> Loaded<'a> {
     /// The particles of a state.
-    pub(super) fn of(particles: &'a mut Particles, plane_rows: bool) -> Self {
+    pub(super) fn of(particles: &'a mut Particles) -> Self {
         Self {
-            plane_rows,
+            plane_rows: particles.plane_rows,
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
@@ -116,13 +115,20 @@ impl<'a> Loaded<'a> {
     pub(super) unsafe fn motion<N: Lane, const TORQUE: bool>(&self, slots: *const u32) -> [[N; 4]; 2] {
         if self.plane_rows {
             // SAFETY: the caller's promise.
-            return plane::part(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
+            return plane_rows::part(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
         }
         // SAFETY: the caller's promise.
         unsafe {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), slots) } else { [N::zero(); 4] };
             [N::load_rows(self.velocity.as_ptr(), slots), spin]
         }
+    }
+
+    /// Position, velocity and angular velocity of a particle.
+    pub(super) fn body(&self, slot: usize) -> [Row; 3] {
+        let (velocity, spin) = (self.velocity[slot], self.angular_velocity[slot]);
+        let [velocity, spin] = if self.plane_rows { plane_rows::motion(velocity, spin) } else { [velocity, spin] };
+        [self.position[slot], velocity, spin]
     }
 
     /// Adds what a contact does to its particle and to the surface: force on the particle \[N\], n × friction \[N\] and rolling
@@ -154,12 +160,8 @@ impl<'a> Loaded<'a> {
                     add(self.torque.at(slot), &torque);
                 }
             } else {
-                add(self.force.at(slot), &plane::load(*force, torque));
-                let mut leave = plane::Leave::default();
-                leave.look(force, &torque);
-                if leave.is_any() {
-                    plane::mark(self.torque.at(slot), *force, torque);
-                }
+                add(self.force.at(slot), &plane_rows::load(*force, torque));
+                plane_rows::mark_any(self.torque.at(slot), force, &torque);
             }
         }
         let point = Vector::from(self.position[slot]) - normal * arm;

@@ -200,7 +200,7 @@ impl AtSurface {
     #[inline(never)]
     fn friction(&self, here: &Here, foot: &Foot) -> f64 {
         let (slot, particles) = (here.slot as usize, here.particles);
-        let body = [particles.position[slot], particles.velocity[slot], particles.angular_velocity[slot]];
+        let body = particles.body(slot);
         let row = self.table.row(particles.material[slot], self.material);
         Stand { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
     }
