@@ -6,7 +6,6 @@ use super::{bodies, multiply, plus, row};
 use crate::boundaries::RigidBody;
 use crate::lanes::{self, Kernel, Lane, Width};
 use crate::state::ledger::Source;
-use crate::state::plane_rows::{self, ParticleMotion};
 use crate::state::{Particles, Row, State, WallContacts};
 
 /// Loads on particles between two kinds of force.
@@ -18,29 +17,20 @@ pub(super) struct Loads {
     force: Vec<Row>,
     /// Torques \[N m\].
     torque: Vec<Row>,
-    /// Whether these are plane rows.
-    plane_rows: bool,
 }
 
 impl Loads {
     /// Stores the loads on all particles.
     fn store(&mut self, particles: &Particles) {
-        (self.stored, self.plane_rows) = (true, particles.plane_rows);
+        self.stored = true;
         self.force.clone_from(&particles.force);
         self.torque.clone_from(&particles.torque);
     }
 
-    /// These, if they were stored.
+    /// Forces and torques, if they were stored.
     #[inline(always)]
-    pub(super) fn stored(&self) -> Option<&Self> {
-        self.stored.then_some(self)
-    }
-
-    /// Force and torque on the particle in a slot.
-    #[inline(always)]
-    pub(super) fn of(&self, slot: usize) -> [Row; 2] {
-        let (force, torque) = (self.force[slot], self.torque[slot]);
-        if self.plane_rows { plane_rows::loads(force, torque) } else { [force, torque] }
+    pub(super) fn rows(&self) -> Option<[&[Row]; 2]> {
+        self.stored.then_some([&self.force[..], &self.torque[..]])
     }
 }
 
@@ -97,13 +87,12 @@ impl Between {
 
     /// Stores the loads on the particles near surfaces.
     fn store_near(&mut self, state: &State) {
-        let (Loads { stored, force, torque, plane_rows }, particles) = (&mut self.walls, &state.particles);
-        (*stored, *plane_rows) = (true, false);
+        let (Loads { stored, force, torque }, particles) = (&mut self.walls, &state.particles);
+        *stored = true;
         force.resize(particles.len(), [0.0; 4]);
         torque.resize(particles.len(), [0.0; 4]);
         for slot in near(&state.walls) {
-            let loads = particles.motion(slot);
-            (force[slot], torque[slot]) = (loads.force, loads.torque);
+            (force[slot], torque[slot]) = (particles.force[slot], particles.torque[slot]);
         }
     }
 
@@ -116,7 +105,7 @@ impl Between {
         gravity: Option<[f64; 3]>,
         width: Width,
     ) -> Option<[Row; 2]> {
-        let (before, fields) = (&mut self.walls, self.fields.stored());
+        let (before, fields) = (&mut self.walls, self.fields.rows());
         let mut sums = [[0.0; 4]; 2];
         let gravity = row(gravity.unwrap_or_default());
         lanes::run(width, OfWalls { particles, walls, fields, gravity, before, sums: &mut sums });
@@ -137,7 +126,7 @@ struct OfWalls<'a, 'b> {
     /// Who is near.
     walls: &'a [WallContacts],
     /// Loads when surfaces had acted, if others followed.
-    fields: Option<&'a Loads>,
+    fields: Option<[&'a [Row]; 2]>,
     /// Gravity that is not yet among the forces \[m/s²\].
     gravity: Row,
     /// Loads before surfaces acted.
@@ -150,7 +139,7 @@ impl Kernel for OfWalls<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { particles, walls, fields, gravity, before, sums } = self;
-        let Loads { stored: true, force: forces, torque: torques, .. } = before else { return };
+        let Loads { stored: true, force: forces, torque: torques } = before else { return };
         let mut found = [[0.0; 4]; 2];
         for list in walls {
             for slots in [&list.particle, &list.near.particle] {
@@ -159,14 +148,15 @@ impl Kernel for OfWalls<'_, '_> {
                     if particles.owner[slot] != 0 {
                         continue;
                     }
-                    let ParticleMotion { velocity, spin, force, torque } = &particles.motion(slot);
-                    let after = fields.map_or([*force, *torque], |loads| loads.of(slot));
-                    let pushed = plus(&after[0], &forces[slot], -1.0);
-                    let turned = plus(&after[1], &torques[slot], -1.0);
+                    let loads = [&particles.force[slot], &particles.torque[slot]];
+                    let after = fields.map_or(loads, |[forces, torques]| [&forces[slot], &torques[slot]]);
+                    let pushed = plus(after[0], &forces[slot], -1.0);
+                    let turned = plus(after[1], &torques[slot], -1.0);
                     // Who is met again was counted.
-                    [forces[slot], torques[slot]] = after;
-                    let acceleration = plus(&gravity, force, 1.0 / velocity[3]);
-                    let turning = plus(&[0.0; 4], torque, 1.0 / spin[3]);
+                    (forces[slot], torques[slot]) = (*after[0], *after[1]);
+                    let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
+                    let acceleration = plus(&gravity, loads[0], 1.0 / velocity[3]);
+                    let turning = plus(&[0.0; 4], loads[1], 1.0 / spin[3]);
                     multiply(&mut found, [&pushed, &turned], [[velocity, spin], [&acceleration, &turning]]);
                 }
             }

@@ -4,7 +4,6 @@ use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::number::Vector;
 use crate::state::ledger::Source;
-use crate::state::plane_rows::ParticleMotion;
 use crate::state::{BoundaryState, Particles, State};
 
 /// Force \[N\] and moment \[N m\] on the spheres of each body when those of each kind that passes make have been added; empty where
@@ -19,10 +18,9 @@ pub(super) fn note(state: &mut State, bodies: &[Option<RigidBody>], source: Sour
         for &member in body.iter().filter(|body| body.is_free()).flat_map(|body| &body.members) {
             let slot = particles.slot[member as usize] as usize;
             let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
-            let ParticleMotion { force: load, torque, .. } = particles.motion(slot);
-            let load = Vector::from(load);
+            let load = Vector::from(particles.force[slot]);
             force += load;
-            moment += arm.cross(load) + torque.into();
+            moment += arm.cross(load) + particles.torque[slot].into();
         }
         [force.x, force.y, force.z, moment.x, moment.y, moment.z]
     };

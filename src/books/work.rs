@@ -10,7 +10,6 @@ use crate::boundaries::RigidBody;
 use crate::integration::Fields;
 use crate::lanes::{self, Kernel, Lane};
 use crate::state::ledger::Source;
-use crate::state::plane_rows::ParticleMotion;
 use crate::state::{Particles, Row, State};
 use crate::threads::{CHUNK, Context};
 
@@ -172,19 +171,20 @@ impl Kernel for OnPiece<'_, '_> {
     fn run<N: Lane>(self) {
         let Self { particles, between, fields, gravity, piece, sums } = self;
         let (mut found, gravity) = (Sums::default(), row(gravity.unwrap_or_default()));
-        let (bonds, passes) = (between.bonds.stored(), between.fields.stored());
+        let (bonds, passes) = (between.bonds.rows(), between.fields.rows());
         let (applies, damps) = (fields.applies(), fields.damps());
         for slot in piece * CHUNK..((piece + 1) * CHUNK).min(particles.len()) {
             if particles.owner[slot] != 0 {
                 continue;
             }
-            let ParticleMotion { velocity, spin, force, torque } = &particles.motion(slot);
+            let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
+            let (force, torque) = (&particles.force[slot], &particles.torque[slot]);
             let acceleration = plus(&gravity, force, 1.0 / velocity[3]);
             let motion = [[velocity, spin], [&acceleration, &plus(&[0.0; 4], torque, 1.0 / spin[3])]];
-            let passed = passes.map_or([*force, *torque], |loads| loads.of(slot));
-            multiply(&mut found.passes, passed.each_ref(), motion);
-            if let Some(loads) = bonds {
-                multiply(&mut found.bonds, loads.of(slot).each_ref(), motion);
+            let passed = passes.map_or([force, torque], |[forces, torques]| [&forces[slot], &torques[slot]]);
+            multiply(&mut found.passes, passed, motion);
+            if let Some([forces, torques]) = bonds {
+                multiply(&mut found.bonds, [&forces[slot], &torques[slot]], motion);
             }
             if damps {
                 multiply(&mut found.all, [force, torque], motion);

@@ -33,8 +33,14 @@ impl Particles {
     /// Motion and loads of the particle in a slot, whatever its rows are.
     #[inline(always)]
     pub(crate) fn motion(&self, slot: usize) -> ParticleMotion {
+        if self.plane_rows { self.motion_in::<true>(slot) } else { self.motion_in::<false>(slot) }
+    }
+
+    /// The same for loops that ask once whether rows are plane ones.
+    #[inline(always)]
+    pub(crate) fn motion_in<const PLANE: bool>(&self, slot: usize) -> ParticleMotion {
         let (velocity, spin) = (self.velocity[slot], self.angular_velocity[slot]);
-        ParticleMotion { velocity, spin, force: self.force[slot], torque: self.torque[slot] }.of_rows(self.plane_rows)
+        ParticleMotion { velocity, spin, force: self.force[slot], torque: self.torque[slot] }.of_rows(PLANE)
     }
 }
 

@@ -50,7 +50,7 @@ fn check_tells_what_a_scene_could_drop() {
 #[test]
 fn check_tells_of_a_third_dimension_that_nothing_uses() {
     let place = Place::new("third_dimension");
-    let scene = place.scene("step = 1e-5", "energy = true");
+    let scene = place.scene("step = 1e-5", "losses = true");
     let lattice = "lattice = { kind = \"simple_cubic\", origin = [-0.014, 0.1, 0.005], counts = [4, 1, 30], spacing = 0.01, radius = 0.005 }";
     let text = fs::read_to_string(&scene).unwrap();
     let (before, listed) = text.split_once("list = [").unwrap();
