@@ -42,8 +42,8 @@ fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, membe
     give_motion(moved, members, particles);
 }
 
-/// Gives the particles of a group the motion of their body.
-fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+/// Gives the particles of a group the motion of their body, about where its reference point stands.
+pub(crate) fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
     let (velocity, spin) = (Vector::from(moved.velocity), Vector::from(moved.angular_velocity));
     for &member in members {
         let slot = particles.slot[member as usize] as usize;
