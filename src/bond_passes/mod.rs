@@ -84,7 +84,7 @@ impl BondPass {
             pairs: bond.pairs.clone(),
             near: Mutex::default(),
             results: Mutex::default(),
-            sweeps: Sweeps::of(scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty())),
+            sweeps: Sweeps::of(scene.held_by(bond).next().is_some()),
         }
     }
 

@@ -18,8 +18,8 @@ use std::sync::{Mutex, PoisonError};
 /// Bonds whose columns are found together: they fit the first-level cache.
 const BATCH: usize = 64;
 
-/// Columns of a batch: axis, arms, gains, losses, lightness.
-const COLUMNS: usize = 17;
+/// Columns of a batch: axis, arms, gains, losses, lightness, across.
+const COLUMNS: usize = 18;
 
 /// The sweeps of a bond law.
 #[derive(Default)]
@@ -199,14 +199,15 @@ impl Kernel for Slab<'_, '_> {
 /// One bond of a batch.
 #[inline(always)]
 fn decay_at(columns: &[[f64; BATCH]; COLUMNS], place: usize) -> Decay {
-    let of = |column: usize| columns[column][place];
-    let parts = |first: usize| [of(first), of(first + 1), of(first + 2), of(first + 3)];
+    let [x, y, z, arm_i, arm_j, rest @ ..] = columns;
+    let [a, b, c, d, e, f, g, h, k, l, m, n, across] = rest;
     Decay {
-        axis: Vector::new(of(0), of(1), of(2)),
-        arms: [of(3), of(4)],
-        gains: parts(5),
-        losses: parts(9),
-        lightness: parts(13),
+        axis: Vector::new(x[place], y[place], z[place]),
+        arms: [arm_i[place], arm_j[place]],
+        gains: [a[place], b[place], c[place], d[place]],
+        losses: [e[place], f[place], g[place], h[place]],
+        lightness: [k[place], l[place], m[place], n[place]],
+        across: across[place],
     }
 }
 
@@ -231,23 +232,24 @@ impl Slab<'_, '_> {
             while lane < N::WIDTH {
                 // Lanes behind the last bond repeat the first one.
                 let bond = start + if place + lane < count { place + lane } else { place };
-                for body in 0..2 {
-                    slots[body][lane] = work.bodies[body][bond];
-                }
+                slots[0][lane] = work.bodies[0][bond];
+                slots[1][lane] = work.bodies[1][bond];
                 lane += 1;
             }
             // SAFETY: the caller's promise; a batch holds a whole number of registers.
             unsafe {
                 let pair = Pair::of_spheres(&work.body::<N>(&slots[0]), &work.body::<N>(&slots[1]));
-                let free = [0, 1].map(|body: usize| work.free::<N>(&slots[body]));
+                let free = [work.free::<N>(&slots[0]), work.free::<N>(&slots[1])];
                 let decay = work.dashpots.decay(law, &pair, free, work.sweep.time);
-                let Decay { axis, arms, gains, losses, lightness } = decay;
+                let Decay { axis, arms, gains, losses, lightness, across } = decay;
                 let [a, b, c, d] = gains;
                 let [e, f, g, h] = losses;
                 let [k, l, m, n] = lightness;
-                let all = [axis.x, axis.y, axis.z, arms[0], arms[1], a, b, c, d, e, f, g, h, k, l, m, n];
-                for (column, numbers) in columns.iter_mut().zip(all) {
-                    numbers.store(column.as_mut_ptr().add(place));
+                let all = [axis.x, axis.y, axis.z, arms[0], arms[1], a, b, c, d, e, f, g, h, k, l, m, n, across];
+                let mut column = 0;
+                while column < COLUMNS {
+                    all[column].store(columns[column].as_mut_ptr().add(place));
+                    column += 1;
                 }
             }
             place += N::WIDTH;
@@ -261,31 +263,30 @@ impl Slab<'_, '_> {
     #[inline(always)]
     unsafe fn damp(&mut self, bond: usize, decay: &Decay) {
         let work = self.work;
-        let slots = [work.bodies[0][bond] as usize, work.bodies[1][bond] as usize];
+        let (i, j) = (work.bodies[0][bond] as usize, work.bodies[1][bond] as usize);
         // SAFETY: the caller's promise; a bond has two bodies, and its lost energy is its own.
-        let (velocities, spins, lost) = unsafe {
-            (
-                slots.map(|slot| work.velocity.at(slot)),
-                slots.map(|slot| work.spin.at(slot)),
-                work.lost.at(bond),
-            )
+        let (v, u, w, s, lost) = unsafe {
+            (work.velocity.at(i), work.velocity.at(j), work.spin.at(i), work.spin.at(j), work.lost.at(bond))
         };
-        let rows = |rows: &[&mut Row; 2]| [Vector::from(*rows[0]), Vector::from(*rows[1])];
-        let before = Moving { velocities: rows(&velocities), spins: rows(&spins) };
-        let mut moving = before;
+        let mut moving = Moving {
+            velocities: [Vector::of_row(*v), Vector::of_row(*u)],
+            spins: [Vector::of_row(*w), Vector::of_row(*s)],
+        };
+        let before = moving;
         let impulse = decay.damp(&mut moving, work.sweep.backwards);
-        for body in 0..2 {
-            *velocities[body] = moving.velocities[body].row_with(velocities[body][3]);
-            *spins[body] = moving.spins[body].row_with(spins[body][3]);
-        }
+        *v = moving.velocities[0].row_with(v[3]);
+        *u = moving.velocities[1].row_with(u[3]);
+        *w = moving.spins[0].row_with(w[3]);
+        *s = moving.spins[1].row_with(s[3]);
         *lost += impulse.taken;
         self.found.taken += impulse.taken;
         if !work.boundaries.is_empty() {
-            self.feel(slots, &impulse, &before);
+            self.feel([i, j], &impulse, &before);
         }
     }
 
     /// Notes what a bond did to groups.
+    #[inline(never)]
     fn feel(&mut self, slots: [usize; 2], impulse: &Impulse, before: &Moving) {
         for (body, slot) in slots.into_iter().enumerate() {
             let Some(owner) = (self.work.owner[slot] as usize).checked_sub(1) else { continue };
@@ -305,9 +306,12 @@ impl Work<'_> {
     #[inline(always)]
     unsafe fn body<N: Lane>(&self, slots: &[u32; 8]) -> Body<N> {
         // SAFETY: the caller's promise.
-        let [position, velocity, spin] = unsafe {
-            [self.position.as_ptr(), self.velocity.pointer().cast_const(), self.spin.pointer().cast_const()]
-                .map(|rows| N::load_rows(rows, slots.as_ptr()))
+        let (position, velocity, spin) = unsafe {
+            (
+                N::load_rows(self.position.as_ptr(), slots.as_ptr()),
+                N::load_rows(self.velocity.pointer().cast_const(), slots.as_ptr()),
+                N::load_rows(self.spin.pointer().cast_const(), slots.as_ptr()),
+            )
         };
         Body {
             position: vector(position),
@@ -326,7 +330,16 @@ impl Work<'_> {
         if self.boundaries.is_empty() {
             return N::splat(1.0);
         }
-        lanes::lanes_of(|lane| f64::from(u8::from(self.owner[slots[lane] as usize] == 0)))
+        let mut free = [1.0; 8];
+        let mut lane = 0;
+        while lane < N::WIDTH {
+            if self.owner[slots[lane] as usize] != 0 {
+                free[lane] = 0.0;
+            }
+            lane += 1;
+        }
+        // SAFETY: no register has more than eight lanes.
+        unsafe { N::load(free.as_ptr()) }
     }
 }
 

@@ -79,6 +79,8 @@ pub struct Simulation {
     serves: bool,
     /// Whether dashpots of bonds are integrated by themselves.
     splits: bool,
+    /// Whether such bonds may belong to a boundary.
+    leads: bool,
     /// Whether particles stand in plane rows just now, inside a communication step ([`integration::plane`]).
     plane_rows: bool,
     /// [`plane::permits_plane_rows`]
@@ -147,6 +149,7 @@ impl Simulation {
         let mut simulation = Self {
             flow: Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations())),
             turning,
+            leads: sweeps::leads(&scene),
             splits: passes.iter().any(|pass| pass.sweeps()),
             passes,
             fields: Fields::of(&scene),

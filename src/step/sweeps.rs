@@ -2,12 +2,18 @@
 
 use super::Simulation;
 use crate::boundaries::felt::{self, Swept};
-use crate::boundaries::{course, rigid_body};
+use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::interactions::Sweep;
 use crate::motion::Progress;
+use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::threads::Context;
 use crate::books;
+
+/// Whether bonds whose dashpots are integrated by themselves may hold a boundary.
+pub(super) fn leads(scene: &Scene) -> bool {
+    scene.bonds.iter().any(|bond| bond.law.split.is_some() && scene.held_by(bond).next().is_some())
+}
 
 impl Simulation {
     /// The sweep before a time step. Groups and planes that are led have the motion of the step to come.
@@ -18,10 +24,11 @@ impl Simulation {
         self.lead_ahead(progress);
         let cross = self.sweep(&progress, false, context);
         self.book_cross(cross, progress.step);
-        let kept = &self.room.led;
-        self.state.boundaries.iter_mut().zip(kept).for_each(|(moved, kept)| {
-            (moved.velocity, moved.angular_velocity) = (kept.velocity, kept.angular_velocity);
-        });
+        if self.leads {
+            self.state.boundaries.iter_mut().zip(&self.room.led).for_each(|(moved, kept)| {
+                (moved.velocity, moved.angular_velocity) = (kept.velocity, kept.angular_velocity);
+            });
+        }
     }
 
     /// The sweep after a time step, and the energy book of its second half kick, which has been made.
@@ -35,14 +42,11 @@ impl Simulation {
             let between = &mut self.room.between;
             books::work::book_kicked(&mut self.state, between, &self.fields, progress.step, context);
         }
-        if self.serves {
-            self.show_swept();
-        }
     }
 
     /// Gives led boundaries and their particles the motion of the time step to come, and keeps what was.
     fn lead_ahead(&mut self, progress: Progress) {
-        if self.scene.boundaries.is_empty() {
+        if !self.leads {
             return;
         }
         self.room.led.clone_from(&self.state.boundaries);
@@ -51,9 +55,10 @@ impl Simulation {
         for (place, (moved, kept)) in state.boundaries.iter_mut().zip(kept).enumerate() {
             let (velocity, spin) = (moved.velocity, moved.angular_velocity);
             *moved = *kept;
-            if !self.bodies[place].as_ref().is_some_and(rigid_body::RigidBody::is_free) {
+            let body = self.bodies[place].as_ref();
+            if !body.is_some_and(RigidBody::is_free) {
                 (moved.velocity, moved.angular_velocity) = (velocity, spin);
-                rigid_body::give_motion(moved, self.scene.boundaries[place].shape.members(), &mut state.particles);
+                rigid_body::give_led_motion(&self.scene.boundaries[place], body, moved, &mut state.particles);
             }
         }
     }
@@ -94,7 +99,7 @@ impl Simulation {
 
     /// Lets boundaries feel the present loads of these dashpots.
     pub(super) fn show_swept(&mut self) {
-        if !self.splits || self.scene.boundaries.is_empty() {
+        if !self.leads {
             return;
         }
         let mut loads = std::mem::take(&mut self.room.swept);

@@ -42,6 +42,8 @@ pub struct Decay<N: Number = f64> {
     pub losses: Parts<N>,
     /// 1/m_i, 1/m_j, 1/I_i, 1/I_j; 0 of a body that is led.
     pub lightness: [N; 4],
+    /// l_i/I_i − l_j/I_j: what a couple by shear adds to the rate of bending \[1/(kg m)\].
+    pub across: N,
 }
 
 /// Velocities \[m/s\] and angular velocities \[rad/s\] of both bodies.
@@ -115,7 +117,7 @@ impl Viscous {
     /// between two that are led changes no rate; its impulses are those of steady dashpots.
     #[inline(always)]
     pub fn decay<N: Number>(&self, law: &Coefficients<N>, pair: &Pair<N>, free: [N; 2], time: f64) -> Decay<N> {
-        let (one, half, zero) = (N::splat(1.0), N::splat(0.5), N::zero());
+        let zero = N::zero();
         let distance = pair.connection.length();
         let (own, arms) = (lightness(pair), arms(pair, distance));
         let moved = [own[0] * free[0], own[1] * free[1], own[2] * free[0], own[3] * free[1]];
@@ -126,74 +128,71 @@ impl Viscous {
         while part < 4 {
             if self.ratios[part] != 0.0 {
                 let impulse = dashpot(self.ratios[part], stiffness[part], whole[part]) * N::splat(time);
-                let moves = light[part].greater(zero);
-                let lost = lost_share(impulse * light[part]);
-                gains[part] = N::select(moves, lost / N::select(moves, light[part], one), impulse);
-                losses[part] = gains[part] * (one - lost * half);
+                [gains[part], losses[part]] = answer(impulse, light[part]);
             }
             part += 1;
         }
-        Decay { axis: pair.connection * (one / distance), arms, gains, losses, lightness: moved }
+        let axis = pair.connection * (N::splat(1.0) / distance);
+        Decay { axis, arms, gains, losses, lightness: moved, across: arms[0] * moved[2] - arms[1] * moved[3] }
     }
 
     /// Force and torques of the dashpots of a pair as it moves \[N, N m\], in place of impulses; the energy is a power \[W\].
     pub fn loads(&self, law: &Coefficients, pair: &Pair) -> Impulse {
         let decay = self.decay(law, pair, [0.0; 2], 1.0);
         // Dashpots see what i does relative to j.
-        let mut moving = Moving { velocities: [pair.velocity, Vector::zero()], spins: [pair.spin_i, pair.spin_j] };
-        decay.damp(&mut moving, false)
+        decay.impulse(&Moving { velocities: [pair.velocity, Vector::zero()], spins: [pair.spin_i, pair.spin_j] }, false)
     }
 }
 
+/// Impulse over the rate, and energy over its square, of a dashpot that gives this impulse in the time if its rate stays, to bodies
+/// with this 1/M.
+#[inline(always)]
+fn answer<N: Number>(steady: N, light: N) -> [N; 2] {
+    let moves = light.greater(N::zero());
+    let lost = lost_share(steady * light);
+    let gain = N::select(moves, lost / N::select(moves, light, N::splat(1.0)), steady);
+    [gain, gain * (N::splat(1.0) - lost * N::splat(0.5))]
+}
+
 impl Decay {
-    /// Lets the rates of two bodies decay, bending before shear if that is asked for. Tells what it took to do that.
+    /// Lets the rates of two bodies decay, bending before shear if that is asked for. Tells what was given for that.
     #[inline(always)]
     pub fn damp(&self, moving: &mut Moving, backwards: bool) -> Impulse {
-        let Self { axis, arms, gains, losses, lightness } = *self;
-        let apart = moving.velocities[0] - moving.velocities[1];
-        let (along, twist) = (apart.dot(axis), (moving.spins[0] - moving.spins[1]).dot(axis));
-        let mut impulse = Impulse {
-            push: axis * -(gains[0] * along),
-            twists: [axis * -(gains[2] * twist), axis * (gains[2] * twist)],
-            taken: losses[0] * along * along + losses[2] * twist * twist,
-        };
-        let mut turned = [Vector::zero(); 2];
-        if backwards {
-            self.bend(moving, &mut impulse, &mut turned);
-        }
-        let spin = moving.spins[0] * arms[0] + moving.spins[1] * arms[1] + turned[0] * arms[0] + turned[1] * arms[1];
-        let slip = apart - axis * along + axis.cross(spin);
-        let shear = slip * -gains[1];
-        let couple = shear.cross(axis);
-        impulse.push += shear;
-        impulse.taken += losses[1] * slip.dot(slip);
-        for body in 0..2 {
-            let twist = couple * arms[body];
-            impulse.twists[body] += twist;
-            turned[body] += twist * lightness[2 + body];
-        }
-        if !backwards {
-            self.bend(moving, &mut impulse, &mut turned);
-        }
-        moving.velocities[0] += impulse.push * lightness[0];
-        moving.velocities[1] += impulse.push * -lightness[1];
-        moving.spins[0] += impulse.twists[0] * lightness[2];
-        moving.spins[1] += impulse.twists[1] * lightness[3];
+        let impulse = self.impulse(moving, backwards);
+        let [along_i, along_j, about_i, about_j] = self.lightness;
+        moving.velocities[0] += impulse.push * along_i;
+        moving.velocities[1] = moving.velocities[1] - impulse.push * along_j;
+        moving.spins[0] += impulse.twists[0] * about_i;
+        moving.spins[1] += impulse.twists[1] * about_j;
         impulse
     }
 
-    /// The part of bending. `turned` is by how much the other parts across the axis have changed the angular velocities so far.
+    /// What two bodies get. What the second of shear and bending finds of the first one is taken into account: the angular
+    /// velocities themselves need not be known in between.
     #[inline(always)]
-    fn bend(&self, moving: &Moving, impulse: &mut Impulse, turned: &mut [Vector; 2]) {
-        let Self { axis, gains, losses, lightness, .. } = *self;
-        let relative = moving.spins[0] - moving.spins[1] + (turned[0] - turned[1]);
-        let rate = relative - axis * relative.dot(axis);
-        let twist = rate * -gains[3];
-        impulse.taken += losses[3] * rate.dot(rate);
-        impulse.twists[0] += twist;
-        impulse.twists[1] += -twist;
-        turned[0] += twist * lightness[2];
-        turned[1] += twist * -lightness[3];
+    fn impulse(&self, moving: &Moving, backwards: bool) -> Impulse {
+        let Self { axis, arms, gains, losses, across, .. } = *self;
+        let [v, u] = moving.velocities;
+        let [w, s] = moving.spins;
+        let (apart, turned) = (v - u, w - s);
+        let (along, about) = (apart.dot(axis), turned.dot(axis));
+        let mut slip = apart - axis * along + axis.cross(w * arms[0] + s * arms[1]);
+        let mut bend = turned - axis * about;
+        if backwards {
+            slip += axis.cross(bend) * -(across * gains[3]);
+        } else {
+            bend += axis.cross(slip) * (across * gains[1]);
+        }
+        let couple = axis.cross(slip) * gains[1];
+        let twist = axis * -(gains[2] * about) - bend * gains[3];
+        Impulse {
+            push: axis * -(gains[0] * along) - slip * gains[1],
+            twists: [couple * arms[0] + twist, couple * arms[1] - twist],
+            taken: losses[0] * (along * along)
+                + losses[1] * slip.dot(slip)
+                + losses[2] * (about * about)
+                + losses[3] * bend.dot(bend),
+        }
     }
 }
 

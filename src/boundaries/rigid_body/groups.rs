@@ -43,7 +43,7 @@ fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, membe
 }
 
 /// Gives the particles of a group the motion of their body, about where its reference point stands.
-pub(crate) fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
     let (velocity, spin) = (Vector::from(moved.velocity), Vector::from(moved.angular_velocity));
     for &member in members {
         let slot = particles.slot[member as usize] as usize;
@@ -78,12 +78,31 @@ fn larger(most: f64, one: f64) -> f64 {
     if one > most || one.is_nan() { one } else { most }
 }
 
+/// Gives the particles of a boundary that is led the motion that it has.
+pub(crate) fn give_led_motion(
+    boundary: &Boundary,
+    body: Option<&RigidBody>,
+    moved: &BoundaryState,
+    particles: &mut Particles,
+) {
+    let members = boundary.shape.members();
+    if body.is_some_and(|body| body.turning != Turning::Still) {
+        return give_motion(moved, members, particles);
+    }
+    give_velocity(moved, members, particles);
+}
+
 /// Gives the spheres of a group the motion that it has after a kick.
 fn give_free_motion(body: &RigidBody, moved: &BoundaryState, particles: &mut Particles) {
     if body.turning != Turning::Still {
         return give_motion(moved, &body.members, particles);
     }
-    for &member in &body.members {
+    give_velocity(moved, &body.members, particles);
+}
+
+/// Gives the particles of a group that does not turn its velocity.
+fn give_velocity(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
+    for &member in members {
         let slot = particles.slot[member as usize] as usize;
         particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
     }

@@ -101,14 +101,11 @@ fn cannot_be_suppressed(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
 /// What speaks against dashpots that are integrated by themselves: the bonded bodies must be particles, or led.
 fn cannot_be_split(scene: &Scene, bond: &Bond) -> Option<Finding> {
     bond.law.split?;
-    let bonded = |member: &u32| bond.between.contains(&scene.particles[*member as usize].set);
-    let (_, boundary) = scene.boundaries.iter().enumerate().find(|(place, boundary)| {
-        let concerned = boundary.shape.members().iter().any(bonded)
-            || bond.plane.is_some_and(|plane| plane.index() == *place);
-        concerned && boundary.axes.iter().any(AxisMotion::is_free)
-    })?;
+    let moves = |boundary: &&Boundary| boundary.axes.iter().any(|axis| axis.is_free() || axis.servo().is_some());
+    let boundary = scene.held_by(bond).find(moves)?;
     let message = format!(
-        "\"split\" found, but forces move [boundary.{}], which may be bonded; \"scheme\", or a boundary that is led or fixed, is right",
+        "\"split\" found, but forces or a servo move [boundary.{}], which may be bonded; \"scheme\", or a boundary that is driven, \
+         prescribed or fixed, is right",
         boundary.name
     );
     let key = "damping.viscous.integration";
