@@ -47,12 +47,7 @@ fn rates(pair: &Pair, moving: &Moving) -> [Vector; 4] {
     let [apart, turned] = [moving.velocities, moving.spins].map(|[i, j]| i - j);
     let spin = moving.spins[0] * pair.share_i + moving.spins[1] * pair.share_j;
     let along = |vector: Vector| axis * vector.dot(axis);
-    [
-        along(apart),
-        apart - along(apart) + pair.connection.cross(spin),
-        along(turned),
-        turned - along(turned),
-    ]
+    [along(apart), apart - along(apart) + pair.connection.cross(spin), along(turned), turned - along(turned)]
 }
 
 /// Momentum, angular momentum about body j, and kinetic energy.
@@ -60,7 +55,8 @@ fn kept(pair: &Pair, moving: &Moving) -> (Vector, Vector, f64) {
     let ([v, u], [w, s]) = (moving.velocities, moving.spins);
     let momentum = v * pair.mass_i + u * pair.mass_j;
     let angular = w * pair.inertia_i + s * pair.inertia_j + pair.connection.cross(v * pair.mass_i);
-    let energy = pair.mass_i * v.dot(v) + pair.mass_j * u.dot(u) + pair.inertia_i * w.dot(w) + pair.inertia_j * s.dot(s);
+    let energy =
+        pair.mass_i * v.dot(v) + pair.mass_j * u.dot(u) + pair.inertia_i * w.dot(w) + pair.inertia_j * s.dot(s);
     (momentum, angular, 0.5 * energy)
 }
 
@@ -117,9 +113,8 @@ fn a_sweep_backwards_undoes_one_forwards_in_reversed_time() {
     // (1 − s⁻¹) is the share that is gained: −lost/(1 − lost).
     let mut grown = decay;
     let light = [1.0 / pair.mass_i + 1.0 / pair.mass_j, 0.0, 1.0 / pair.inertia_i + 1.0 / pair.inertia_j, 0.0];
-    let across = light[0]
-        + decay.arms[0] * decay.arms[0] / pair.inertia_i
-        + decay.arms[1] * decay.arms[1] / pair.inertia_j;
+    let across =
+        light[0] + decay.arms[0] * decay.arms[0] / pair.inertia_i + decay.arms[1] * decay.arms[1] / pair.inertia_j;
     let light = [light[0], across, light[2], light[2]];
     for part in 0..4 {
         grown.gains[part] = -decay.gains[part] / (1.0 - decay.gains[part] * light[part]);
@@ -503,10 +498,14 @@ fn a_block_that_turns_as_a_whole_is_damped_by_the_fourth_power_of_the_step_alone
         text.replace_range(start..end, "");
         let spin = 2000.0;
         let turned = |sign: f64| {
-            format!("radius = 1.0e-3, velocity = [0.0, {:?}, 0.0], angular_velocity = [0.0, 0.0, {spin:?}] }}", sign * spin * 1e-3)
+            format!(
+                "radius = 1.0e-3, velocity = [0.0, {:?}, 0.0], angular_velocity = [0.0, 0.0, {spin:?}] }}",
+                sign * spin * 1e-3
+            )
         };
         let text = text.replace("[0.0, 0.0, 0.0], radius = 1.0e-3 }", &format!("[0.0, 0.0, 0.0], {}", turned(-1.0)));
-        let text = text.replace("[2.0e-3, 0.0, 0.0], radius = 1.0e-3 }", &format!("[2.0e-3, 0.0, 0.0], {}", turned(1.0)));
+        let text =
+            text.replace("[2.0e-3, 0.0, 0.0], radius = 1.0e-3 }", &format!("[2.0e-3, 0.0, 0.0], {}", turned(1.0)));
         let mut simulation = simulation(&text);
         simulation.advance(0.002).expect("what it began with has decayed");
         let before = simulation.losses().expect("it books losses")[Loss::BondDamping as usize];
@@ -529,8 +528,78 @@ fn what_cannot_be_split_is_refused_by_name() {
     assert!(said.contains("integration") && said.contains("both pulls and pushes"), "{said}");
     let said = refusal(&text.replacen("\"split\"", "\"halves\"", 1));
     assert!(said.contains("halves") && said.contains("split"), "{said}");
-    let said = refusal(&text.replace("motion = { driven = [\"x\", \"z\"] }", "motion = { driven = [\"x\"], free = [\"z\"] }"));
+    let said =
+        refusal(&text.replace("motion = { driven = [\"x\", \"z\"] }", "motion = { driven = [\"x\"], free = [\"z\"] }"));
     assert!(said.contains("boundary.stamp") && said.contains("\"scheme\""), "{said}");
     let said = Simulation::follows(&scene(&text)).expect_err("derivatives do not follow it").to_string();
     assert!(said.contains("integration = \"split\""), "{said}");
+}
+
+/// A beam of bonded spheres that weight bends from rest, with dashpots of this ratio.
+fn beam(ratio: f64, integration: &str, scheme: &str, step: f64) -> Simulation {
+    let parts = ["normal_force", "tangential_force", "normal_torque", "tangential_torque"];
+    let ratios: String = parts.map(|part| format!("{part} = {ratio:?}, ")).concat();
+    let law = format!(
+        "create_distance = 2.1e-3\nnormal_stiffness = 1.0e12\ntangential_stiffness = 4.0e11\n\
+         damping.viscous = {{ {ratios} integration = \"{integration}\" }}"
+    );
+    let block = |name: &str, from: f64, count: u32| {
+        format!(
+            "[particles.{name}]\nmaterial = \"a\"\nlattice = {{ kind = \"simple_cubic\", origin = [{from:?}, 0.0, 0.0], \
+             counts = [{count}, 2, 2], spacing = 2.0e-3, radius = 1.0e-3 }}\n"
+        )
+    };
+    let (core, held) = (block("core", 0.0, 10), block("held", -2.0e-3, 1));
+    simulation(&format!(
+        "gravity = [3.0, 1.0, -9.81]\n[run]\nstep = {step:?}\nscheme = \"{scheme}\"\nallow_unstable = true\n\
+         [material.a]\nyoungs_modulus = 1.0e9\npoissons_ratio = 0.3\ndensity = 2500.0\n{core}{held}\
+         [boundary.wall]\nparticles = {{ set = \"held\" }}\n[bond.b]\nbetween = [\"core\", \"core\"]\n{law}\n\
+         [bond.w]\nbetween = [\"core\", \"held\"]\n{law}\n[output]\nlosses = true\n"
+    ))
+}
+
+/// Kinetic energy of the beam and what its dashpots took, at ten moments up to 1 ms in so many time steps; none where it is unstable.
+fn bent(ratio: f64, integration: &str, scheme: &str, steps: u32) -> Option<Vec<[f64; 2]>> {
+    let mut simulation = beam(ratio, integration, scheme, 1e-3 / f64::from(steps));
+    let mut told = Vec::new();
+    for _ in 0..10 {
+        simulation.advance(1e-4).ok()?;
+        let taken = simulation.losses().expect("the scene books losses")[Loss::BondDamping as usize];
+        told.push([simulation.kinetic_energy(), taken]);
+    }
+    Some(told)
+}
+
+/// Root mean square errors of both over their largest values.
+fn errors(found: &[[f64; 2]], converged: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|number| {
+        let most = converged.iter().map(|row| row[number].abs()).fold(0.0, f64::max);
+        let squares = found.iter().zip(converged).map(|(a, b)| (a[number] - b[number]) * (a[number] - b[number]));
+        (squares.sum::<f64>() / found.len() as f64).sqrt() / most
+    })
+}
+
+#[test]
+#[allow(clippy::print_stdout, reason = "the figures of docs/bonds.md are what this test prints with --nocapture")]
+fn a_slow_vibration_converges_to_that_of_acting_dashpots() {
+    let stable = beam(0.0, "scheme", "engine", 1e-7).state().clock.stable;
+    for ratio in [0.3, 1.0, 3.0] {
+        let converged = bent(ratio, "scheme", "predicted", 20_480).expect("it is stable");
+        for (integration, scheme) in [("scheme", "engine"), ("scheme", "predicted"), ("split", "engine")] {
+            let mut last = None;
+            for steps in [1120, 2560, 5120, 10_240] {
+                let part = 1e-3 / f64::from(steps) / stable;
+                let Some(found) = bent(ratio, integration, scheme, steps) else { continue };
+                let found = errors(&found, &converged);
+                println!(
+                    "ratio {ratio}, {integration:6} {scheme:9}: step {part:.3} of the undamped one, errors {:.1e} {:.1e}",
+                    found[0], found[1]
+                );
+                last = Some(found);
+            }
+            // The error of sweeps grows with the product of damping and step, that of dashpots that act as forces does not.
+            let most = if integration == "split" { 1e-2 * ratio } else { 1e-4 };
+            assert!(last.is_none_or(|[kinetic, taken]| kinetic < most && taken < most), "ratio {ratio}: {last:?}");
+        }
+    }
 }

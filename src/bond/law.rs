@@ -188,7 +188,15 @@ impl Law {
     /// A conservative bond that does not break.
     pub fn elastic(formulation: FormulationChoice, elasticity: Elasticity) -> Self {
         let compression_share = if formulation.is_engine() { 1.0 } else { -1.0 };
-        Self { formulation, elasticity, damping: None, split: None, foresees: false, breakage: Vec::new(), compression_share }
+        Self {
+            formulation,
+            elasticity,
+            damping: None,
+            split: None,
+            foresees: false,
+            breakage: Vec::new(),
+            compression_share,
+        }
     }
 
     /// What it asks of its formulation.

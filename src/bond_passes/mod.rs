@@ -16,8 +16,8 @@ pub(crate) use book::{Done, book};
 
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::damping::LastDamping;
-use crate::boundaries::felt::Swept;
 use crate::bond::{Body, Carried, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
+use crate::boundaries::felt::Swept;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
 use crate::interactions::{Ahead, Kind, Link, Sweep};

@@ -112,7 +112,11 @@ impl Sweeps {
         match sweep.backwards {
             false => context.slabs(slabs, slab),
             // Those of odd number come first where each is one further.
-            true => context.slabs(slabs + 1, |turn| if turn > 0 { slab(turn - 1) }),
+            true => context.slabs(slabs + 1, |turn| {
+                if turn > 0 {
+                    slab(turn - 1)
+                }
+            }),
         }
         for part in loads.chunks(count.max(1)) {
             felt.iter_mut().zip(part).for_each(|(sum, part)| sum.add(part));
@@ -265,9 +269,8 @@ impl Slab<'_, '_> {
         let work = self.work;
         let (i, j) = (work.bodies[0][bond] as usize, work.bodies[1][bond] as usize);
         // SAFETY: the caller's promise; a bond has two bodies, and its lost energy is its own.
-        let (v, u, w, s, lost) = unsafe {
-            (work.velocity.at(i), work.velocity.at(j), work.spin.at(i), work.spin.at(j), work.lost.at(bond))
-        };
+        let (v, u, w, s, lost) =
+            unsafe { (work.velocity.at(i), work.velocity.at(j), work.spin.at(i), work.spin.at(j), work.lost.at(bond)) };
         let mut moving = Moving {
             velocities: [Vector::of_row(*v), Vector::of_row(*u)],
             spins: [Vector::of_row(*w), Vector::of_row(*s)],

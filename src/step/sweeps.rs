@@ -1,6 +1,7 @@
 //! Dashpots of bonds that are integrated by themselves: a sweep before each time step and the reversed one after it.
 
 use super::Simulation;
+use crate::books;
 use crate::boundaries::felt::{self, Swept};
 use crate::boundaries::{RigidBody, course, rigid_body};
 use crate::interactions::Sweep;
@@ -8,7 +9,6 @@ use crate::motion::Progress;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::threads::Context;
-use crate::books;
 
 /// Whether bonds whose dashpots are integrated by themselves may hold a boundary.
 pub(super) fn leads(scene: &Scene) -> bool {
@@ -66,14 +66,16 @@ impl Simulation {
     /// Sweeps over all bonds. Returns by how much it raised the power of all forces on particles, where a book is kept \[W\].
     fn sweep(&mut self, progress: &Progress, backwards: bool, context: &Context) -> f64 {
         let booked = self.state.ledger.is_some();
-        let power = |simulation: &Self| if booked { books::work::power(&simulation.state.particles, context) } else { 0.0 };
+        let power =
+            |simulation: &Self| if booked { books::work::power(&simulation.state.particles, context) } else { 0.0 };
         let before = power(self);
         let sweep = Sweep { time: 0.5 * progress.step, backwards };
         let mut swept = std::mem::take(&mut self.room.swept);
         swept.clear();
         swept.resize(self.state.boundaries.len(), Swept::default());
         let (state, mut gained) = (&mut self.state, 0.0);
-        let mut each = |pass: &Box<dyn crate::interactions::Pass>| gained += pass.sweep(state, sweep, &mut swept, context);
+        let mut each =
+            |pass: &Box<dyn crate::interactions::Pass>| gained += pass.sweep(state, sweep, &mut swept, context);
         match backwards {
             false => self.passes.iter().for_each(&mut each),
             true => self.passes.iter().rev().for_each(&mut each),

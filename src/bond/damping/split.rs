@@ -204,7 +204,10 @@ mod tests {
     fn the_lost_share_holds_to_some_units_in_the_last_place_at_any_exponent() {
         for exponent in [0.0, 1e-300, 1e-12, 1e-3, 0.1, 0.7, 1.0, 3.0, 20.0, 63.0, 64.0, 1e6, f64::INFINITY] {
             let (found, expected) = (lost_share(exponent), -libm::expm1(-exponent));
-            assert!((found - expected).abs() <= 16.0 * f64::EPSILON * expected, "{found:e} at {exponent:e}: {expected:e}");
+            assert!(
+                (found - expected).abs() <= 16.0 * f64::EPSILON * expected,
+                "{found:e} at {exponent:e}: {expected:e}"
+            );
         }
     }
 }

@@ -111,7 +111,10 @@ pub(super) fn lightness<N: Number>(pair: &Pair<N>) -> [N; 4] {
 
 /// 1/M of the parts of a bond between two bodies, from 1/m and 1/I of both and the arms of both.
 #[inline(always)]
-pub(super) fn inverse_masses<N: Number>([along_i, along_j, about_i, about_j]: [N; 4], [arm_i, arm_j]: [N; 2]) -> Parts<N> {
+pub(super) fn inverse_masses<N: Number>(
+    [along_i, along_j, about_i, about_j]: [N; 4],
+    [arm_i, arm_j]: [N; 2],
+) -> Parts<N> {
     let along = along_i + along_j;
     let across = along + (arm_i * arm_i).scaled(about_i) + (arm_j * arm_j).scaled(about_j);
     let turning = about_i + about_j;
