@@ -8,7 +8,9 @@ mod after;
 mod batch;
 mod book;
 mod pipeline_buffer;
+mod plane_sweeps;
 mod slopes;
+mod sweep_slabs;
 mod sweeps;
 pub(crate) mod walls;
 

@@ -3,7 +3,7 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::sweeps::AtPlane;
+use super::plane_sweeps::AtPlane;
 use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, stretched, sum, whole_force};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::LastDamping;
