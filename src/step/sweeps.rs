@@ -74,11 +74,9 @@ impl Simulation {
         swept.clear();
         swept.resize(self.state.boundaries.len(), Swept::default());
         let (state, mut gained) = (&mut self.state, 0.0);
-        let mut each =
-            |pass: &Box<dyn crate::interactions::Pass>| gained += pass.sweep(state, sweep, &mut swept, context);
-        match backwards {
-            false => self.passes.iter().for_each(&mut each),
-            true => self.passes.iter().rev().for_each(&mut each),
+        for turn in 0..self.passes.len() {
+            let place = if backwards { self.passes.len() - 1 - turn } else { turn };
+            gained += self.passes[place].sweep(state, sweep, &mut swept, context);
         }
         let since_start = if backwards { 0.5 } else { -0.5 } * progress.step;
         felt::book_sweep(&self.scene, &mut self.state, &swept, progress.since_the_middle() + since_start);
