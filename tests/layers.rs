@@ -139,7 +139,7 @@ const UNSAFE: [(&str, usize); 11] = [
     ("batches", 69),
     ("coefficients", 1),
     ("interactions", 20),
-    ("bond_passes", 28),
+    ("bond_passes", 33),
     ("stability", 2),
     ("fmu", 37),
 ];

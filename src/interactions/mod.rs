@@ -11,5 +11,5 @@ pub(crate) mod surfaces;
 
 pub(crate) use ahead::{Ahead, FASTER, Kind, Link};
 pub(crate) use listed::SLIGHT;
-pub(crate) use pass::Pass;
+pub(crate) use pass::{Pass, Sweep};
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

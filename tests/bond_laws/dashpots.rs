@@ -38,7 +38,7 @@ fn error(formulation: FormulationChoice, step: f64) -> f64 {
     let ratios = PartKeys { normal_force, tangential_force, normal_torque, tangential_torque };
     let elasticity = Elasticity::of(1.0, 10.0, 4.0);
     let bare = Law::elastic(formulation, elasticity);
-    let damped = Law { damping: Some(DampingChoice::Viscous(ratios)), ..bare.clone() };
+    let damped = Law { damping: Some(DampingChoice::Viscous(ratios.into())), ..bare.clone() };
     let rows = (damped.one_bond().create)(&elasticity.at_step(0.0), &pair(0.0, step));
     let now = pair(1.0, step);
     let force = |law: &Law| law.react(&elasticity.at_step(step), &now, &rows, &LastDamping::default()).force;

@@ -247,7 +247,7 @@ fn the_smooth_threshold_is_that_of_the_engine() {
 
 #[test]
 fn dashpots_damp_each_motion_by_their_ratio() {
-    let damping = DampingChoice::Viscous(parts([0.1, 0.2, 0.3, 0.4], NonNegative::new));
+    let damping = DampingChoice::Viscous(parts([0.1, 0.2, 0.3, 0.4], NonNegative::new).into());
     // Masses 3, inertias 2: M = 3/2 along, 1 for rotation.
     let (force, _) = damped(damping, [0.5, 0.0, 0.0], [0.0; 3]);
     assert!((force.x + 0.2 * (10.0 * AREA * 1.5_f64).sqrt() * 0.5).abs() < 1e-14, "{force:?}");

@@ -6,6 +6,51 @@ use crate::bond::part_keys::PartKeys;
 use crate::bond::{Coefficients, Elastic, Motion, Pair};
 use crate::number::Number;
 use crate::quantity::NonNegative;
+use serde::Deserialize;
+
+/// How dashpots are integrated in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integration {
+    /// As forces, which see the rates that `[run] scheme` says.
+    #[default]
+    Scheme,
+    /// By themselves, pair by pair, before and after each time step ([`super::split`]).
+    Split,
+}
+
+/// `[bond.<name>.damping.viscous]`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// ζ of the normal force.
+    pub normal_force: Option<NonNegative>,
+    /// ζ of the shear force.
+    pub tangential_force: Option<NonNegative>,
+    /// ζ of the torsion.
+    pub normal_torque: Option<NonNegative>,
+    /// ζ of the bending torque.
+    pub tangential_torque: Option<NonNegative>,
+    /// How they are integrated; `"scheme"` where absent.
+    #[serde(default)]
+    pub integration: Integration,
+}
+
+impl Keys {
+    /// ζ of each part, 0 where absent.
+    pub fn parts(&self, number: impl Fn(NonNegative) -> f64) -> Parts {
+        let Self { normal_force, tangential_force, normal_torque, tangential_torque, .. } = *self;
+        PartKeys { normal_force, tangential_force, normal_torque, tangential_torque }.parts(number)
+    }
+}
+
+impl From<PartKeys<NonNegative>> for Keys {
+    /// Dashpots that are integrated as forces.
+    fn from(ratios: PartKeys<NonNegative>) -> Self {
+        let PartKeys { normal_force, tangential_force, normal_torque, tangential_torque } = ratios;
+        Self { normal_force, tangential_force, normal_torque, tangential_torque, integration: Integration::Scheme }
+    }
+}
 
 /// A dashpot beside the spring of each part, set by the share of critical damping.
 ///
@@ -26,25 +71,29 @@ use crate::quantity::NonNegative;
 /// ζ is the damping ratio of the pair alone in each of its motions, at small amplitude. The bond rests under any
 /// load, and nothing depends on the axes of the scene. Between two bodies without motion of their own there
 /// is not a damping.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscous {
     /// ζ of each part.
     pub ratios: Parts,
 }
 
 impl Model for Viscous {
-    type Keys = PartKeys<NonNegative>;
+    type Keys = Keys;
     type Form = Self;
     const IS_DASHPOTS: bool = true;
 
     fn of(keys: &Self::Keys) -> Self {
         Self { ratios: keys.parts(NonNegative::get) }
     }
+
+    fn split(keys: &Self::Keys) -> Option<Self> {
+        (keys.integration == Integration::Split).then(|| Self::of(keys))
+    }
 }
 
 /// 2 ζ √(K M), from 1/M. A part without damping takes neither root nor division.
 #[inline(always)]
-fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
+pub(super) fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
     if ratio == 0.0 {
         return N::zero();
     }
@@ -53,16 +102,29 @@ fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
     N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0 * ratio))
 }
 
-/// 1/M of the parts that a bond of this length has between two bodies.
+/// 1/m_i, 1/m_j, 1/I_i, 1/I_j of a pair.
 #[inline(always)]
-fn inverse_masses<N: Number>(pair: &Pair<N>, distance: N) -> Parts<N> {
+pub(super) fn lightness<N: Number>(pair: &Pair<N>) -> [N; 4] {
     let one = N::splat(1.0);
-    let (lighter_i, lighter_j) = (one / pair.inertia_i, one / pair.inertia_j);
-    let (arm_i, arm_j) = (distance.scaled(pair.share_i), distance.scaled(pair.share_j));
-    let along = one / pair.mass_i + one / pair.mass_j;
-    let across = along + (arm_i * arm_i).scaled(lighter_i) + (arm_j * arm_j).scaled(lighter_j);
-    let turning = lighter_i + lighter_j;
+    [one / pair.mass_i, one / pair.mass_j, one / pair.inertia_i, one / pair.inertia_j]
+}
+
+/// 1/M of the parts of a bond between two bodies, from 1/m and 1/I of both and the arms of both.
+#[inline(always)]
+pub(super) fn inverse_masses<N: Number>(
+    [along_i, along_j, about_i, about_j]: [N; 4],
+    [arm_i, arm_j]: [N; 2],
+) -> Parts<N> {
+    let along = along_i + along_j;
+    let across = along + (arm_i * arm_i).scaled(about_i) + (arm_j * arm_j).scaled(about_j);
+    let turning = about_i + about_j;
     [along, across, turning, turning]
+}
+
+/// Arms of both bodies of a bond of this length \[m\].
+#[inline(always)]
+pub(super) fn arms<N: Number>(pair: &Pair<N>, distance: N) -> [N; 2] {
+    [distance.scaled(pair.share_i), distance.scaled(pair.share_j)]
 }
 
 impl Damping for Viscous {
@@ -77,7 +139,7 @@ impl Damping for Viscous {
         elastic: &Elastic<N>,
     ) -> Damped<N> {
         let section = &motion.section;
-        let [along, across, turning, _] = inverse_masses(pair, motion.distance);
+        let [along, across, turning, _] = inverse_masses(lightness(pair), arms(pair, motion.distance));
         let [normal, shear, torsion, bending] = self.ratios;
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
@@ -90,7 +152,7 @@ impl Damping for Viscous {
     }
 
     fn linear(&self, pair: &Pair, stiffness: Parts) -> [Parts; 2] {
-        let inverse_masses = inverse_masses(pair, pair.connection.length());
+        let inverse_masses = inverse_masses(lightness(pair), arms(pair, pair.connection.length()));
         let dashpots = std::array::from_fn(|part| dashpot(self.ratios[part], stiffness[part], inverse_masses[part]));
         [stiffness, dashpots]
     }

@@ -31,10 +31,7 @@ pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &
 pub(crate) fn give_motions(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State) {
     let State { boundaries, particles, .. } = state;
     for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&*boundaries) {
-        match body {
-            Some(body) if body.turning != Turning::Still => give_motion(moved, boundary.shape.members(), particles),
-            _ => give_velocity(moved, boundary.shape.members(), particles),
-        }
+        give_led_motion(boundary, body.as_ref(), moved, particles);
     }
 }
 
@@ -65,7 +62,7 @@ fn place_turned(scene: &Scene, boundary: &Boundary, moved: &BoundaryState, membe
     give_motion(moved, members, particles);
 }
 
-/// Gives the particles of a group the motion of their body.
+/// Gives the particles of a group the motion of their body, about where its reference point stands.
 fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
     let (velocity, spin) = (Vector::from(moved.velocity), Vector::from(moved.angular_velocity));
     for &member in members {
@@ -102,6 +99,20 @@ pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f6
 /// The larger of two numbers, or the second if it is NaN.
 fn larger(most: f64, one: f64) -> f64 {
     if one > most || one.is_nan() { one } else { most }
+}
+
+/// Gives the particles of a boundary that is led the motion that it has.
+pub(crate) fn give_led_motion(
+    boundary: &Boundary,
+    body: Option<&RigidBody>,
+    moved: &BoundaryState,
+    particles: &mut Particles,
+) {
+    let members = boundary.shape.members();
+    if body.is_some_and(|body| body.turning != Turning::Still) {
+        return give_motion(moved, members, particles);
+    }
+    give_velocity(moved, members, particles);
 }
 
 /// Gives the spheres of a group the motion that it has after a kick.
