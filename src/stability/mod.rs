@@ -7,10 +7,13 @@
 //! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
+mod cluster;
 mod lanczos;
 mod limiter;
 mod network;
+mod shares;
 mod surfaces;
+mod triangle;
 
 use crate::boundaries::RigidBody;
 use crate::contact::Response;
@@ -52,7 +55,7 @@ pub(crate) struct System<'a> {
 pub(crate) struct Found {
     /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
     pub network: f64,
-    /// The body that has it; none where there are bonds.
+    /// The body that has it; none where several have it together.
     pub body: Option<usize>,
     /// The same of impacts between bodies that are not yet near each other \[1/s\].
     pub impacts: f64,
@@ -75,7 +78,7 @@ impl System<'_> {
         } else if self.has_bonds(ahead) {
             (lanczos::largest_root(&network, guess, counter, context), None)
         } else {
-            blocks::largest_root(&network, guess)
+            blocks::largest_root(&network, guess, counter, context)
         };
         Found { network: root, body, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
     }
@@ -115,9 +118,9 @@ impl System<'_> {
         if network.elements.is_empty() {
             return None;
         }
-        let motion = match self.has_bonds(ahead) {
-            true => lanczos::critical_motion(&network, found.network, counter, context),
-            false => blocks::critical_motion(&network, found.network, found.body),
+        let motion = match found.body {
+            Some(body) => blocks::critical_motion(&network, found.network, body),
+            None => lanczos::critical_motion(&network, found.network, counter, context),
         };
         let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
         let place = (0..network.elements.len())
