@@ -15,6 +15,9 @@ use crate::threads::Context;
 /// What rounding in single precision may take from the bound, with room.
 const ROUNDING: f64 = 1e-5;
 
+/// How often bodies hand load on.
+const RELIEFS: usize = 3;
+
 /// Iterations that find the root of a block from below.
 const ITERATIONS: usize = 8;
 
@@ -47,7 +50,7 @@ pub(super) fn largest_root(
     let mut blocks = Blocks::of(network, guess);
     blocks.add(|_| true);
     let bound = blocks.largest(0..network.movers(), 0.0);
-    let (root, mover) = cluster::sharpened(&blocks, bound, counter, context);
+    let (root, mover) = cluster::sharpened(&mut blocks, bound, counter, context);
     (root * (1.0 + ROUNDING), mover)
 }
 
@@ -82,9 +85,35 @@ impl Blocks<'_> {
         self.network.is_damped()
     }
 
+    /// Lets bodies whose root is above this one \[1/s\] hand load on to their neighbours; tells which of all bodies still are.
+    pub(super) fn relieve(&mut self, root: f64) -> Vec<bool> {
+        let mut above = self.above(root);
+        for _ in 0..RELIEFS {
+            for mover in (0..above.len()).filter(|&mover| above[mover]) {
+                let ratio = self.estimate(&mut ASKEW.clone(), mover, root, ITERATIONS) / root;
+                self.shares.relieve(mover, ratio.clamp(1.0, 2.0));
+            }
+            let touched = self.with_neighbours(&above);
+            for mover in (0..touched.len()).filter(|&mover| touched[mover]) {
+                self.stiffness[mover] = [0.0; 21];
+                if let Some(block) = self.damping.get_mut(mover) {
+                    *block = [0.0; 21];
+                }
+            }
+            self.add(|mover| touched[mover]);
+            for mover in (0..touched.len()).filter(|&mover| touched[mover]) {
+                above[mover] = !self.is_below(mover, root);
+            }
+        }
+        above
+    }
+
     /// Adds all elements to the blocks of the bodies that are chosen.
     fn add(&mut self, chosen: impl Fn(usize) -> bool) {
         for place in 0..self.network.elements.len() {
+            if !self.network.elements[place].slots.iter().any(|slot| self.network.mover(*slot).is_some_and(&chosen)) {
+                continue;
+            }
             for (end, borne) in self.shares.borne(place).into_iter().enumerate() {
                 if let Some((mover, factor)) = borne.filter(|(mover, _)| chosen(*mover)) {
                     self.add_end(mover, place, end, factor);

@@ -13,8 +13,11 @@ use crate::threads::Context;
 /// Part of the bound by blocks that the true root certainly reaches where that bound is left as it is.
 const SHARP: f64 = 0.93;
 
+/// Products by which the root is estimated.
+const PRODUCTS: usize = 20;
+
 /// ε of a certificate without and with dashpots.
-const SHARES: [f64; 2] = [0.1, 0.06];
+const SHARES: [f64; 2] = [0.08, 0.05];
 
 /// Chance that a certificate is wrong; that of all that are tried stays below 1e-10.
 const CHANCE: f64 = 1e-11;
@@ -23,10 +26,10 @@ const CHANCE: f64 = 1e-11;
 const TRIALS: usize = 4;
 
 /// Room above the root that is estimated, from below: the more of it, the fewer bodies are taken together.
-const ROOM: f64 = 1.02;
+const ROOM: f64 = 1.015;
 
 /// What was tried and what is then certain are this close where that is taken.
-const CLOSE: f64 = 0.95;
+const CLOSE: f64 = 0.97;
 
 /// Part of the bound above which it is not worth another certificate.
 const GAIN: f64 = 0.99;
@@ -34,7 +37,7 @@ const GAIN: f64 = 0.99;
 /// The largest root \[1/s\], not above this bound by the blocks alone, and the body that has it; none where several have it
 /// together.
 pub(super) fn sharpened(
-    blocks: &Blocks,
+    blocks: &mut Blocks,
     bound: (f64, Option<usize>),
     counter: &mut u64,
     context: &Context,
@@ -42,9 +45,8 @@ pub(super) fn sharpened(
     let share = SHARES[usize::from(blocks.is_damped())];
     let sharp = SHARP * bound.0;
     let limiting = blocks.with_neighbours(&blocks.above(sharp));
-    let Some([root, slope]) = Method::of(&blocks.together(&limiting, true), context).below(sharp, counter) else {
-        return bound;
-    };
+    let alone = blocks.together(&limiting, true);
+    let Some([root, slope]) = Method::of(&alone, context).below(sharp, PRODUCTS, counter) else { return bound };
     // Where √λ_max/√(1 − ε) = μ, about.
     let slope = slope.min(0.5);
     let mut tried = ROOM * root * (1.0 - slope) / ((1.0 - share).sqrt() - slope);
@@ -68,17 +70,17 @@ pub(super) fn sharpened(
 /// What the root \[1/s\] certainly is not above, with the body that has it, found from those that limit a step with the
 /// root that is tried; and whether that is so close to it that another trial would gain little.
 fn certified(
-    blocks: &Blocks,
+    blocks: &mut Blocks,
     tried: f64,
     share: f64,
     counter: &mut u64,
     context: &Context,
 ) -> ((f64, Option<usize>), bool) {
-    let chosen = blocks.with_neighbours(&blocks.above(tried));
+    let above = blocks.relieve(tried);
+    let chosen = blocks.with_neighbours(&above);
     let together = blocks.together(&chosen, false);
     let mut method = Method::of(&together, context);
     let certain = method.certain(tried, share, products(method.order(), share, CHANCE), counter);
-    if std::env::var_os("COGRAIN_TIME").is_some() { eprintln!("  tried {:.5} certain {:.5} bodies {} elements {}", tried, certain/tried, method.order() / 6, together.elements.len()); }
     if certain > tried {
         // S(r μ) is at most r S(μ) for r above 1: so the root is at most where r √λ_max² = r² μ².
         let root = if blocks.is_damped() { certain * certain / tried } else { certain };

@@ -155,19 +155,19 @@ impl<'a> Method<'a> {
         let mut value = |root: f64| self.value(root, GUESSES[0], *counter, f64::INFINITY).0.sqrt();
         let root = if guess > 0.0 { guess } else { value(0.0) };
         let found = value(root);
-        self.followed([root, found], *counter)[0]
+        self.followed([root, found], GUESSES[0], *counter)[0]
     }
 
     /// About the root, from below, and the slope of √λ_max(S(μ)) there; none where the root is found to be above this one.
-    pub(super) fn below(&mut self, root: f64, counter: &mut u64) -> Option<[f64; 2]> {
+    pub(super) fn below(&mut self, root: f64, products: usize, counter: &mut u64) -> Option<[f64; 2]> {
         *counter += 1;
-        let found = self.value(root, GUESSES[0], *counter, root * root).0.sqrt();
+        let found = self.value(root, products, *counter, root * root).0.sqrt();
         let damped = self.network.is_damped();
-        (found < root).then(|| if damped { self.followed([root, found], *counter) } else { [found, 0.0] })
+        (found < root).then(|| if damped { self.followed([root, found], products, *counter) } else { [found, 0.0] })
     }
 
     /// Where √λ_max(S(μ)) = μ, about, and its slope there, by the secant method, from one μ and what was found there.
-    fn followed(&mut self, [mut root, mut found]: [f64; 2], counter: u64) -> [f64; 2] {
+    fn followed(&mut self, [mut root, mut found]: [f64; 2], products: usize, counter: u64) -> [f64; 2] {
         let mut slope = 0.0;
         for _ in 0..GUESSES[1] {
             if (found - root).abs() <= AGREEMENT * root {
@@ -175,7 +175,7 @@ impl<'a> Method<'a> {
             }
             let [root_before, found_before] = [root, found];
             root = (found - slope * root) / (1.0 - slope);
-            found = self.value(root, GUESSES[0], counter, f64::INFINITY).0.sqrt();
+            found = self.value(root, products, counter, f64::INFINITY).0.sqrt();
             slope = (found - found_before) / (root - root_before);
             slope = if slope.is_finite() { slope.clamp(0.0, 0.9) } else { 0.0 };
         }
@@ -278,7 +278,9 @@ impl<'a> Method<'a> {
         let (movers, ends_of) = (&self.movers, &self.ends_of);
         let moved = |place: usize, end: usize| {
             let body = ends_of[place][end];
-            let here = || moved(network, &network.elements[place], end, movers[body as usize] as usize, &motion[body as usize]);
+            let here = || {
+                moved(network, &network.elements[place], end, movers[body as usize] as usize, &motion[body as usize])
+            };
             if body == UNMOVED { [[0.0; 3]; 2] } else { here() }
         };
         let loads = Shared::new(&mut self.loads);

@@ -2,8 +2,8 @@
 //!
 //! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
-//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side. If
-//! there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
+//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
+//! [`cluster`] takes the bodies together that limit it. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
 //! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;

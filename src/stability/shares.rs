@@ -5,7 +5,7 @@
 //! and Wielandt). Bodies limit the step by the largest eigenvalue of their block, but its trace costs a hundredth and tells
 //! nearly as well what a body could still bear.
 
-use super::network::{Network, UNMOVED};
+use super::network::Network;
 
 /// Sweeps. More of them level the traces further than what the traces stand for.
 const SWEEPS: usize = 2;
@@ -45,8 +45,10 @@ impl<'a> Shares<'a> {
         }
         shares.weigh(at);
         for _ in 0..SWEEPS {
-            for (weight, sum) in shares.sums().into_iter().enumerate() {
-                shares.weights[weight] *= sum.sqrt() as f32;
+            let sums = shares.sums();
+            let most = sums.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            for (weight, sum) in shares.weights.iter_mut().zip(sums) {
+                *weight *= (sum / most).sqrt() as f32;
             }
         }
         shares
@@ -76,11 +78,19 @@ impl<'a> Shares<'a> {
     #[inline]
     pub(super) fn borne(&self, place: usize) -> [Option<(usize, f64)>; 2] {
         let [first, second] = self.network.elements[place].slots.map(|slot| self.network.mover(slot));
-        let (Some(a), Some(b)) = (first, second) else { return [first, second].map(|end| end.map(|mover| (mover, 1.0))) };
+        let (Some(a), Some(b)) = (first, second) else {
+            return [first, second].map(|end| end.map(|mover| (mover, 1.0)));
+        };
         let strength = |end: usize, mover: usize| f64::from(self.traces[place][end]) * f64::from(self.weights[mover]);
         let ratio = strength(1, b) / strength(0, a);
         // It is not a number where neither end can move.
         let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
         [Some((a, 1.0 + share)), Some((b, 1.0 + 1.0 / share))]
+    }
+
+    /// Lets a body, whose root is to shrink by this ratio, bear less of all that it shares.
+    pub(super) fn relieve(&mut self, mover: usize, ratio: f64) {
+        let square = ratio * ratio;
+        self.weights[mover] *= (1.05 * square * square) as f32;
     }
 }

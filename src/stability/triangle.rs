@@ -66,7 +66,14 @@ impl Place {
 }
 
 /// Adds what a group feels of an element alone, whose arm has any direction.
-pub(super) fn add_group(block: &mut Triangle, normal: [f32; 3], arm: [f64; 3], parts: [f32; 4], group: &Group, share: f64) {
+pub(super) fn add_group(
+    block: &mut Triangle,
+    normal: [f32; 3],
+    arm: [f64; 3],
+    parts: [f32; 4],
+    group: &Group,
+    share: f64,
+) {
     let [along, across, twisting, bending] = parts.map(|part| share * f64::from(part));
     let n = normal.map(f64::from);
     // The point of action moves with v + w × arm: what unit freedoms give along three axes.
@@ -97,11 +104,6 @@ pub(super) fn squares(triangle: &[f64; 21]) -> f64 {
     let all: f64 = triangle.iter().map(|part| part * part).sum();
     let on_diagonal: f64 = (0..6).map(|k| triangle[diagonal(k)] * triangle[diagonal(k)]).sum();
     2.0 * all - on_diagonal
-}
-
-/// Sum of the squares of a row.
-pub(super) fn row_square(row: &[f64; 6]) -> f64 {
-    row.iter().map(|part| part * part).sum()
 }
 
 /// The product of a matrix, given by its triangle, with a vector.

@@ -99,6 +99,24 @@ pub(crate) fn hertz() -> String {
     contacts("hertz", "restitution = 1.0")
 }
 
+/// Hertz contacts with dashpots of this ratio, at 1 of nine tenths of it.
+pub(crate) fn damped_hertz(ratio: f64) -> String {
+    // Dashpots of restitution e have √(5/6) β, where e = exp(−π β/√(1 − β²)).
+    let beta = (ratio * 1.2_f64.sqrt()).min(0.999);
+    let restitution = (-std::f64::consts::PI * beta / (1.0 - beta * beta).sqrt()).exp();
+    contacts("hertz", &format!("restitution = {restitution:?}"))
+}
+
+/// Linear contacts with dashpots of this ratio between spheres of radius 1 mm.
+pub(crate) fn damped_hooke(ratio: f64) -> String {
+    let reduced = 0.5 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
+    let damping = 2.0 * ratio * (1e5 / reduced).sqrt();
+    let pair = format!(
+        "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = {damping:?}\ntangential_damping = {damping:?}"
+    );
+    contacts("hooke_stiffness", &pair)
+}
+
 /// Bonds.
 pub(crate) fn bonds(more: &str) -> String {
     format!(
