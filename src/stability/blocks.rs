@@ -40,17 +40,12 @@ pub(super) struct Blocks<'a> {
 }
 
 /// The largest root μ = 2/Δt \[1/s\], from the safe side, and the body that has it; none where several have it together.
-/// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
-pub(super) fn largest_root(
-    network: &Network,
-    guess: f64,
-    counter: &mut u64,
-    context: &Context,
-) -> (f64, Option<usize>) {
+/// `guess` is a root found earlier, or 0.
+pub(super) fn largest_root(network: &Network, guess: f64, context: &Context) -> (f64, Option<usize>) {
     let mut blocks = Blocks::of(network, guess);
     blocks.add(|_| true);
     let bound = blocks.largest(0..network.movers(), 0.0);
-    let (root, mover) = cluster::sharpened(&mut blocks, bound, counter, context);
+    let (root, mover) = cluster::sharpened(&mut blocks, bound, context);
     (root * (1.0 + ROUNDING), mover)
 }
 

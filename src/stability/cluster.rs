@@ -36,17 +36,14 @@ const GAIN: f64 = 0.99;
 
 /// The largest root \[1/s\], not above this bound by the blocks alone, and the body that has it; none where several have it
 /// together.
-pub(super) fn sharpened(
-    blocks: &mut Blocks,
-    bound: (f64, Option<usize>),
-    counter: &mut u64,
-    context: &Context,
-) -> (f64, Option<usize>) {
+pub(super) fn sharpened(blocks: &mut Blocks, bound: (f64, Option<usize>), context: &Context) -> (f64, Option<usize>) {
+    // Starts depend on the particles alone: a network that has not changed keeps its bound.
+    let mut counter = 0;
     let share = SHARES[usize::from(blocks.is_damped())];
     let sharp = SHARP * bound.0;
     let limiting = blocks.with_neighbours(&blocks.above(sharp));
     let alone = blocks.together(&limiting, true);
-    let Some([root, slope]) = Method::of(&alone, context).below(sharp, PRODUCTS, counter) else { return bound };
+    let Some([root, slope]) = Method::of(&alone, context).below(sharp, PRODUCTS, &mut counter) else { return bound };
     // Where √λ_max/√(1 − ε) = μ, about.
     let slope = slope.min(0.5);
     let mut tried = ROOM * root * (1.0 - slope) / ((1.0 - share).sqrt() - slope);
@@ -55,7 +52,7 @@ pub(super) fn sharpened(
         if tried >= GAIN * best.0 {
             break;
         }
-        let (certain, close) = certified(blocks, tried, share, counter, context);
+        let (certain, close) = certified(blocks, tried, share, &mut counter, context);
         if certain.0 < best.0 {
             best = certain;
         }

@@ -8,6 +8,7 @@
 //! are taken piece by piece: the same bits for any number of threads.
 
 use super::network::{Element, Network, UNMOVED};
+use super::plain::Plain;
 use crate::lanes::Shared;
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
@@ -100,6 +101,8 @@ pub(super) struct Method<'a> {
     ends: Vec<u32>,
     /// Force and couple of each element.
     loads: Motions,
+    /// The network once more, in place of all that, where it is one of contacts between particles.
+    plain: Option<Plain>,
 }
 
 impl<'a> Method<'a> {
@@ -118,23 +121,13 @@ impl<'a> Method<'a> {
         for (place, &mover) in movers.iter().enumerate() {
             places[mover as usize] = place as u32;
         }
-        let mut starts = vec![0_u32; movers.len() + 1];
         for end in ends_of.iter_mut().flatten().filter(|end| **end != UNMOVED) {
             *end = places[*end as usize];
-            starts[*end as usize + 1] += 1;
         }
-        for body in 0..movers.len() {
-            starts[body + 1] += starts[body];
-        }
-        let mut next = starts.clone();
-        let mut ends = vec![0; starts[movers.len()] as usize];
-        for (place, bodies) in ends_of.iter().enumerate() {
-            for (end, &body) in bodies.iter().enumerate().filter(|(_, body)| **body != UNMOVED) {
-                ends[next[body as usize] as usize] = 2 * place as u32 + end as u32;
-                next[body as usize] += 1;
-            }
-        }
-        Self { network, context, movers, ends_of, starts, ends, loads: vec![[0.0; 6]; network.elements.len()] }
+        let plain = Plain::of(network, &movers, &ends_of);
+        let (starts, ends) = if plain.is_some() { Default::default() } else { ends_by_body(movers.len(), &ends_of) };
+        let loads = vec![[0.0; 6]; if plain.is_some() { 0 } else { ends_of.len() }];
+        Self { network, context, movers, ends_of, starts, ends, loads, plain }
     }
 
     /// Degrees of freedom.
@@ -274,6 +267,9 @@ impl<'a> Method<'a> {
 
     /// S(μ) of a motion.
     fn multiply(&mut self, root: f64, motion: &Motions, image: &mut Motions) {
+        if let Some(plain) = &self.plain {
+            return plain.multiply(root, motion, image);
+        }
         let (network, context) = (self.network, self.context);
         let (movers, ends_of) = (&self.movers, &self.ends_of);
         let moved = |place: usize, end: usize| {
@@ -322,6 +318,26 @@ impl<'a> Method<'a> {
     fn each(&self, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
         each(self.context, motions, work);
     }
+}
+
+/// Where the ends of each of so many bodies begin, and behind the last one their number; and the ends, body by body.
+fn ends_by_body(bodies: usize, ends_of: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; bodies + 1];
+    for end in ends_of.iter().flatten().filter(|end| **end != UNMOVED) {
+        starts[*end as usize + 1] += 1;
+    }
+    for body in 0..bodies {
+        starts[body + 1] += starts[body];
+    }
+    let mut next = starts.clone();
+    let mut ends = vec![0; starts[bodies] as usize];
+    for (place, of_element) in ends_of.iter().enumerate() {
+        for (end, &body) in of_element.iter().enumerate().filter(|(_, body)| **body != UNMOVED) {
+            ends[next[body as usize] as usize] = 2 * place as u32 + end as u32;
+            next[body as usize] += 1;
+        }
+    }
+    (starts, ends)
 }
 
 /// Does something with each motion, piece by piece.

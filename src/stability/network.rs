@@ -56,6 +56,11 @@ impl Parts {
         }
     }
 
+    /// Whether anything resists twisting or bending.
+    pub(super) fn resists_turning(&self) -> bool {
+        !self.turning.is_empty()
+    }
+
     /// Whether there are any.
     pub(super) fn any(&self) -> bool {
         !self.shifting.is_empty() || !self.turning.is_empty()
