@@ -137,7 +137,8 @@ pub(crate) fn free(_: &Sphere) -> bool {
     false
 }
 
-/// A random packing of so many spheres of radius 1 mm and this many times less, pushed apart until they overlap little.
+/// A random packing of about so many spheres of radius 1 mm, give or take the square root of these sizes, pushed apart until they
+/// overlap little; those that still lie deep in another one are left out.
 pub(crate) fn packing(count: usize, sizes: f64) -> Vec<Sphere> {
     /// Rounds of pushing.
     const ROUNDS: usize = 300;
@@ -164,7 +165,19 @@ pub(crate) fn packing(count: usize, sizes: f64) -> Vec<Sphere> {
             }
         }
     }
-    spheres
+    let mut left: Vec<Sphere> = Vec::new();
+    for sphere in spheres {
+        if left.iter().all(|other| overlap(&sphere, other) < 0.3 * sphere[3].min(other[3])) {
+            left.push(sphere);
+        }
+    }
+    left
+}
+
+/// How deep one sphere lies in another \[m\].
+fn overlap(a: &Sphere, b: &Sphere) -> f64 {
+    let square: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
+    a[3] + b[3] - square.sqrt()
 }
 
 /// Moves two spheres apart by a third of their overlap, the lighter one further.
