@@ -6,14 +6,9 @@
 //! over the traces of the blocks ([`super::shares`]); whatever they find is a bound. Most bodies are far below it. Those that
 //! are not are taken together where that brings the bound down ([`super::cluster`]).
 
-use super::cluster;
 use super::network::Network;
 use super::shares::Shares;
 use super::triangle::{Place, Triangle, add_group, diagonal, is_positive, squares, times};
-use crate::threads::Context;
-
-/// What rounding in single precision may take from the bound, with room.
-const ROUNDING: f64 = 1e-5;
 
 /// How often bodies hand load on.
 const RELIEFS: usize = 3;
@@ -39,16 +34,6 @@ pub(super) struct Blocks<'a> {
     damping: Vec<Triangle>,
 }
 
-/// The largest root μ = 2/Δt \[1/s\], from the safe side, and the body that has it; none where several have it together.
-/// `guess` is a root found earlier, or 0.
-pub(super) fn largest_root(network: &Network, guess: f64, context: &Context) -> (f64, Option<usize>) {
-    let mut blocks = Blocks::of(network, guess);
-    blocks.add(|_| true);
-    let bound = blocks.largest(0..network.movers(), 0.0);
-    let (root, mover) = cluster::sharpened(&mut blocks, bound, context);
-    (root * (1.0 + ROUNDING), mover)
-}
-
 /// The motion that the bound of one body comes from: of this body alone, about, scaled as the network is.
 pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec<[f64; 6]> {
     /// Iterations after which it stands out.
@@ -62,6 +47,13 @@ pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec
 }
 
 impl<'a> Blocks<'a> {
+    /// Those of a network; shares are weighed about this root \[1/s\], or one of their own.
+    pub(super) fn filled(network: &'a Network<'a>, guess: f64) -> Self {
+        let mut blocks = Self::of(network, guess);
+        blocks.add(|_| true);
+        blocks
+    }
+
     /// Empty ones; shares are weighed about this root \[1/s\], or one of their own.
     fn of(network: &'a Network<'a>, guess: f64) -> Self {
         let movers = network.movers();
@@ -78,6 +70,11 @@ impl Blocks<'_> {
     /// Whether anything is damped.
     pub(super) fn is_damped(&self) -> bool {
         self.network.is_damped()
+    }
+
+    /// The largest root of all bodies, from the safe side, and the body that has it.
+    pub(super) fn largest_of_all(&self) -> (f64, Option<usize>) {
+        self.largest(0..self.network.movers(), 0.0)
     }
 
     /// Lets bodies whose root is above this one \[1/s\] hand load on to their neighbours; tells which of all bodies still are.

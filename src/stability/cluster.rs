@@ -8,7 +8,11 @@
 
 use super::blocks::Blocks;
 use super::lanczos::{Method, products};
+use super::network::Network;
 use crate::threads::Context;
+
+/// What rounding in single precision may take from the bound, with room.
+const ROUNDING: f64 = 1e-5;
 
 /// Part of the bound by blocks that the true root certainly reaches where that bound is left as it is.
 const SHARP: f64 = 0.93;
@@ -34,9 +38,18 @@ const CLOSE: f64 = 0.97;
 /// Part of the bound above which it is not worth another certificate.
 const GAIN: f64 = 0.99;
 
+/// The largest root μ = 2/Δt \[1/s\] of contacts without bonds, from the safe side, and the body that has it; none where several
+/// have it together. `guess` is a root found earlier, or 0.
+pub(super) fn largest_root(network: &Network, guess: f64, context: &Context) -> (f64, Option<usize>) {
+    let mut blocks = Blocks::filled(network, guess);
+    let bound = blocks.largest_of_all();
+    let (root, mover) = sharpened(&mut blocks, bound, context);
+    (root * (1.0 + ROUNDING), mover)
+}
+
 /// The largest root \[1/s\], not above this bound by the blocks alone, and the body that has it; none where several have it
 /// together.
-pub(super) fn sharpened(blocks: &mut Blocks, bound: (f64, Option<usize>), context: &Context) -> (f64, Option<usize>) {
+fn sharpened(blocks: &mut Blocks, bound: (f64, Option<usize>), context: &Context) -> (f64, Option<usize>) {
     // Starts depend on the particles alone: a network that has not changed keeps its bound.
     let mut counter = 0;
     let share = SHARES[usize::from(blocks.is_damped())];

@@ -79,7 +79,7 @@ impl System<'_> {
         } else if self.has_bonds(ahead) {
             (lanczos::largest_root(&network, guess, counter, context), None)
         } else {
-            blocks::largest_root(&network, guess, context)
+            cluster::largest_root(&network, guess, context)
         };
         Found { network: root, body, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
     }
