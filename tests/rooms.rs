@@ -11,7 +11,7 @@ const ROOM: usize = 3000;
 const FILE: usize = 300;
 
 /// Files above that, each with its reason.
-const LONG: [(&str, &str); 23] = [
+const LONG: [(&str, &str); 22] = [
     ("command/src/main.rs", "one command after another; each is a few lines"),
     ("fmu/src/instance/mod.rs", "the life of an instance: every call that FMI allows in each of its states"),
     ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
@@ -29,7 +29,6 @@ const LONG: [(&str, &str); 23] = [
     ("src/neighbours/mod.rs", "when lists are made, and what they are made of"),
     ("src/region/solid_tests.rs", "tests"),
     ("src/results/boundaries.rs", "one cloud, with the tests that its sums are held to"),
-    ("src/stability/blocks.rs", "one proof: the bound of a network without bonds, term by term"),
     ("src/stability/lanczos.rs", "one proof: iteration and certificate share their vectors"),
     ("src/state/check.rs", "each part of the state looks through itself: one function a part"),
     ("src/step/mod.rs", "the order of one time step"),

@@ -1,5 +1,5 @@
-//! The bound of the whole network, for bonds: block bounds cannot come near it, since bonds resist shear, bending and
-//! torsion with opposite signs.
+//! The bound of a network by Lanczos' method: of the whole, for bonds, whose block bounds cannot come near it, since bonds resist
+//! shear, bending and torsion with opposite signs; of the few bodies that limit the step, for contacts ([`super::cluster`]).
 //!
 //! Lanczos' method finds the largest eigenvalue of S(μ) = M^-½ (K + μ C) M^-½ from below. From a start that is uniform on the
 //! sphere, after k products the chance that it is off by more than the share ε is at most 1.648 √N e^(−√ε (2k − 1)) for
@@ -8,6 +8,7 @@
 //! are taken piece by piece: the same bits for any number of threads.
 
 use super::network::{Element, Network, UNMOVED};
+use super::plain::Plain;
 use crate::lanes::Shared;
 use crate::threads::{CHUNK, Context};
 use std::f64::consts::PI;
@@ -40,7 +41,7 @@ const CLOSE: f64 = 0.98;
 /// Part of the certified root above which a root that was certified earlier is kept.
 const NEAR: f64 = 0.97;
 
-/// A motion of every body.
+/// A motion of every body, or of every one that interacts.
 type Motions = Vec<[f64; 6]>;
 
 /// The largest root μ = 2/Δt \[1/s\], certified. `guess` is a root certified earlier, or 0; `counter` chooses the start and
@@ -48,26 +49,20 @@ type Motions = Vec<[f64; 6]>;
 pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, context: &Context) -> f64 {
     let mut method = Method::of(network, context);
     let share = SHARES[usize::from(network.is_damped())];
-    let products = products(6 * method.bodies, share);
-    let certify = |method: &mut Method, root: f64, counter: &mut u64| {
-        *counter += 1;
-        let (value, exact) = method.value(root, products, *counter);
-        let certain = if exact { value * (1.0 + ROUNDING) } else { value / (1.0 - share) };
-        (value, certain.sqrt())
-    };
+    let products = products(method.order(), share, CHANCE);
     if !network.is_damped() {
-        return certify(&mut method, 0.0, counter).1;
+        return method.certain(0.0, share, products, counter);
     }
     if guess > 0.0 {
-        let (value, certain) = certify(&mut method, guess, counter);
-        if certain <= guess && certain >= NEAR * guess && value > 0.0 {
+        let certain = method.certain(guess, share, products, counter);
+        if certain <= guess && certain >= NEAR * guess && certain > 0.0 {
             return guess;
         }
     }
     let mut root = method.guessed(guess, counter) / (1.0 - share);
     let mut best = None;
     for _ in 0..TRIALS {
-        let (_, certain) = certify(&mut method, root, counter);
+        let certain = method.certain(root, share, products, counter);
         if certain <= root {
             // λ_max(S(μ)) grows with μ: what is certain at a larger root is so at this one.
             best = Some(certain);
@@ -84,87 +79,116 @@ pub(super) fn largest_root(network: &Network, guess: f64, counter: &mut u64, con
     best.unwrap_or(root)
 }
 
-/// Products after which a value is certain but for the share.
-fn products(order: usize, share: f64) -> usize {
-    let needed = libm::log(1.648 * (order.max(1) as f64).sqrt() / CHANCE) / share.sqrt();
+/// Products after which a value of this order is certain but for the share and this chance.
+pub(super) fn products(order: usize, share: f64, chance: f64) -> usize {
+    let needed = libm::log(1.648 * (order.max(1) as f64).sqrt() / chance) / share.sqrt();
     ((needed + 1.0) / 2.0).ceil() as usize
 }
 
 /// What products need.
-struct Method<'a> {
+pub(super) struct Method<'a> {
     /// The network.
     network: &'a Network<'a>,
     /// The threads.
     context: &'a Context<'a>,
-    /// Bodies that interact.
-    bodies: usize,
+    /// Bodies that interact: their places in the network. Motions are theirs alone, in this order.
+    movers: Vec<u32>,
+    /// Where the bodies at the ends of each element stand among them; [`UNMOVED`] for what does not move.
+    ends_of: Vec<[u32; 2]>,
     /// First end of each body in `ends`, and behind the last one their number.
     starts: Vec<u32>,
     /// Ends of elements, body by body: twice the element, and 1 more for its second end.
     ends: Vec<u32>,
     /// Force and couple of each element.
     loads: Motions,
+    /// The network once more, in place of all that, where it is one of contacts between particles.
+    plain: Option<Plain>,
 }
 
 impl<'a> Method<'a> {
     /// For this network.
-    fn of(network: &'a Network<'a>, context: &'a Context<'a>) -> Self {
-        let movers = network.movers();
-        let mut starts = vec![0_u32; movers + 1];
-        let bodies_of = |element: &Element| element.slots.map(|slot| network.mover(slot));
+    pub(super) fn of(network: &'a Network<'a>, context: &'a Context<'a>) -> Self {
+        let mut places = vec![UNMOVED; network.movers()];
+        let mut ends_of: Vec<[u32; 2]> = Vec::with_capacity(network.elements.len());
         for element in &network.elements {
-            for mover in bodies_of(element).into_iter().flatten() {
-                starts[mover + 1] += 1;
+            let ends = element.slots.map(|slot| network.mover(slot).map_or(UNMOVED, |mover| mover as u32));
+            for end in ends.into_iter().filter(|end| *end != UNMOVED) {
+                places[end as usize] = 0;
             }
+            ends_of.push(ends);
         }
-        let bodies = starts.iter().filter(|count| **count > 0).count();
-        for mover in 0..movers {
-            starts[mover + 1] += starts[mover];
+        let movers: Vec<u32> = (0..places.len() as u32).filter(|&mover| places[mover as usize] == 0).collect();
+        for (place, &mover) in movers.iter().enumerate() {
+            places[mover as usize] = place as u32;
         }
-        let mut next = starts.clone();
-        let mut ends = vec![0; starts[movers] as usize];
-        for (place, element) in network.elements.iter().enumerate() {
-            for (end, mover) in bodies_of(element).into_iter().enumerate() {
-                let Some(mover) = mover else { continue };
-                ends[next[mover] as usize] = 2 * place as u32 + end as u32;
-                next[mover] += 1;
-            }
+        for end in ends_of.iter_mut().flatten().filter(|end| **end != UNMOVED) {
+            *end = places[*end as usize];
         }
-        Self { network, context, bodies, starts, ends, loads: vec![[0.0; 6]; network.elements.len()] }
+        let plain = Plain::of(network, &movers, &ends_of);
+        let (starts, ends) = if plain.is_some() { Default::default() } else { ends_by_body(movers.len(), &ends_of) };
+        let loads = vec![[0.0; 6]; if plain.is_some() { 0 } else { ends_of.len() }];
+        Self { network, context, movers, ends_of, starts, ends, loads, plain }
+    }
+
+    /// Degrees of freedom.
+    pub(super) fn order(&self) -> usize {
+        6 * self.movers.len()
+    }
+
+    /// What √λ_max(S(μ)) is not above, at this root μ \[1/s\], after so many products that leave the share ε open.
+    pub(super) fn certain(&mut self, root: f64, share: f64, products: usize, counter: &mut u64) -> f64 {
+        *counter += 1;
+        let (value, exact) = self.value(root, products, *counter, f64::INFINITY);
+        if exact { (value * (1.0 + ROUNDING)).sqrt() } else { (value / (1.0 - share)).sqrt() }
     }
 
     /// About the root, from below.
     fn guessed(&mut self, guess: f64, counter: &mut u64) -> f64 {
         *counter += 1;
-        let mut value = |root: f64| self.value(root, GUESSES[0], *counter).0.sqrt();
-        let mut root = if guess > 0.0 { guess } else { value(0.0) };
-        let mut before: Option<[f64; 2]> = None;
-        for _ in 0..GUESSES[1] {
-            let found = value(root);
-            if (found - root).abs() <= AGREEMENT * root {
-                return found;
-            }
-            // A step of the secant method for √λ(μ) = μ.
-            let slope = before.map_or(0.0, |[root_before, found_before]| (found - found_before) / (root - root_before));
-            before = Some([root, found]);
-            let slope = if slope.is_finite() { slope.clamp(0.0, 0.9) } else { 0.0 };
-            root = (found - slope * root) / (1.0 - slope);
-        }
-        root
+        let mut value = |root: f64| self.value(root, GUESSES[0], *counter, f64::INFINITY).0.sqrt();
+        let root = if guess > 0.0 { guess } else { value(0.0) };
+        let found = value(root);
+        self.followed([root, found], GUESSES[0], *counter)[0]
     }
 
-    /// The largest eigenvalue of S(μ) as found after so many products, and whether it is that of the whole.
-    fn value(&mut self, root: f64, products: usize, counter: u64) -> (f64, bool) {
-        let (diagonal, beside, exact) = self.tridiagonal(root, products, counter, None);
+    /// About the root, from below, and the slope of √λ_max(S(μ)) there; none where the root is found to be above this one.
+    pub(super) fn below(&mut self, root: f64, products: usize, counter: &mut u64) -> Option<[f64; 2]> {
+        *counter += 1;
+        let found = self.value(root, products, *counter, root * root).0.sqrt();
+        let damped = self.network.is_damped();
+        (found < root).then(|| if damped { self.followed([root, found], products, *counter) } else { [found, 0.0] })
+    }
+
+    /// Where √λ_max(S(μ)) = μ, about, and its slope there, by the secant method, from one μ and what was found there.
+    fn followed(&mut self, [mut root, mut found]: [f64; 2], products: usize, counter: u64) -> [f64; 2] {
+        let mut slope = 0.0;
+        for _ in 0..GUESSES[1] {
+            if (found - root).abs() <= AGREEMENT * root {
+                return [found, slope];
+            }
+            let [root_before, found_before] = [root, found];
+            root = (found - slope * root) / (1.0 - slope);
+            found = self.value(root, products, counter, f64::INFINITY).0.sqrt();
+            slope = (found - found_before) / (root - root_before);
+            slope = if slope.is_finite() { slope.clamp(0.0, 0.9) } else { 0.0 };
+        }
+        [root, slope]
+    }
+
+    /// The largest eigenvalue of S(μ) as found after so many products, or fewer where it is then above `enough`, and whether
+    /// it is that of the whole.
+    fn value(&mut self, root: f64, products: usize, counter: u64, enough: f64) -> (f64, bool) {
+        let (diagonal, beside, exact) = self.tridiagonal(root, products, counter, enough, None);
         (largest_eigenvalue(&diagonal, &beside), exact)
     }
 
-    /// The tridiagonal matrix of so many products; where coefficients are given, the sum of the basis with them, too.
+    /// The tridiagonal matrix of so many products, or of fewer, whose largest eigenvalue is then above `enough`; where coefficients are given, the sum of the basis with them, too.
     fn tridiagonal(
         &mut self,
         root: f64,
         products: usize,
         counter: u64,
+        enough: f64,
         mut sum: Option<(&[f64], &mut Motions)>,
     ) -> (Vec<f64>, Vec<f64>, bool) {
         let mut now = self.start(counter);
@@ -182,16 +206,19 @@ impl<'a> Method<'a> {
             }
             self.multiply(root, &now, &mut image);
             let along = self.dot(&now, &image);
-            self.each(&mut image, |mover, image| {
+            self.each(&mut image, |body, image| {
                 for k in 0..6 {
-                    image[k] -= along * now[mover][k] + last * before[mover][k];
+                    image[k] -= along * now[body][k] + last * before[body][k];
                 }
             });
             diagonal.push(along);
             let next = self.dot(&image, &image).sqrt();
             let scale = diagonal.iter().copied().fold(0.0, f64::max);
-            if next <= ENDED * scale || product + 1 >= 6 * self.bodies {
+            if next <= ENDED * scale || product + 1 >= self.order() {
                 return (diagonal, beside, true);
+            }
+            if !all_below(&diagonal, &beside, enough) {
+                return (diagonal, beside, false);
             }
             if product + 1 < products {
                 beside.push(next);
@@ -206,27 +233,30 @@ impl<'a> Method<'a> {
         (diagonal, beside, false)
     }
 
-    /// The motion that belongs to the largest eigenvalue of S(μ), about.
-    pub(super) fn motion(&mut self, root: f64, products: usize, counter: u64) -> Motions {
-        let (diagonal, beside, _) = self.tridiagonal(root, products, counter, None);
+    /// The motion of every body that belongs to the largest eigenvalue of S(μ), about.
+    fn motion(&mut self, root: f64, products: usize, counter: u64) -> Motions {
+        let (diagonal, beside, _) = self.tridiagonal(root, products, counter, f64::INFINITY, None);
         let coefficients = eigenvector(&diagonal, &beside, largest_eigenvalue(&diagonal, &beside));
-        let mut sum = vec![[0.0; 6]; self.network.movers()];
-        self.tridiagonal(root, diagonal.len(), counter, Some((&coefficients, &mut sum)));
-        sum
+        let mut sum = vec![[0.0; 6]; self.movers.len()];
+        self.tridiagonal(root, diagonal.len(), counter, f64::INFINITY, Some((&coefficients, &mut sum)));
+        let mut motions = vec![[0.0; 6]; self.network.movers()];
+        for (&mover, motion) in self.movers.iter().zip(sum) {
+            motions[mover as usize] = motion;
+        }
+        motions
     }
 
     /// A start uniform on the sphere of the bodies that interact.
     fn start(&self, counter: u64) -> Motions {
-        let mut start = vec![[0.0; 6]; self.network.movers()];
+        let mut start = vec![[0.0; 6]; self.movers.len()];
         let state = self.network.state;
-        self.each(&mut start, |mover, motion| {
-            if self.starts[mover] < self.starts[mover + 1] {
-                let name = match mover.checked_sub(self.network.roots.len()) {
-                    None => u64::from(state.particles.id[mover]),
-                    Some(group) => (1 << 32) + group as u64,
-                };
-                *motion = normal_numbers(name, counter);
-            }
+        self.each(&mut start, |body, motion| {
+            let mover = self.movers[body] as usize;
+            let name = match mover.checked_sub(self.network.roots.len()) {
+                None => u64::from(state.particles.id[mover]),
+                Some(group) => (1 << 32) + group as u64,
+            };
+            *motion = normal_numbers(name, counter);
         });
         let length = self.dot(&start, &start).sqrt();
         if length > 0.0 {
@@ -237,20 +267,31 @@ impl<'a> Method<'a> {
 
     /// S(μ) of a motion.
     fn multiply(&mut self, root: f64, motion: &Motions, image: &mut Motions) {
+        if let Some(plain) = &self.plain {
+            return plain.multiply(root, motion, image);
+        }
         let (network, context) = (self.network, self.context);
+        let (movers, ends_of) = (&self.movers, &self.ends_of);
+        let moved = |place: usize, end: usize| {
+            let body = ends_of[place][end];
+            let here = || {
+                moved(network, &network.elements[place], end, movers[body as usize] as usize, &motion[body as usize])
+            };
+            if body == UNMOVED { [[0.0; 3]; 2] } else { here() }
+        };
         let loads = Shared::new(&mut self.loads);
         context.each(network.elements.len().div_ceil(CHUNK), |piece| {
             let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(network.elements.len()));
             // SAFETY: pieces do not overlap.
             let loads = unsafe { loads.part(from, to) };
             for (load, place) in loads.iter_mut().zip(from..to) {
-                *load = load_of(network, place, root, motion);
+                *load = load_of(network, place, root, [moved(place, 0), moved(place, 1)]);
             }
         });
         let (starts, ends, loads) = (&self.starts, &self.ends, &self.loads);
-        let share = |mover: usize, image: &mut [f64; 6]| {
-            let mut sum = [0.0; 6];
-            for &end in &ends[starts[mover] as usize..starts[mover + 1] as usize] {
+        let share = |body: usize, image: &mut [f64; 6]| {
+            let (mover, mut sum) = (movers[body] as usize, [0.0; 6]);
+            for &end in &ends[starts[body] as usize..starts[body + 1] as usize] {
                 add_load(network, mover, (end / 2) as usize, (end % 2) as usize, loads, &mut sum);
             }
             *image = scaled_back(network, mover, &sum);
@@ -279,6 +320,26 @@ impl<'a> Method<'a> {
     }
 }
 
+/// Where the ends of each of so many bodies begin, and behind the last one their number; and the ends, body by body.
+fn ends_by_body(bodies: usize, ends_of: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; bodies + 1];
+    for end in ends_of.iter().flatten().filter(|end| **end != UNMOVED) {
+        starts[*end as usize + 1] += 1;
+    }
+    for body in 0..bodies {
+        starts[body + 1] += starts[body];
+    }
+    let mut next = starts.clone();
+    let mut ends = vec![0; starts[bodies] as usize];
+    for (place, of_element) in ends_of.iter().enumerate() {
+        for (end, &body) in of_element.iter().enumerate().filter(|(_, body)| **body != UNMOVED) {
+            ends[next[body as usize] as usize] = 2 * place as u32 + end as u32;
+            next[body as usize] += 1;
+        }
+    }
+    (starts, ends)
+}
+
 /// Does something with each motion, piece by piece.
 fn each(context: &Context, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
     let count = motions.len();
@@ -292,15 +353,9 @@ fn each(context: &Context, motions: &mut Motions, work: impl Fn(usize, &mut [f64
     });
 }
 
-/// Velocity of the point at one end of an element, and angular velocity there.
+/// Velocity of the point at one end of an element, and angular velocity there, where its body has this scaled motion.
 #[inline(always)]
-fn moved(network: &Network, element: &Element, end: usize, motion: &Motions) -> [[f64; 3]; 2] {
-    let slot = element.slots[end];
-    if slot == UNMOVED {
-        return [[0.0; 3]; 2];
-    }
-    let Some(mover) = network.mover(slot) else { return [[0.0; 3]; 2] };
-    let scaled = &motion[mover];
+fn moved(network: &Network, element: &Element, end: usize, mover: usize, scaled: &[f64; 6]) -> [[f64; 3]; 2] {
     let (velocity, spin, arm) = match mover.checked_sub(network.roots.len()) {
         None => {
             let [v, w] = network.roots[mover];
@@ -323,11 +378,10 @@ fn moved(network: &Network, element: &Element, end: usize, motion: &Motions) -> 
     [[velocity[0] + by_spin[0], velocity[1] + by_spin[1], velocity[2] + by_spin[2]], spin]
 }
 
-/// Force and couple on the first end of an element that moves like this.
+/// Force and couple on the first end of an element whose ends move like this.
 #[inline(always)]
-fn load_of(network: &Network, place: usize, root: f64, motion: &Motions) -> [f64; 6] {
+fn load_of(network: &Network, place: usize, root: f64, [[u, w], [v, z]]: [[[f64; 3]; 2]; 2]) -> [f64; 6] {
     let element = &network.elements[place];
-    let [[u, w], [v, z]] = [moved(network, element, 0, motion), moved(network, element, 1, motion)];
     let [along, across, twisting, bending] = network.parts(place, root);
     let n = element.normal.map(f64::from);
     let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
@@ -482,7 +536,10 @@ pub(super) fn critical_motion(network: &Network, root: f64, counter: u64, contex
 /// What an element takes of a motion, part by part: along the normal, across it, twisting, bending.
 pub(super) fn shares(network: &Network, place: usize, root: f64, motion: &Motions) -> [f64; 4] {
     let element = &network.elements[place];
-    let [[u, w], [v, z]] = [moved(network, element, 0, motion), moved(network, element, 1, motion)];
+    let [[u, w], [v, z]] = [0, 1].map(|end| match network.mover(element.slots[end]) {
+        Some(mover) => moved(network, element, end, mover, &motion[mover]),
+        None => [[0.0; 3]; 2],
+    });
     let n = element.normal.map(f64::from);
     let slip = [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
     let turn = [w[0] - z[0], w[1] - z[1], w[2] - z[2]];

@@ -2,15 +2,19 @@
 //!
 //! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
-//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side. If
-//! there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
+//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
+//! [`cluster`] takes the bodies together that limit it. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
 //! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
+mod cluster;
 mod lanczos;
 mod limiter;
 mod network;
+mod plain;
+mod shares;
 mod surfaces;
+mod triangle;
 
 use crate::boundaries::RigidBody;
 use crate::contact::Response;
@@ -52,7 +56,7 @@ pub(crate) struct System<'a> {
 pub(crate) struct Found {
     /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
     pub network: f64,
-    /// The body that has it; none where there are bonds.
+    /// The body that has it; none where several have it together.
     pub body: Option<usize>,
     /// The same of impacts between bodies that are not yet near each other \[1/s\].
     pub impacts: f64,
@@ -75,7 +79,7 @@ impl System<'_> {
         } else if self.has_bonds(ahead) {
             (lanczos::largest_root(&network, guess, counter, context), None)
         } else {
-            blocks::largest_root(&network, guess)
+            cluster::largest_root(&network, guess, context)
         };
         Found { network: root, body, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
     }
@@ -115,9 +119,9 @@ impl System<'_> {
         if network.elements.is_empty() {
             return None;
         }
-        let motion = match self.has_bonds(ahead) {
-            true => lanczos::critical_motion(&network, found.network, counter, context),
-            false => blocks::critical_motion(&network, found.network, found.body),
+        let motion = match found.body {
+            Some(body) => blocks::critical_motion(&network, found.network, body),
+            None => lanczos::critical_motion(&network, found.network, counter, context),
         };
         let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
         let place = (0..network.elements.len())

@@ -5,6 +5,7 @@ use crate::integration::Fields;
 use crate::interactions::{Ahead, Link, Pass};
 use crate::number::Vector;
 use crate::state::State;
+use std::sync::Arc;
 
 /// Instead of a slot: what does not move by the forces on it.
 pub(super) const UNMOVED: u32 = u32::MAX;
@@ -22,6 +23,13 @@ pub(super) struct Element {
     pub normal: [f32; 3],
     /// From each centre to where the forces act, along the normal \[m\].
     pub arms: [f32; 2],
+}
+
+impl Element {
+    /// The same between the body at this end and something that stands still.
+    fn end(&self, end: usize) -> Self {
+        Self { slots: [self.slots[end], UNMOVED], arms: [self.arms[end], 0.0], ..*self }
+    }
 }
 
 /// Springs, or dashpots, of all elements: two columns, of which each is empty while no element has anything of it.
@@ -46,6 +54,11 @@ impl Parts {
             }
             column.push(part.map(|part| part as f32));
         }
+    }
+
+    /// Whether anything resists twisting or bending.
+    pub(super) fn resists_turning(&self) -> bool {
+        !self.turning.is_empty()
     }
 
     /// Whether there are any.
@@ -75,9 +88,9 @@ pub(crate) struct Network<'a> {
     /// Where everything stands.
     pub(super) state: &'a State,
     /// Of each particle (slot): what scales its translations \[1/√kg\] and its rotations \[1/√(kg m²)\].
-    pub(super) roots: Vec<[f64; 2]>,
+    pub(super) roots: Arc<[[f64; 2]]>,
     /// Of each boundary.
-    pub(super) groups: Vec<Option<Group>>,
+    pub(super) groups: Arc<[Option<Group>]>,
     /// Boundaries whose contacts count twice for their particles: surfaces that forces move, to whose inertia the other half is
     /// added ([`crate::boundaries::implicit`]).
     light: Vec<bool>,
@@ -133,6 +146,34 @@ impl<'a> Network<'a> {
         network
     }
 
+    /// That of the chosen bodies (places as [`Self::mover`] tells them), to which all others stand still. What they share with
+    /// one of the others counts by the factor that `borne` tells of the element and its end.
+    pub(super) fn part(&self, chosen: &[bool], borne: impl Fn(usize, usize) -> f64) -> Self {
+        let mut part = Self {
+            state: self.state,
+            roots: Arc::clone(&self.roots),
+            groups: Arc::clone(&self.groups),
+            light: Vec::new(),
+            elements: Vec::new(),
+            stiffness: Parts::default(),
+            damping: Parts::default(),
+        };
+        for (place, element) in self.elements.iter().enumerate() {
+            let inside = element.slots.map(|slot| self.mover(slot).is_some_and(|mover| chosen[mover]));
+            let (taken, factor) = match inside {
+                [false, false] => continue,
+                [true, true] => (*element, 1.0),
+                [true, false] => (element.end(0), borne(place, 0)),
+                [false, true] => (element.end(1), borne(place, 1)),
+            };
+            let most = part.elements.len() + 1;
+            part.stiffness.push(self.stiffness.of(place).map(|it| factor * f64::from(it)), part.elements.len(), most);
+            part.damping.push(self.damping.of(place).map(|it| factor * f64::from(it)), part.elements.len(), most);
+            part.elements.push(taken);
+        }
+        part
+    }
+
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
         if let Some(element) = self.element(link) {
@@ -177,11 +218,33 @@ impl<'a> Network<'a> {
     }
 
     /// The body that moves a particle, if forces move it: the particle itself, or behind all particles its group.
+    #[inline]
     pub(super) fn mover(&self, slot: u32) -> Option<usize> {
         match (*self.state.particles.owner.get(slot as usize)? as usize).checked_sub(1) {
             None => Some(slot as usize),
             Some(group) => self.groups[group].as_ref().map(|_| self.roots.len() + group),
         }
+    }
+
+    /// The group behind the place of a body, if it is one.
+    fn group(&self, mover: usize) -> Option<&Group> {
+        self.groups.get(mover.checked_sub(self.roots.len())?)?.as_ref()
+    }
+
+    /// The trace of what the body at one end of an element would feel of it alone, at this root \[1/s\]; 0 where none moves.
+    pub(super) fn trace(&self, place: usize, end: usize, root: f64) -> f64 {
+        let element = &self.elements[place];
+        let Some(mover) = self.mover(element.slots[end]) else { return 0.0 };
+        let [along, across, twisting, bending] = self.parts(place, root);
+        let Some(group) = self.group(mover) else {
+            let ([v, w], arm) = (self.roots[mover], f64::from(element.arms[end]));
+            let turning = 2.0 * (arm * arm * across + bending) + twisting;
+            return v * v * (along + 2.0 * across) + w * w * turning;
+        };
+        let arm = self.arm(element, end, group);
+        let square = |rows: &[[f64; 6]]| rows.iter().flatten().map(|part| part * part).sum::<f64>();
+        (along + 2.0 * across) * square(&group.root[..3])
+            + ((along + across) * arm.dot(arm) + 2.0 * bending + twisting) * square(&group.root[3..])
     }
 
     /// From what moves a particle to where an element acts on it \[m\].

@@ -25,7 +25,7 @@ const MOST_FORESEEN: f64 = 10.0;
 const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
 
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
-const CERTAIN: f64 = 0.05;
+const CERTAIN: f64 = 0.005;
 
 /// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
 const LEAST: [f64; 2] = [2e-6, 2e-3];

@@ -1,24 +1,24 @@
 //! The whole time step, linearised by trying it: the engine makes one time step from rest with each freedom of each sphere
 //! moving a little, and the loads that follow are stiffness and damping, as full matrices.
 
+use crate::stable_step::scenes::scene;
 use crate::stable_step::with_step;
 use cograin::scene::Scene;
 use cograin::step::Simulation;
 use nalgebra::DMatrix;
 
-/// The stable time step \[s\]: the largest with 4 M − 2 Δt C − Δt² K positive definite.
+/// The stable time step of a scene \[s\]: the largest with 4 M − 2 Δt C − Δt² K positive definite, where dashpots that see
+/// extrapolated velocities count twice.
 ///
 /// Times about `near` are tried.
-pub(crate) fn stable_step(scene: &Scene, near: f64) -> f64 {
-    let [long, short] = [0.02, 0.01].map(|part| answers(scene, part * near));
-    // A freedom that moves with speed 1 for a time step h answers with h K + C.
-    let per_root = masses(scene).map(|mass| 1.0 / mass.sqrt());
+pub(crate) fn stable_step(text: &str, near: f64) -> f64 {
+    let per_root = masses(&scene(text)).map(|mass| 1.0 / mass.sqrt());
     let scaled = |matrix: &DMatrix<f64>| {
         let matrix = 0.5 * (matrix + matrix.transpose());
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |a, b| per_root[a] * matrix[(a, b)] * per_root[b])
     };
-    let stiffness = scaled(&((&long - &short) / (0.01 * near)));
-    let damping = scaled(&(2.0 * short - long));
+    let (stiffness, damping) = counted(text, near);
+    let (stiffness, damping) = (scaled(&stiffness), scaled(&damping));
     let is_stable = |step: f64| {
         let rest = DMatrix::identity(stiffness.nrows(), stiffness.ncols()) * 4.0
             - &damping * (2.0 * step)
@@ -32,6 +32,32 @@ pub(crate) fn stable_step(scene: &Scene, near: f64) -> f64 {
         if is_stable(middle) { stable = middle } else { unstable = middle }
     }
     stable
+}
+
+/// Stiffness and damping, the latter as often as it counts.
+fn counted(text: &str, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+    let scheme = scene(text).run.scheme;
+    let [normal, tangential] = scheme.damping_factors();
+    let engine = match text.contains("\nscheme = ") {
+        true => text.replace(&format!("\nscheme = {:?}\n", scheme.name()), "\nscheme = \"engine\"\n"),
+        false => text.replace("threads = 1\n", "threads = 1\nscheme = \"engine\"\n"),
+    };
+    let (stiffness, damping) = measured(&scene(&engine), near);
+    if !text.contains("[contact.c.") || [normal, tangential] == [1.0; 2] {
+        return (stiffness, damping);
+    }
+    assert!(!text.contains(".damping.viscous"), "dashpots of bonds and of contacts cannot be told apart here");
+    let without = engine.replace("[contact.c.normal", "[contact.c]\ntangential_damping = false\n[contact.c.normal");
+    let along = measured(&scene(&without), near).1;
+    let across = &damping - &along;
+    (stiffness, normal * along + tangential * across)
+}
+
+/// Stiffness and damping of a scene whose dashpots see the velocities of mid-step.
+fn measured(scene: &Scene, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+    // A freedom that moves with speed 1 for a time step h answers with h K + C.
+    let [long, short] = [0.02, 0.01].map(|part| answers(scene, part * near));
+    ((&long - &short) / (0.01 * near), 2.0 * short - long)
 }
 
 /// Masses and moments of inertia of the free spheres, six for each.

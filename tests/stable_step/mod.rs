@@ -11,7 +11,8 @@ mod scenes;
 use cograin::scene::{Scene, Step};
 use cograin::step::Simulation;
 use scenes::{
-    Sphere, block, bonds, contacts, cubic, dashpots, face_centred, free, hertz, hexagonal, near_faces, packing, scene,
+    Sphere, block, bonds, contacts, cubic, damped_hertz, damped_hooke, dashpots, face_centred, free, hertz, hexagonal,
+    near_faces, packing, scene,
 };
 use std::sync::Arc;
 
@@ -61,7 +62,7 @@ fn ratio_on_the_engine(scene: &Scene, stated: f64) -> f64 {
 fn holds(name: &str, text: &str) -> f64 {
     let scene = scene(text);
     let stated = stated(&scene);
-    let ratio = stated / linearised::stable_step(&scene, stated);
+    let ratio = stated / linearised::stable_step(text, stated);
     println!("{name}: stated over true {ratio:.3}");
     assert!((LEAST..=1.0).contains(&ratio), "{name}: the stated stable step is {ratio:.3} of the true one");
     ratio
@@ -216,6 +217,49 @@ fn of_bonds_and_contacts_together() {
 #[test]
 fn of_a_random_packing() {
     holds("random 1:1", &block(&packing(60, 1.0), free, &hertz()));
+}
+
+/// Random packings of so many spheres with contact dashpots of this ratio.
+fn of_damped_packings(count: usize, ratio: f64) {
+    for sizes in [1.0, 3.0, 10.0] {
+        for (law, contacts) in [("Hertz", damped_hertz(ratio)), ("Hooke", damped_hooke(ratio))] {
+            for scheme in ["engine", "predicted_normal", "predicted"] {
+                let text = block(&packing(count, sizes), free, &contacts);
+                let text = text.replace("threads = 1\n", &format!("threads = 1\nscheme = {scheme:?}\n"));
+                holds(&format!("random 1:{sizes} of {count}, {law}, ratio {ratio}, {scheme}"), &text);
+            }
+        }
+    }
+}
+
+#[test]
+fn of_slightly_damped_random_packings() {
+    of_damped_packings(60, 0.05);
+}
+
+#[test]
+fn of_damped_random_packings() {
+    of_damped_packings(60, 0.3);
+}
+
+#[test]
+fn of_strongly_damped_random_packings() {
+    of_damped_packings(60, 1.0);
+}
+
+#[test]
+fn of_a_larger_damped_random_packing() {
+    holds("random 1:1 of 150, Hertz, ratio 0.3", &block(&packing(150, 1.0), free, &damped_hertz(0.3)));
+}
+
+#[test]
+fn of_random_packings_of_two_laws() {
+    for sizes in [3.0, 10.0] {
+        holds(&format!("random 1:{sizes}"), &block(&packing(60, sizes), free, &hertz()));
+    }
+    let hooke = "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = 0.0\ntangential_damping = 0.0";
+    let hooke = contacts("hooke_stiffness", hooke);
+    holds("random 1:1, Hooke", &block(&packing(60, 1.0), free, &hooke));
 }
 
 #[test]

@@ -99,6 +99,24 @@ pub(crate) fn hertz() -> String {
     contacts("hertz", "restitution = 1.0")
 }
 
+/// Hertz contacts with dashpots of this ratio, at 1 of nine tenths of it.
+pub(crate) fn damped_hertz(ratio: f64) -> String {
+    // Dashpots of restitution e have √(5/6) β, where e = exp(−π β/√(1 − β²)).
+    let beta = (ratio * 1.2_f64.sqrt()).min(0.999);
+    let restitution = (-std::f64::consts::PI * beta / (1.0 - beta * beta).sqrt()).exp();
+    contacts("hertz", &format!("restitution = {restitution:?}"))
+}
+
+/// Linear contacts with dashpots of this ratio between spheres of radius 1 mm.
+pub(crate) fn damped_hooke(ratio: f64) -> String {
+    let reduced = 0.5 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
+    let damping = 2.0 * ratio * (1e5 / reduced).sqrt();
+    let pair = format!(
+        "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = {damping:?}\ntangential_damping = {damping:?}"
+    );
+    contacts("hooke_stiffness", &pair)
+}
+
 /// Bonds.
 pub(crate) fn bonds(more: &str) -> String {
     format!(
@@ -119,7 +137,8 @@ pub(crate) fn free(_: &Sphere) -> bool {
     false
 }
 
-/// A random packing of so many spheres of radius 1 mm and this many times less, pushed apart until they overlap little.
+/// A random packing of about so many spheres of radius 1 mm, give or take the square root of these sizes, pushed apart until they
+/// overlap little; those that still lie deep in another one are left out.
 pub(crate) fn packing(count: usize, sizes: f64) -> Vec<Sphere> {
     /// Rounds of pushing.
     const ROUNDS: usize = 300;
@@ -146,7 +165,19 @@ pub(crate) fn packing(count: usize, sizes: f64) -> Vec<Sphere> {
             }
         }
     }
-    spheres
+    let mut left: Vec<Sphere> = Vec::new();
+    for sphere in spheres {
+        if left.iter().all(|other| overlap(&sphere, other) < 0.3 * sphere[3].min(other[3])) {
+            left.push(sphere);
+        }
+    }
+    left
+}
+
+/// How deep one sphere lies in another \[m\].
+fn overlap(a: &Sphere, b: &Sphere) -> f64 {
+    let square: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
+    a[3] + b[3] - square.sqrt()
 }
 
 /// Moves two spheres apart by a third of their overlap, the lighter one further.

@@ -1,0 +1,96 @@
+//! How two bodies divide what they share.
+//!
+//! |a − b|² ≤ (1 + t) |a|² + (1 + 1/t) |b|² holds for any t > 0. Each body has a weight y, and t = (|b| y_b)/(|a| y_a): a body
+//! with less of it bears more. Sweeps lay load from bodies with a large trace on neighbours with a small one (after Collatz
+//! and Wielandt). Bodies limit the step by the largest eigenvalue of their block, but its trace costs a hundredth and tells
+//! nearly as well what a body could still bear.
+
+use super::network::Network;
+
+/// Sweeps. More of them level the traces further than what the traces stand for.
+const SWEEPS: usize = 2;
+
+/// Largest and least share ratio t.
+const MOST_UNEVEN: f64 = 1e6;
+
+/// The largest eigenvalue of a block over its trace, about.
+const LARGEST: f64 = 0.4;
+
+/// How all bodies divide what they share.
+pub(super) struct Shares<'a> {
+    /// The network.
+    network: &'a Network<'a>,
+    /// Of each element the square roots of the traces of what each end would feel alone \[1/s\].
+    traces: Vec<[f32; 2]>,
+    /// y of each body.
+    weights: Vec<f32>,
+}
+
+impl<'a> Shares<'a> {
+    /// Those of a network: springs and dashpots are weighed about this root \[1/s\], or, if it is 0, about one that follows
+    /// from traces.
+    pub(super) fn of(network: &'a Network<'a>, guess: f64) -> Self {
+        let mut shares = Self { network, traces: Vec::new(), weights: vec![1.0; network.movers()] };
+        let mut at = guess;
+        if network.is_damped() && guess <= 0.0 {
+            let sums = [0.0, 1.0].map(|root| {
+                shares.weigh(root);
+                shares.sums()
+            });
+            let root = |(k, both): (&f64, &f64)| {
+                let (k, c) = (LARGEST * k, LARGEST * (both - k).max(0.0));
+                0.5 * (c + (c * c + 4.0 * k).sqrt())
+            };
+            at = sums[0].iter().zip(&sums[1]).map(root).fold(0.0, f64::max);
+        }
+        shares.weigh(at);
+        for _ in 0..SWEEPS {
+            let sums = shares.sums();
+            let most = sums.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            for (weight, sum) in shares.weights.iter_mut().zip(sums) {
+                *weight *= (sum / most).sqrt() as f32;
+            }
+        }
+        shares
+    }
+
+    /// Finds the traces of all elements at this root \[1/s\].
+    fn weigh(&mut self, root: f64) {
+        let network = self.network;
+        let trace = |place: usize, end: usize| network.trace(place, end, root).sqrt() as f32;
+        self.traces = (0..network.elements.len()).map(|place| [trace(place, 0), trace(place, 1)]).collect();
+    }
+
+    /// The traces of all blocks \[1/s²\].
+    fn sums(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.network.movers()];
+        for (place, traces) in self.traces.iter().enumerate() {
+            for (borne, trace) in self.borne(place).into_iter().zip(traces) {
+                if let Some((mover, factor)) = borne {
+                    sums[mover] += factor * f64::from(*trace) * f64::from(*trace);
+                }
+            }
+        }
+        sums
+    }
+
+    /// The bodies at the ends of an element, and how many times what they would feel of it alone they bear.
+    #[inline]
+    pub(super) fn borne(&self, place: usize) -> [Option<(usize, f64)>; 2] {
+        let [first, second] = self.network.elements[place].slots.map(|slot| self.network.mover(slot));
+        let (Some(a), Some(b)) = (first, second) else {
+            return [first, second].map(|end| end.map(|mover| (mover, 1.0)));
+        };
+        let strength = |end: usize, mover: usize| f64::from(self.traces[place][end]) * f64::from(self.weights[mover]);
+        let ratio = strength(1, b) / strength(0, a);
+        // It is not a number where neither end can move.
+        let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
+        [Some((a, 1.0 + share)), Some((b, 1.0 + 1.0 / share))]
+    }
+
+    /// Lets a body, whose root is to shrink by this ratio, bear less of all that it shares.
+    pub(super) fn relieve(&mut self, mover: usize, ratio: f64) {
+        let square = ratio * ratio;
+        self.weights[mover] *= (1.05 * square * square) as f32;
+    }
+}
