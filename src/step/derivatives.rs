@@ -1,9 +1,10 @@
 //! Directional derivatives: slopes go through the very time steps of the last communication step.
 //!
-//! The step is made again from its beginning, with the same bits, and slopes go beside it: each time step has its own
-//! contacts, stick and slip, as they were.
+//! They go along in the step itself where the host is expected to ask ([`super::habit`]). Otherwise the step is made again from its
+//! beginning, with the same bits. Each time step has its own contacts, stick and slip, as they were.
 
 use super::Simulation;
+use super::habit::Input;
 use super::way_back::Given;
 use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
@@ -13,6 +14,7 @@ use crate::lanes::Width;
 use crate::motion::AxisMotion;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
+use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::State;
 use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, FourInputs, Inputs, OneInput, PASSING, Tangent};
@@ -58,31 +60,59 @@ pub enum NoDerivative {
 
 impl Simulation {
     /// How the boundaries change with each of some inputs, axes of boundaries, at the end of the last communication step. The
-    /// state stays as it is. From the first call on the beginning of each communication step is kept; before it is found by
-    /// making up to 64 time steps again.
+    /// state stays as it is. What the step did not carry along is found by making it again, and up to 64 time steps before it.
     pub fn derivatives(
         &mut self,
         inputs: &[(BoundaryIndex, usize)],
     ) -> Result<Vec<Vec<BoundaryDerivatives>>, NoDerivative> {
         refuse(&self.scene)?;
+        if !self.way_back.has_last() {
+            return Err(NoDerivative::NoStep);
+        }
+        self.habit.ask(inputs);
+        let missing: Vec<Input> = inputs.iter().filter(|input| self.habit.by(**input).is_none()).copied().collect();
+        let mut found = if missing.is_empty() { Vec::new() } else { self.make_again(&missing) }.into_iter();
+        let mut told = |input: &Input| match self.habit.by(*input) {
+            Some(known) => known.clone(),
+            None => found.next().unwrap_or_default(),
+        };
+        Ok(inputs.iter().map(&mut told).collect())
+    }
+
+    /// Makes the last communication step again, with slopes by these inputs.
+    fn make_again(&mut self, inputs: &[Input]) -> Vec<Vec<BoundaryDerivatives>> {
         let given: Vec<Given> = self.state.boundaries.iter().map(Given::of).collect();
         let stop = self.stop.take();
         let length = self.return_to_last();
-        let mut found = Err(NoDerivative::NoStep);
-        if let Some(length) = length {
-            self.followed = self.follow_all(inputs, length);
-            self.advance(length).expect("a communication step that was made before can be made again");
-            let followed = std::mem::take(&mut self.followed);
-            found = Ok(followed.iter().flat_map(|followed| followed.told(length)).take(inputs.len()).collect());
-        }
+        self.followed = self.follow_all(inputs, length);
+        self.advance(length).expect("a communication step that was made before can be made again");
+        let found = self.told(length);
         self.state.boundaries.iter_mut().zip(given).for_each(|(boundary, given)| given.give_to(boundary));
         self.stop = stop;
         found
     }
 
+    /// What was found of the inputs that were followed through a communication step of this length \[s\]; nothing is followed any
+    /// more.
+    fn told(&mut self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
+        let followed = std::mem::take(&mut self.followed);
+        followed.iter().flat_map(|followed| followed.told(length)).collect()
+    }
+
+    /// Makes a communication step of this length \[s\], and carries slopes along by the inputs that the host will probably ask for.
+    pub(super) fn advance_with_slopes(&mut self, inputs: &[Input], length: f64) -> Result<(), RunError> {
+        self.followed = self.follow_all(inputs, length);
+        let result = self.advance(length);
+        let found = self.told(length);
+        if result.is_ok() {
+            self.habit.keep(inputs.iter().copied().zip(found));
+        }
+        result
+    }
+
     /// What follows these inputs through a communication step of this length \[s\] that begins now: as many of them together as
     /// registers hold, where that costs less than one after another.
-    fn follow_all(&self, mut inputs: &[(BoundaryIndex, usize)], length: f64) -> Vec<Box<dyn Followed>> {
+    fn follow_all(&self, mut inputs: &[Input], length: f64) -> Vec<Box<dyn Followed>> {
         let mut followed = Vec::new();
         while !inputs.is_empty() {
             let (count, follow): (usize, fn(&Self, &[_], f64) -> _) = match (self.width, inputs.len()) {
@@ -98,7 +128,7 @@ impl Simulation {
     }
 
     /// What follows some inputs, at most [`Inputs::COUNT`], through a communication step of this length \[s\] that begins now.
-    fn follow<I: Inputs>(&self, inputs: &[(BoundaryIndex, usize)], length: f64) -> Box<dyn Followed>
+    fn follow<I: Inputs>(&self, inputs: &[Input], length: f64) -> Box<dyn Followed>
     where
         Tangent<I>: Followed,
     {

@@ -5,6 +5,7 @@ mod coefficients;
 mod depth;
 mod derivatives;
 mod exchange;
+mod habit;
 mod limits;
 mod losses;
 mod observe;
@@ -23,6 +24,7 @@ pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
 use derivatives::Followed;
+use habit::Habit;
 pub use derivatives::{BoundaryDerivatives, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
@@ -90,6 +92,8 @@ pub struct Simulation {
     way_back: WayBack,
     /// How the state changes with some inputs, while that is followed.
     followed: Vec<Box<dyn Followed>>,
+    /// When and for which derivatives the host asks.
+    habit: Habit,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -155,6 +159,7 @@ impl Simulation {
             room: Room::default(),
             way_back: WayBack::default(),
             followed: Vec::new(),
+            habit: Habit::default(),
             stop: None,
             watch: None,
         };
