@@ -288,6 +288,19 @@ impl Buffer {
         }
     }
 
+    /// Writes the arms of a register's worth of contacts.
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(super) unsafe fn put_arms<N: Lane>(&mut self, place: usize, [first, second]: [N; 2]) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::FIRST_ARM, place, first);
+            self.store(at::SECOND_ARM, place, second);
+        }
+    }
+
     /// Reads a register's worth of contacts. What is not looked at is not read.
     ///
     /// # Safety

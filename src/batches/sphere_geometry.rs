@@ -2,7 +2,7 @@
 
 use super::{ContactGeometry, FOUND};
 use crate::contact::Contact;
-use crate::lanes::{Lane, vector};
+use crate::lanes::vector;
 use crate::number::{Number, Vector};
 
 /// How two spheres i and j lie to each other.
@@ -106,9 +106,7 @@ impl<N: Number> SpherePair<N> {
         };
         ContactGeometry { contact, first_arm: arm_i, second_arm: arm_j }
     }
-}
 
-impl<N: Lane> SpherePair<N> {
     /// As numbers.
     #[inline(always)]
     pub(crate) fn to_found(self) -> [N; FOUND] {

@@ -2,18 +2,19 @@
 
 use super::BondPass;
 use super::walls::WallBondPass;
-use crate::bond::{Body, Coefficients, Law, Pair, Quaternion, Remembered, Sloped};
+use crate::bond::{Answer, Body, Coefficients, Law, Pair, Quaternion, Remembered, Sloped};
 use crate::dual::{Dual, Slopes};
-use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of, vectors_of};
+use crate::lanes::{Kernel, Lane, Places, columns_at, columns_from, lanes_of, vectors_of};
 use crate::number::Vector;
-use crate::state::{BondList, Particles, State};
-use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, ParticleSlopes, Tangent};
-use crate::tangent::{rows_at, slopes_of, spread};
+use crate::state::{BondList, Particles, Row, State};
+use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, Moving, ParticleSlopes, Tangent};
+use crate::tangent::{rows_at, slopes_of, spread, with_slopes};
 
 /// Particles as bodies of bonds, with slopes.
 #[inline(always)]
 fn bodies<I: Inputs, N: Lane>(moved: &ParticleSlopes<I>, particles: &Particles, slots: &Places) -> Body<InLanes<I, N>> {
-    let ([position, velocity], spin) = (moved.bodies(particles, slots), moved.spins(particles, slots));
+    let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+    let ([position, velocity], spin) = (moved.bodies(&moving, slots), moved.spins(&moving, slots));
     Body {
         position: Vector::of_row(position),
         velocity: Vector::of_row(velocity),
@@ -38,33 +39,119 @@ fn moving<I: Inputs, N: Lane>([x, y, z]: [I::Values<N>; 3], [dx, dy, dz]: [I::Ea
     Dual::vector(Vector::new(x, y, z), slopes)
 }
 
+/// Two particles as a pair of each bond, with slopes.
+#[inline(always)]
+fn pairs<I: Inputs, N: Lane>(
+    moved: &ParticleSlopes<I>,
+    particles: &Particles,
+    [i, j]: [&Places; 2],
+) -> Pair<InLanes<I, N>> {
+    let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+    let (positions, velocities) = (moved.positions::<N>(&moving, i, j), moved.velocities::<N>(&moving, i, j));
+    let body = |body: usize, slots: &Places| {
+        let (position, velocity, spin) = (positions[body], velocities[body], moved.spins(&moving, slots));
+        Body {
+            position: Vector::of_row(position),
+            velocity: Vector::of_row(velocity),
+            spin: Vector::of_row(spin),
+            orientation: moved.orientations(particles, slots),
+            radius: position[3],
+            mass: velocity[3],
+            inertia: spin[3],
+        }
+    };
+    Pair::of_spheres(&body(0, i), &body(1, j))
+}
+
+/// Room for what some bonds remember and do.
+struct Room<I: Inputs, N: Lane> {
+    /// What they remember.
+    remembered: Remembered<InLanes<I, N>>,
+    /// What their formulation answers.
+    answer: Answer<InLanes<I, N>>,
+}
+
+impl<I: Inputs, N: Lane> Room<I, N> {
+    /// Empty.
+    #[inline(always)]
+    fn new() -> Self {
+        Self { remembered: Remembered::room(), answer: Answer::room() }
+    }
+}
+
+/// Some bonds of a list, one after another from the first on: as many as there are lanes, or the last ones.
+#[derive(Clone, Copy)]
+struct Bonds<'a> {
+    /// The list.
+    list: &'a BondList,
+    /// The first.
+    first: usize,
+    /// How many there are.
+    count: usize,
+}
+
+impl Bonds<'_> {
+    /// A row of theirs: values and slopes.
+    #[inline(always)]
+    fn row<I: Inputs, N: Lane>(&self, values: &[Row], slopes: &[I::Row]) -> [InLanes<I, N>; 4] {
+        if self.count == I::Values::<N>::WIDTH {
+            return with_slopes::<I, N>(columns_from(values, self.first), I::rows_from::<N>(slopes, self.first));
+        }
+        rows_at::<I, N>(values, slopes, &self.places())
+    }
+
+    /// A row of theirs that does not change.
+    #[inline(always)]
+    fn fixed_row<I: Inputs, N: Lane>(&self, values: &[Row]) -> [InLanes<I, N>; 4] {
+        Dual::constants(match self.count == I::Values::<N>::WIDTH {
+            true => columns_from(values, self.first),
+            false => columns_at(values, &self.places()),
+        })
+    }
+
+    /// Writes slopes of a row of theirs.
+    #[inline(always)]
+    fn put<I: Inputs, N: Lane>(&self, row: [InLanes<I, N>; 4], slopes: &mut [I::Row]) {
+        match self.count == I::Values::<N>::WIDTH {
+            true => I::put_from::<N>(slopes_of::<I, N>(row), slopes, self.first),
+            false => I::put::<N>(slopes_of::<I, N>(row), slopes, self.places().first(self.count)),
+        }
+    }
+
+    /// Where they stand.
+    fn places(&self) -> Places {
+        Places::consecutive(self.first, self.count)
+    }
+}
+
 /// What bonds do, with slopes; those of what they remember go on. The first so many `fixed` of their rows never change.
 #[inline(always)]
 fn react<I: Inputs, N: Lane>(
     law: &Law,
     coefficients: &Coefficients<InLanes<I, N>>,
     pair: &Pair<InLanes<I, N>>,
-    (list, slopes, bonds, count): (&BondList, &mut ListSlopes<I>, &Places, usize),
-    (remembered, fixed): (&mut Remembered<InLanes<I, N>>, usize),
+    (bonds, slopes): (Bonds, &mut ListSlopes<I>),
+    (room, fixed): (&mut Room<I, N>, usize),
 ) -> Sloped<I::Values<N>, I::Slopes<N>> {
+    let (Room { remembered, answer }, list) = (room, bonds.list);
     let (of_rows, of_rates) = slopes.rows.split_at_mut(list.rows.len());
     for (place, (row, values)) in remembered.rows.iter_mut().zip(&list.rows).enumerate() {
         *row = match place < fixed {
-            true => Dual::constants(columns_at(values, bonds)),
-            false => rows_at::<I, N>(values, &of_rows[place], bonds),
+            true => bonds.fixed_row::<I, N>(values),
+            false => bonds.row::<I, N>(values, &of_rows[place]),
         };
     }
     for (row, (values, slopes)) in remembered.rates.iter_mut().zip(list.rate_columns().iter().zip(&*of_rates)) {
-        *row = rows_at::<I, N>(values, slopes, bonds);
+        *row = bonds.row::<I, N>(values, slopes);
     }
-    let found = law.react_with_slopes(coefficients, pair, remembered);
+    let found = law.react_with_slopes(coefficients, pair, remembered, answer);
     let of_rows = of_rows.iter_mut().zip(&remembered.rows).skip(fixed);
     for (slopes, row) in of_rows.chain(of_rates.iter_mut().zip(&remembered.rates)) {
-        I::put::<N>(slopes_of::<I, N>(*row), slopes, bonds.first(count));
+        bonds.put::<I, N>(*row, slopes);
     }
-    let mut broken = found.broken & ((1 << count) - 1);
+    let mut broken = found.broken & ((1 << bonds.count) - 1);
     while broken != 0 {
-        let bond = bonds.at(broken.trailing_zeros() as usize);
+        let bond = bonds.first + broken.trailing_zeros() as usize;
         slopes.rows.iter_mut().for_each(|rows| rows[bond] = I::NONE);
         broken &= broken - 1;
     }
@@ -90,18 +177,18 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
         let (list, particles) = (&state.bonds[pass.index], &state.particles);
         let (slopes, moved) = (&mut tangent.bonds[pass.index], &mut tangent.particles);
         let (coefficients, fixed) = (at_step::<I, N>(&pass.law, step), pass.law.one_bond().fixed_rows);
-        let mut remembered = Remembered::room();
+        let mut room = Room::<I, N>::new();
         for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
-            let Group { entries, bodies: [i, j], count } =
-                Group::from::<I::Values<N>>([&list.first, &list.second], first);
+            let count = usize::min(list.first.len() - first, I::Values::<N>::WIDTH);
+            let [i, j] = [&list.first, &list.second].map(|slots| Places::of(&slots[first..first + count]));
             if moved.reached(i.first(count)) | moved.reached(j.first(count)) == 0 {
                 continue;
             }
-            let pair = Pair::of_spheres(&bodies::<I, N>(moved, particles, &i), &bodies::<I, N>(moved, particles, &j));
-            let bonds = (list, &mut *slopes, &entries, count);
-            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut remembered, fixed));
+            let pair = pairs::<I, N>(moved, particles, [&i, &j]);
+            let bonds = (Bonds { list, first, count }, &mut *slopes);
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut room, fixed));
             let slots = [i.first(count), j.first(count)];
-            moved.press_pairs(slots, found.force);
+            moved.press_pairs(slots, found.force, (1 << count) - 1);
             moved.twist_pairs(slots, [found.torque_i, found.torque_j]);
         }
     }
@@ -116,7 +203,7 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
         let (slopes, boundary) = (&mut bonds[pass.index], &mut boundaries[pass.boundary.index()]);
         let (coefficients, moves) = (at_step::<I, N>(&pass.law, step), boundary.is_moved());
         let fixed = pass.law.one_bond().fixed_rows;
-        let mut remembered = Remembered::room();
+        let mut room = Room::<I, N>::new();
         for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
             let Group { entries, bodies: [slots], count } = Group::from::<I::Values<N>>([&list.first], first);
             if !moves && moved.reached(slots.first(count)) == 0 {
@@ -137,8 +224,8 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
                 inertia: Dual::constant(lanes_of(|lane| at[lane].inertia)),
             };
             let pair = Pair::at_wall(&bodies::<I, N>(moved, particles, &slots), &foot);
-            let bonds = (list, &mut *slopes, &entries, count);
-            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut remembered, fixed));
+            let bonds = (Bonds { list, first, count }, &mut *slopes);
+            let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut room, fixed));
             moved.press(slots.first(count), found.force);
             moved.twist(slots.first(count), found.torque_i);
             let arm = |lane: usize| Vector::from(list.foot[entries.at(lane)]) - pass.reference;

@@ -14,7 +14,10 @@ impl Fields {
     /// Damps the slopes of forces and torques on free particles, whose loads are those behind the damping: a fraction of a load
     /// that works is taken away, of one that is worked against added.
     pub(crate) fn damp_slopes<I: Inputs>(&self, particles: &Particles, force: &mut [I::Row], torque: &mut [I::Row]) {
-        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0 && self.damps()) {
+        if !self.damps() {
+            return;
+        }
+        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
             let (damped, id) = (self.damped(particles.id[slot]), particles.id[slot]);
             let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
             let (_, after) = self.split(velocity[3], id, damped);

@@ -7,10 +7,12 @@ use super::ahead::{Ahead, Link};
 use super::listed::{self, Kept, Listed, Met};
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
+use super::slopes::Followed;
 use crate::batches::SpherePair;
-use crate::batches::{BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
+use crate::batches::{Along, BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Needs, Response};
+use crate::dual::Dual;
 use crate::integration::plane;
 use crate::lanes::{Lane, Shared};
 use crate::memory::prefetch;
@@ -18,6 +20,7 @@ use crate::number::{add, subtract};
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, Row, State, StateFault};
+use crate::tangent::{Moving, OneInput, Tangent};
 use crate::threads::Context;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -39,9 +42,19 @@ pub(crate) struct ContactPass {
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         match context.plane_rows {
-            false => self.evaluate::<false>(state, context),
-            true => self.evaluate::<true>(state, context),
+            false => self.evaluate::<false>(state, context, &mut []),
+            true => self.evaluate::<true>(state, context, &mut []),
         }
+        Ok(())
+    }
+
+    fn apply_with_slopes(
+        &self,
+        state: &mut State,
+        followed: &mut [Tangent<OneInput>],
+        context: &Context,
+    ) -> Result<(), RunError> {
+        self.evaluate::<false>(state, context, followed);
         Ok(())
     }
 
@@ -101,10 +114,18 @@ impl Pass for ContactPass {
 }
 
 impl ContactPass {
-    /// Evaluates the law on all contacts; with PLANE, of particles in plane rows.
-    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context) {
+    /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
+    fn evaluate<const PLANE: bool>(
+        &self,
+        state: &mut State,
+        context: &Context,
+        followed: &mut [Tangent<OneInput>],
+    ) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
+        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+        let followed = Followed::of(self, moving, &particles.material, followed, Dual::constant(context.step));
+        let along = (!followed.is_none()).then_some(&followed as &dyn Along);
         let batches = Batches {
             bodies: Pairs::<PLANE> {
                 first: &list.first,
@@ -122,6 +143,7 @@ impl ContactPass {
             uniform: self.table.uniform(),
             step: context.step,
             width: context.width,
+            along,
         };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
         let slabs = ends.len().saturating_sub(1);
@@ -199,23 +221,23 @@ impl Listed for ContactPass {
 
 /// Pairs of particles. PLANE: in plane rows (`integration::plane`).
 #[derive(Clone, Copy)]
-struct Pairs<'a, const PLANE: bool> {
+pub(super) struct Pairs<'a, const PLANE: bool> {
     /// First particle of each pair.
-    first: &'a [u32],
+    pub first: &'a [u32],
     /// Second particle of each pair.
-    second: &'a [u32],
+    pub second: &'a [u32],
     /// Positions and radii.
-    position: &'a [Row],
+    pub position: &'a [Row],
     /// Velocities and masses.
-    velocity: &'a [Row],
+    pub velocity: &'a [Row],
     /// Angular velocities.
-    angular_velocity: &'a [Row],
+    pub angular_velocity: &'a [Row],
     /// Materials.
-    material: &'a [u32],
+    pub material: &'a [u32],
     /// Forces.
-    force: Shared<Row>,
+    pub force: Shared<Row>,
     /// Torques.
-    torque: Shared<Row>,
+    pub torque: Shared<Row>,
 }
 
 impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {

@@ -1,17 +1,18 @@
 //! How contacts between particles change with a few inputs: the law over numbers with slopes, on a register's worth of touching
-//! entries of the list at a time.
+//! entries of a batch at a time. The values that come of it are those of the law, to the bit, so the law is not evaluated beside.
 
-use super::contacts::ContactPass;
-use crate::batches::{ContactGeometry, SpherePair};
+use super::contacts::{ContactPass, Pairs};
+use crate::batches::{Along, Batch, Batches, ContactGeometry, Entries, Left, SpherePair};
 use crate::coefficients::in_lanes;
-use crate::contact::{Contact, Law, MOST_HISTORY, Needs, Reaction};
-use crate::dual::Dual;
-use crate::lanes::{Kernel, Lane, Places, columns_at, lanes_of};
+use crate::contact::{Acting, Contact, Evaluated, Law, MOST_HISTORY, Needs, Reaction};
+use crate::dual::{Dual, Slopes};
+use crate::lanes::{Kernel, Lane, Places, Shared, lanes_of};
 use crate::number::{Number, Vector};
 use crate::state::contacts::TOUCHING;
-use crate::state::{Particles, Row, State};
-use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, Tangent, Waiting};
-use crate::tangent::{rows_at, slopes_of, spread};
+use crate::state::{Row, State};
+use crate::tangent::{Alone, FollowPass, InLanes, Inputs, ListSlopes, Moving, Tangent};
+use crate::tangent::{rows_at, slopes_of, spread, with_slopes};
+use std::sync::{Mutex, PoisonError};
 
 /// A pass over contacts that turn their bodies, or do not: of these nothing is looked at but the force.
 pub(super) struct Touching<P, const TURNING: bool>(pub(super) P);
@@ -19,7 +20,25 @@ pub(super) struct Touching<P, const TURNING: bool>(pub(super) P);
 /// Room for what contacts remember.
 pub(super) type Remembered<I, N> = [[InLanes<I, N>; 4]; MOST_HISTORY];
 
-/// What contacts do, with slopes; those of what they remember, at these places of the list, go on. `rows` is room for that.
+/// What contacts do, with slopes: of laws that turn their bodies, or do not.
+#[inline(always)]
+fn react_by<I: Inputs, N: Lane, const TURNING: bool>(
+    law: &Law,
+    acting: &Acting<InLanes<I, N>>,
+    row: &[I::Values<N>],
+    contact: &mut Contact<InLanes<I, N>>,
+    rows: &mut [[InLanes<I, N>; 4]],
+    step: InLanes<I, N>,
+) -> Reaction<InLanes<I, N>> {
+    if TURNING {
+        return law.react_by(acting, row, contact, rows, step);
+    }
+    let (_, normal) = law.press(acting, row, contact, rows, step);
+    let (force, zero) = (contact.normal * normal.force, I::Values::<N>::zero());
+    Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: zero.greater(zero) }
+}
+
+/// The same; slopes of what they remember, at these places of the list, go on. `rows` is room for that.
 #[inline(always)]
 pub(super) fn react<I: Inputs, N: Lane, const TURNING: bool>(
     law: &Law,
@@ -33,13 +52,7 @@ pub(super) fn react<I: Inputs, N: Lane, const TURNING: bool>(
     for (row, (values, slopes)) in rows.iter_mut().zip(history.iter().zip(&slopes.rows)) {
         *row = rows_at::<I, N>(values, slopes, entries);
     }
-    let reaction = if TURNING {
-        law.react(row, contact, rows, step)
-    } else {
-        let (_, normal) = law.press(row, contact, rows, step);
-        let (force, zero) = (contact.normal * normal.force, I::Values::<N>::zero());
-        Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: zero.greater(zero) }
-    };
+    let reaction = react_by::<I, N, TURNING>(law, &Evaluated::acting(law), row, contact, rows, step);
     for (slopes, row) in slopes.rows.iter_mut().zip(rows) {
         I::put::<N>(slopes_of::<I, N>(*row), slopes, entries.first(count));
     }
@@ -91,10 +104,10 @@ pub(super) fn part<I: Inputs>(slopes: &mut ListSlopes<I>, entries: &Places, mut 
 
 /// The materials of some particles.
 #[inline(always)]
-pub(super) fn materials(particles: &Particles, slots: &Places) -> [u32; 8] {
+pub(super) fn materials(material: &[u32], slots: &Places) -> [u32; 8] {
     let mut found = [0; 8];
     for (lane, found) in found.iter_mut().enumerate() {
-        *found = particles.material[slots.at(lane)];
+        *found = material[slots.at(lane)];
     }
     found
 }
@@ -112,70 +125,143 @@ pub(super) fn beyond<N: Lane>(law: &Law, flags: &[u8], kept: &[f64], entries: &P
     if law.holds_beyond_touch() { Some(lanes_of(|lane| reach(entries.at(lane)))) } else { None }
 }
 
-impl<I: Inputs> FollowPass<I> for ContactPass {
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
-        tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
-        if self.law.needs.torque {
-            I::run(tangent.width, AddSlopes { pass: Touching::<_, true>(self), state, tangent, step });
-        } else {
-            I::run(tangent.width, AddSlopes { pass: Touching::<_, false>(self), state, tangent, step });
+/// Contacts between particles whose slopes are followed.
+pub(super) struct Followed<'a, I: Inputs> {
+    /// The pass.
+    pass: &'a ContactPass,
+    /// How the particles move.
+    moving: Moving<'a>,
+    /// Their materials.
+    material: &'a [u32],
+    /// What is followed; slabs wait for each other.
+    tangents: Mutex<&'a mut [Tangent<I>]>,
+    /// Whether nothing is.
+    none: bool,
+    /// The time step, or time itself.
+    step: Alone<I>,
+    /// Whether the list is looked at alone.
+    looks: bool,
+}
+
+impl<'a, I: Inputs> Followed<'a, I> {
+    /// Those of a pass, over a time step.
+    pub(super) fn of(
+        pass: &'a ContactPass,
+        moving: Moving<'a>,
+        material: &'a [u32],
+        tangents: &'a mut [Tangent<I>],
+        step: Alone<I>,
+    ) -> Self {
+        for tangent in &mut *tangents {
+            let slopes = &mut tangent.contacts[pass.index];
+            slopes.set_odd(pass.law.law.history().iter().map(|row| row.odd));
+            slopes.go_on();
+        }
+        Self { pass, moving, material, none: tangents.is_empty(), tangents: Mutex::new(tangents), step, looks: false }
+    }
+
+    /// Whether nothing is followed.
+    pub(super) fn is_none(&self) -> bool {
+        self.none
+    }
+}
+
+impl<I: Inputs> Along for Followed<'_, I> {
+    fn follow(&self, batch: &mut Batch) -> Left {
+        let mut tangents = self.tangents.lock().unwrap_or_else(PoisonError::into_inner);
+        let reaches = |tangent: &Tangent<I>| batch.slots().iter().any(|slots| tangent.particles.reaches(slots));
+        let Some(last) = tangents.iter().rposition(reaches) else {
+            return if self.looks { Left::Nothing } else { Left::All };
+        };
+        // The last one evaluates the law, too: history goes on then.
+        let writes = !self.looks && !self.pass.law.law.is_booked();
+        for (place, tangent) in tangents[..=last].iter_mut().enumerate() {
+            let (width, writes) = (tangent.width, writes && place == last);
+            if self.pass.law.needs.torque {
+                I::run(width, Follow::<I, true> { contacts: self, tangent, batch, writes });
+            } else {
+                I::run(width, Follow::<I, false> { contacts: self, tangent, batch, writes });
+            }
+        }
+        match (self.looks, writes) {
+            (true, _) => Left::Nothing,
+            (false, true) => Left::Spreading,
+            (false, false) => Left::All,
         }
     }
 }
 
-impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<&ContactPass, TURNING>, I> {
+/// Contacts of a batch with the slopes by an input. TURNING: they turn their bodies; otherwise nothing is looked at but the force.
+struct Follow<'a, 'b, 'c, I: Inputs, const TURNING: bool> {
+    /// The contacts.
+    contacts: &'a Followed<'c, I>,
+    /// What is followed.
+    tangent: &'a mut Tangent<I>,
+    /// The batch.
+    batch: &'a mut Batch<'b>,
+    /// Whether the law is evaluated.
+    writes: bool,
+}
+
+impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { pass: Touching(pass), state, tangent, step } = self;
-        let (list, particles, law) = (&state.contacts[pass.index], &state.particles, &pass.law.law);
+        let Self { contacts: Followed { pass, moving, material, step, .. }, tangent, batch, writes } = self;
+        let (law, needs) = (&pass.law.law, pass.law.needs);
         let (moved, slopes) = (&mut tangent.particles, &mut tangent.contacts[pass.index]);
-        let step = spread::<I, N>(step);
+        let (step, remembered) = (spread::<I, N>(*step), law.history().len());
         let uniform = pass.table.uniform().map(in_lanes::<I::Values<N>>);
-        let mut waiting = Waiting::of([&list.first, &list.second]);
+        let acting = Evaluated::acting(law);
         let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
-        while let Some(mut group) = waiting.look::<I::Values<N>>() {
-            let Group { entries, bodies: [i, j], count } = group;
-            let wanted = moved.reached(i.first(count)) | moved.reached(j.first(count));
-            let mut touching = 0;
-            if wanted != 0 {
-                let place = &particles.position;
-                let pair = SpherePair::<I::Values<N>>::of([columns_at(place, &i), columns_at(place, &j)]);
-                let beyond = beyond(law, &list.flags, &list.pair_constant, &entries);
-                touching = wanted & I::Values::<N>::bits(pair.overlap(beyond));
-                part(slopes, &entries, wanted & !touching);
-            }
-            if I::Values::<N>::WIDTH > 1 {
-                waiting.wait(&group, touching);
-                let Some(filled) = waiting.take::<I::Values<N>>() else { continue };
-                group = filled;
-            } else if touching == 0 {
+        for at in (0..batch.count()).step_by(I::Values::<N>::WIDTH) {
+            let [i, j, entries] = batch.places::<I::Values<N>>(at);
+            let count = usize::min(batch.count() - at, I::Values::<N>::WIDTH);
+            let reached = moved.reached(i.first(count)) | moved.reached(j.first(count));
+            if reached == 0 && !writes {
                 continue;
             }
-            let Group { entries, bodies: [i, j], count } = group;
-            let ([p, v], [q, u]) = (moved.bodies::<N>(particles, &i), moved.bodies::<N>(particles, &j));
+            let found = batch.found::<I::Values<N>>(at);
+            let spheres = moved.pair(found, &i, &j);
+            let velocities = moved.velocities::<N>(moving, &i, &j);
             let mut spins = [[Dual::zero(); 4]; 2];
             if TURNING {
-                spins = [moved.spins(particles, &i), moved.spins(particles, &j)];
+                spins = [moved.spins(moving, &i), moved.spins(moving, &j)];
             }
-            let constant = constants::<I::Values<N>>(&list.pair_constant, &entries);
-            let geometry = SpherePair::of([p, q]).meet([v, u], spins, Dual::constant(constant));
-            let pair = SpherePair::of([Dual::values_of(p), Dual::values_of(q)]);
-            let velocities = [Dual::values_of(v), Dual::values_of(u)];
-            let values = pair.meet(velocities, [[Number::zero(); 4]; 2], constant).contact;
-            let mut geometry = needed::<I, N, TURNING>(geometry, &values, pass.law.needs);
+            let constant = batch.constants::<I::Values<N>>(at);
+            let geometry = SpherePair::from_found(spheres).meet(velocities, spins, Dual::constant(constant));
+            let values = SpherePair::from_found(found)
+                .meet(velocities.map(Dual::values_of), [[Number::zero(); 4]; 2], constant)
+                .contact;
+            let mut geometry = needed::<I, N, TURNING>(geometry, &values, needs);
             let gathered;
             let row = match &uniform {
                 Some(row) => row,
                 None => {
-                    gathered = pass.table.lanes(materials(particles, &i), materials(particles, &j));
+                    gathered = pass.table.lanes(materials(material, &i), materials(material, &j));
                     &gathered
                 }
             };
-            let remembered = (&*list.history, &mut *slopes, (&entries, count));
-            let Reaction { force, couple, rolling, .. } =
-                react::<I, N, TURNING>(law, row, &mut geometry.contact, remembered, (&mut rows, step));
+            for (place, row) in rows[..remembered].iter_mut().enumerate() {
+                let slopes = slopes.begin::<N>(place, &entries, count);
+                *row = with_slopes::<I, N>(batch.remembered(place, at), slopes);
+            }
+            let reaction = react_by::<I, N, TURNING>(law, &acting, row, &mut geometry.contact, &mut rows[..remembered], step);
+            if writes {
+                for (place, row) in rows[..remembered].iter().enumerate() {
+                    batch.remember(place, at, Dual::values_of(*row));
+                }
+                let arms = [geometry.first_arm.value, geometry.second_arm.value];
+                batch.put(at, &values_of(&reaction), arms, needs);
+            }
+            if reached == 0 {
+                continue;
+            }
+            for (place, row) in rows[..remembered].iter().enumerate() {
+                slopes.put::<N>(place, &entries, count, slopes_of::<I, N>(*row));
+            }
+            let Reaction { force, couple, rolling, .. } = reaction;
             let slots = [i.first(count), j.first(count)];
-            moved.press_pairs(slots, force);
+            moved.press_pairs(slots, force, reached);
             if TURNING {
                 moved.twist_pairs(
                     slots,
@@ -183,5 +269,47 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<&ContactP
                 );
             }
         }
+    }
+}
+
+/// The values of what a law does.
+#[inline(always)]
+fn values_of<V: Number, S: Slopes<V>>(reaction: &Reaction<Dual<V, S>>) -> Reaction<V> {
+    let values = |vector: Vector<Dual<V, S>>| Vector::new(vector.x.value, vector.y.value, vector.z.value);
+    Reaction {
+        force: values(reaction.force),
+        couple: values(reaction.couple),
+        rolling: values(reaction.rolling),
+        sliding: reaction.sliding,
+    }
+}
+
+impl<I: Inputs> FollowPass<I> for ContactPass {
+    /// Looks at the contacts alone, in a copy of the list.
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>) {
+        let (particles, mut list, width) = (&state.particles, state.contacts[self.index].clone(), tangent.width);
+        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+        let tangents = std::slice::from_mut(tangent);
+        let followed = Followed { looks: true, ..Followed::of(self, moving, &particles.material, tangents, step) };
+        let batches = Batches {
+            bodies: Pairs::<false> {
+                first: &list.first,
+                second: &list.second,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut []),
+                torque: Shared::new(&mut []),
+            },
+            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
+            law: &self.law,
+            table: &self.table,
+            uniform: self.table.uniform(),
+            step: 0.0,
+            width,
+            along: Some(&followed),
+        };
+        batches.run(0, list.first.len(), 0..0);
     }
 }

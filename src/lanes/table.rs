@@ -101,6 +101,8 @@ impl Places {
         }
         if let Ok(all) = <[u32; 8]>::try_from(some) {
             places = all;
+        } else if let Ok(half) = <[u32; 4]>::try_from(some) {
+            places[..4].copy_from_slice(&half);
         } else {
             for (place, own) in places.iter_mut().zip(some) {
                 *place = *own;
@@ -111,6 +113,12 @@ impl Places {
             last = u32::max(last, place);
         }
         Self { places, last }
+    }
+
+    /// As many places as a register has numbers, from one on in a list that is longer; behind them the first one is repeated.
+    #[inline(always)]
+    pub fn from<N: Lane>(list: &[u32], first: usize) -> Self {
+        Self::of(&list[first..first + N::WIDTH])
     }
 
     /// So many places from one on, at least one; behind them the first one is repeated.
@@ -144,6 +152,15 @@ pub fn columns_at<N: Lane>(rows: &[Row], places: &Places) -> [N; 4] {
     assert!((places.last as usize) < rows.len(), "row {} of {}", places.last, rows.len());
     // SAFETY: the rows are there.
     unsafe { N::load_rows(rows.as_ptr(), places.places.as_ptr()) }
+}
+
+/// The rows at the first places less those at the others, as four columns.
+#[inline(always)]
+pub fn differences_at<N: Lane>(rows: &[Row], first: &Places, others: &Places) -> [N; 4] {
+    let last = u32::max(first.last, others.last);
+    assert!((last as usize) < rows.len(), "row {last} of {}", rows.len());
+    // SAFETY: the rows are there.
+    unsafe { N::load_difference(rows.as_ptr(), first.places.as_ptr(), others.places.as_ptr()) }
 }
 
 /// Four columns as rows; those behind the last lane are zero.

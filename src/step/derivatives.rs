@@ -8,19 +8,12 @@ use super::habit::Input;
 use super::way_back::Given;
 use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
-use crate::dual::Dual;
-use crate::interactions::Pass;
-use crate::lanes::Width;
 use crate::motion::AxisMotion;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
-use crate::state::State;
-use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, FourInputs, Inputs, OneInput, PASSING, Tangent};
-
-/// Up to so many inputs cost less one by one than together.
-const FEW: usize = 2;
+use crate::tangent::{BoundarySlopes, OneInput, PASSING, Tangent};
 
 /// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -96,7 +89,7 @@ impl Simulation {
     /// more.
     fn told(&mut self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
         let followed = std::mem::take(&mut self.followed);
-        followed.iter().flat_map(|followed| followed.told(length)).collect()
+        followed.iter().map(|followed| told_of(followed, length)).collect()
     }
 
     /// Makes a communication step of this length \[s\], and carries slopes along by the inputs that the host will probably ask for.
@@ -110,35 +103,16 @@ impl Simulation {
         result
     }
 
-    /// What follows these inputs through a communication step of this length \[s\] that begins now: as many of them together as
-    /// registers hold, where that costs less than one after another.
-    fn follow_all(&self, mut inputs: &[Input], length: f64) -> Vec<Box<dyn Followed>> {
-        let mut followed = Vec::new();
-        while !inputs.is_empty() {
-            let (count, follow): (usize, fn(&Self, &[_], f64) -> _) = match (self.width, inputs.len()) {
-                (Width::Least, _) | (_, ..=FEW) => (1, Self::follow::<OneInput>),
-                (Width::Eight, count) if count > FourInputs::COUNT => (EightInputs::COUNT, Self::follow::<EightInputs>),
-                _ => (FourInputs::COUNT, Self::follow::<FourInputs>),
-            };
-            let (these, others) = inputs.split_at(count.min(inputs.len()));
-            followed.push(follow(self, these, length));
-            inputs = others;
-        }
-        followed
-    }
-
-    /// What follows some inputs, at most [`Inputs::COUNT`], through a communication step of this length \[s\] that begins now.
-    fn follow<I: Inputs>(&self, inputs: &[Input], length: f64) -> Box<dyn Followed>
-    where
-        Tangent<I>: Followed,
-    {
-        let mut tangent = Tangent::<I>::of(&self.state, self.width, self.turning);
-        for (direction, &(boundary, axis)) in inputs.iter().enumerate() {
+    /// What follows these inputs through a communication step of this length \[s\] that begins now.
+    fn follow_all(&self, inputs: &[Input], length: f64) -> Vec<Tangent<OneInput>> {
+        let follow = |&(boundary, axis): &Input| {
+            let mut tangent = Tangent::of(&self.state, self.width, self.turning);
             let place = boundary.index();
             let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
-            slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, direction), length);
-        }
-        Box::new(tangent)
+            slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, 0), length);
+            tangent
+        };
+        inputs.iter().map(follow).collect()
     }
 
     /// Whether derivatives are followed in a scene.
@@ -169,87 +143,54 @@ impl Simulation {
         }
         let particles = &self.state.particles;
         slopes::sum_groups(&self.scene, &self.state, &mut tangent, |slot| self.fields.weight_of(particles, slot));
-        Ok(tangent.boundaries.iter().map(|slopes| told(slopes, 0, 1.0)).collect())
+        Ok(told_of(&tangent, 1.0))
     }
 
     /// The first half of a kick and the drift.
     pub(super) fn drift_slopes(&mut self, step: f64) {
-        self.followed.iter_mut().for_each(|followed| followed.drift(&self.state, step));
+        for tangent in &mut self.followed {
+            for boundary in &mut tangent.boundaries {
+                boundary.book(0.5 * step);
+            }
+            tangent.drift_particles(&self.state, step);
+        }
     }
 
-    /// Motion of the boundaries and the forces, before these are evaluated.
-    pub(super) fn evaluate_slopes(&mut self, progress: &Progress) {
-        let mut all = std::mem::take(&mut self.followed);
-        all.iter_mut().for_each(|followed| followed.evaluate(self, progress));
-        self.followed = all;
+    /// Motion of the boundaries, before forces are evaluated.
+    pub(super) fn lead_slopes(&mut self, progress: &Progress) {
+        let Self { scene, state, bodies, followed, .. } = self;
+        for tangent in followed {
+            tangent.follow(state);
+            slopes::advance(scene, bodies, state, tangent, progress);
+        }
     }
 
     /// The second half of a kick, after forces have been evaluated.
     pub(super) fn kick_slopes(&mut self, weighed: bool, step: f64) {
-        let mut all = std::mem::take(&mut self.followed);
-        all.iter_mut().for_each(|followed| followed.kick(self, weighed, step));
-        self.followed = all;
-    }
-}
-
-/// Slopes by some inputs that go through the time steps of a simulation.
-pub(super) trait Followed: Send + Sync {
-    /// The first half of a kick and the drift.
-    fn drift(&mut self, state: &State, step: f64);
-
-    /// Motion of the boundaries and the forces, before these are evaluated.
-    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress);
-
-    /// The second half of a kick, after forces have been evaluated.
-    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64);
-
-    /// What is told of the boundaries after a communication step of this length \[s\], input by input.
-    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>>;
-}
-
-impl<I: Inputs> Followed for Tangent<I>
-where
-    dyn Pass: FollowPass<I>,
-{
-    fn drift(&mut self, state: &State, step: f64) {
-        for boundary in &mut self.boundaries {
-            boundary.book(0.5 * step);
-        }
-        self.drift_particles(state, step);
-    }
-
-    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress) {
-        let Simulation { scene, state, bodies, passes, .. } = simulation;
-        self.follow(state);
-        slopes::advance(scene, bodies, state, self, progress);
-        for pass in passes {
-            pass.add_slopes(state, self, Dual::constant(progress.step));
-        }
-    }
-
-    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64) {
-        let Simulation { scene, state, bodies, fields, .. } = simulation;
+        let Self { scene, state, bodies, fields, followed, .. } = self;
         let weight = |slot: usize| if weighed { fields.weight_of(&state.particles, slot) } else { [0.0; 3] };
-        slopes::sum_groups(scene, state, self, weight);
-        self.follow_bonds(state);
-        fields.damp_slopes::<I>(&state.particles, &mut self.particles.force, &mut self.particles.torque);
-        self.kick_particles(state, step);
-        slopes::kick_again(bodies, state, self, step);
-        for boundary in &mut self.boundaries {
-            boundary.book(0.5 * step);
+        for tangent in followed {
+            slopes::sum_groups(scene, state, tangent, weight);
+            tangent.follow_bonds(state);
+            fields.damp_slopes::<OneInput>(&state.particles, &mut tangent.particles.force, &mut tangent.particles.torque);
+            tangent.kick_particles(state, step);
+            slopes::kick_again(bodies, state, tangent, step);
+            for boundary in &mut tangent.boundaries {
+                boundary.book(0.5 * step);
+            }
         }
-    }
-
-    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
-        let of = |direction| self.boundaries.iter().map(|slopes| told(slopes, direction, length)).collect();
-        (0..I::COUNT).map(of).collect()
     }
 }
 
-/// What is told of a boundary, by one of the inputs, after a communication step of this length \[s\].
-fn told<I: Inputs>(slopes: &BoundarySlopes<I>, direction: usize, length: f64) -> BoundaryDerivatives {
-    let of = |slopes: &[I::Each; 3]| slopes.map(|slopes| slopes[direction]);
-    let mean = |impulse: &[I::Each; 3]| impulse.map(|impulse| impulse[direction] / length);
+/// What is told of the boundaries after a communication step of this length \[s\].
+fn told_of(tangent: &Tangent<OneInput>, length: f64) -> Vec<BoundaryDerivatives> {
+    tangent.boundaries.iter().map(|slopes| told(slopes, length)).collect()
+}
+
+/// What is told of a boundary after a communication step of this length \[s\].
+fn told(slopes: &BoundarySlopes<OneInput>, length: f64) -> BoundaryDerivatives {
+    let of = |slopes: &[[f64; 1]; 3]| slopes.map(|[slope]| slope);
+    let mean = |impulse: &[[f64; 1]; 3]| impulse.map(|[impulse]| impulse / length);
     BoundaryDerivatives {
         displacement: of(&slopes.displacement),
         velocity: of(&slopes.velocity),

@@ -23,9 +23,8 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
-use derivatives::Followed;
-use habit::Habit;
 pub use derivatives::{BoundaryDerivatives, NoDerivative};
+use habit::Habit;
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -47,6 +46,7 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{Foresight, State, StateFault};
+use crate::tangent::{OneInput, Tangent};
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -91,7 +91,7 @@ pub struct Simulation {
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
     /// How the state changes with some inputs, while that is followed.
-    followed: Vec<Box<dyn Followed>>,
+    followed: Vec<Tangent<OneInput>>,
     /// When and for which derivatives the host asks.
     habit: Habit,
     /// A flag that another thread sets to end the present interval.
@@ -466,7 +466,7 @@ impl Simulation {
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone();
-        self.evaluate_slopes(&progress);
+        self.lead_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
@@ -498,7 +498,10 @@ impl Simulation {
         self.room.between.begin();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(pass.apply(&mut self.state, context));
+            result = result.and(match self.followed.is_empty() {
+                true => pass.apply(&mut self.state, context),
+                false => pass.apply_with_slopes(&mut self.state, &mut self.followed, context),
+            });
             let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
             if next != Some(source) {
                 self.room.between.note(&mut self.state, &self.bodies, source, next);

@@ -1,9 +1,8 @@
 //! How many inputs are followed together, and how the slopes by them stand in memory and in registers.
 
-use crate::dual::{Dual, SideBySide, Slopes};
-use crate::lanes::{self, Eight, Four, Kernel, Lane, Places, Width, columns_at, rows_of};
+use crate::dual::{Dual, Slopes};
+use crate::lanes::{self, Kernel, Lane, Places, Width, columns_at, differences_at, rows_of};
 use crate::number::{Number, Row, Vector, add, subtract};
-use std::marker::PhantomData;
 use std::ops::IndexMut;
 
 /// Some inputs that are followed together.
@@ -36,6 +35,15 @@ pub(crate) trait Inputs: Send + Sync + 'static {
     /// The slopes of the rows at these places, a column each.
     fn rows_at<N: Lane>(rows: &[Self::Row], places: &Places) -> [Self::Slopes<N>; 4];
 
+    /// The slopes of consecutive rows from one on, a column each.
+    fn rows_from<N: Lane>(rows: &[Self::Row], first: usize) -> [Self::Slopes<N>; 4];
+
+    /// Writes slopes to consecutive rows from one on.
+    fn put_from<N: Lane>(columns: [Self::Slopes<N>; 4], rows: &mut [Self::Row], first: usize);
+
+    /// The slopes of the rows at the first places less those at the others, a column each.
+    fn differences_at<N: Lane>(rows: &[Self::Row], first: &Places, others: &Places) -> [Self::Slopes<N>; 4];
+
     /// Slopes that are the same for all contacts or bonds that are worked on at a time.
     fn spread<N: Lane>(each: Self::Each) -> Self::Slopes<N>;
 
@@ -54,9 +62,6 @@ pub(crate) trait Inputs: Send + Sync + 'static {
     /// Adds the slopes of the first so many vectors, one after another.
     fn sum<N: Lane>(columns: [Self::Slopes<N>; 3], sums: &mut [Self::Each; 3], count: usize);
 
-    /// Adds multiples of the slopes of a vector.
-    fn add_times(sums: &mut Self::Row, parts: &Self::Row, factor: f64);
-
     /// The slopes of a number of the row.
     fn each(row: &Self::Row, place: usize) -> Self::Each;
 
@@ -74,6 +79,15 @@ pub(crate) type Alone<I> = Dual<f64, <I as Inputs>::Each>;
 #[inline(always)]
 pub(crate) fn rows_at<I: Inputs, N: Lane>(values: &[Row], rows: &[I::Row], places: &Places) -> [InLanes<I, N>; 4] {
     let ([x, y, z, w], [dx, dy, dz, dw]) = (columns_at(values, places), I::rows_at(rows, places));
+    [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::new(w, dw)]
+}
+
+/// Rows of values with slopes.
+#[inline(always)]
+pub(crate) fn with_slopes<I: Inputs, N: Lane>(
+    [x, y, z, w]: [I::Values<N>; 4],
+    [dx, dy, dz, dw]: [I::Slopes<N>; 4],
+) -> [InLanes<I, N>; 4] {
     [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::new(w, dw)]
 }
 
@@ -134,6 +148,23 @@ impl Inputs for OneInput {
     }
 
     #[inline(always)]
+    fn rows_from<N: Lane>(rows: &[Row], first: usize) -> [[N; 1]; 4] {
+        let [x, y, z, w] = lanes::columns_from(rows, first);
+        [[x], [y], [z], [w]]
+    }
+
+    #[inline(always)]
+    fn put_from<N: Lane>([[x], [y], [z], [w]]: [[N; 1]; 4], rows: &mut [Row], first: usize) {
+        lanes::rows_from([x, y, z, w], rows, first);
+    }
+
+    #[inline(always)]
+    fn differences_at<N: Lane>(rows: &[Row], first: &Places, others: &Places) -> [[N; 1]; 4] {
+        let [x, y, z, w] = differences_at(rows, first, others);
+        [[x], [y], [z], [w]]
+    }
+
+    #[inline(always)]
     fn spread<N: Lane>([slope]: [f64; 1]) -> [N; 1] {
         [N::splat(slope)]
     }
@@ -179,108 +210,11 @@ impl Inputs for OneInput {
         }
     }
 
-    #[inline(always)]
-    fn add_times(sums: &mut Row, parts: &Row, factor: f64) {
-        for (sum, part) in sums.iter_mut().zip(parts) {
-            *sum += factor * part;
-        }
-    }
-
     fn each(row: &Row, place: usize) -> [f64; 1] {
         [row[place]]
     }
 
     fn row([[x], [y], [z], [w]]: [[f64; 1]; 4]) -> Row {
         [x, y, z, w]
-    }
-}
-
-/// As many inputs as a register `R` has numbers, which are `COUNT`.
-pub(crate) struct Together<R, const COUNT: usize>(PhantomData<R>);
-
-/// Four inputs, where registers have four numbers or more.
-pub(crate) type FourInputs = Together<Four, { Four::WIDTH }>;
-
-/// Eight inputs, where registers have eight numbers.
-pub(crate) type EightInputs = Together<Eight, { Eight::WIDTH }>;
-
-/// The slopes of a row's numbers. It begins with a cache line, so that no register is read from two of them.
-#[derive(Clone, Copy)]
-#[repr(align(64))]
-pub(crate) struct Aligned<const COUNT: usize>([[f64; COUNT]; 4]);
-
-impl<R: Lane, const COUNT: usize> Inputs for Together<R, COUNT> {
-    const COUNT: usize = COUNT;
-    type Each = [f64; COUNT];
-    type Row = Aligned<COUNT>;
-    const NONE: Self::Row = Aligned([[0.0; COUNT]; 4]);
-    type Values<N: Lane> = f64;
-    type Slopes<N: Lane> = SideBySide<R>;
-
-    fn run<K: Kernel>(width: Width, kernel: K) {
-        lanes::run_in::<R, K>(width, kernel);
-    }
-
-    #[inline(always)]
-    fn rows_at<N: Lane>(rows: &[Self::Row], places: &Places) -> [SideBySide<R>; 4] {
-        let [x, y, z, w] = &rows[places.at(0)].0;
-        [SideBySide::new(x), SideBySide::new(y), SideBySide::new(z), SideBySide::new(w)]
-    }
-
-    #[inline(always)]
-    fn spread<N: Lane>(each: [f64; COUNT]) -> SideBySide<R> {
-        SideBySide::new(&each)
-    }
-
-    #[inline(always)]
-    fn put<N: Lane>([x, y, z, w]: [SideBySide<R>; 4], rows: &mut [Self::Row], places: &[u32]) {
-        let [a, b, c, d] = &mut rows[places[0] as usize].0;
-        x.put(a);
-        y.put(b);
-        z.put(c);
-        w.put(d);
-    }
-
-    #[inline(always)]
-    fn add<N: Lane>([x, y, z]: [SideBySide<R>; 3], rows: &mut [Self::Row], places: &[u32]) {
-        let [a, b, c, _] = &mut rows[places[0] as usize].0;
-        x.add_to(a);
-        y.add_to(b);
-        z.add_to(c);
-    }
-
-    #[inline(always)]
-    fn add_pairs<N: Lane>([first, second]: [[SideBySide<R>; 3]; 2], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
-        Self::add::<N>(first, rows, i);
-        Self::add::<N>(second, rows, j);
-    }
-
-    #[inline(always)]
-    fn add_opposite<N: Lane>([x, y, z]: [SideBySide<R>; 3], rows: &mut [Self::Row], [i, j]: [&[u32]; 2]) {
-        Self::add::<N>([x, y, z], rows, i);
-        Self::add::<N>([x.times(-1.0), y.times(-1.0), z.times(-1.0)], rows, j);
-    }
-
-    #[inline(always)]
-    fn sum<N: Lane>([x, y, z]: [SideBySide<R>; 3], sums: &mut [[f64; COUNT]; 3], _count: usize) {
-        let [a, b, c] = sums;
-        x.add_to(a);
-        y.add_to(b);
-        z.add_to(c);
-    }
-
-    #[inline(always)]
-    fn add_times(sums: &mut Self::Row, parts: &Self::Row, factor: f64) {
-        for (sum, part) in sums.0[..3].as_flattened_mut().iter_mut().zip(parts.0[..3].as_flattened()) {
-            *sum += factor * part;
-        }
-    }
-
-    fn each(row: &Self::Row, place: usize) -> [f64; COUNT] {
-        row.0[place]
-    }
-
-    fn row(each: [[f64; COUNT]; 4]) -> Self::Row {
-        Aligned(each)
     }
 }

@@ -11,10 +11,10 @@ pub(crate) mod rotation;
 
 pub(crate) use boundary::BoundarySlopes;
 pub(crate) use group::{Group, Waiting};
-pub(crate) use inputs::{Alone, EightInputs, FourInputs, InLanes, Inputs, OneInput};
-pub(crate) use inputs::{alone, row_of, rows_at, slopes_of, spread, vector_of};
+pub(crate) use inputs::{Alone, InLanes, Inputs, OneInput};
+pub(crate) use inputs::{alone, row_of, rows_at, slopes_of, spread, vector_of, with_slopes};
 pub(crate) use list::ListSlopes;
-pub(crate) use particles::ParticleSlopes;
+pub(crate) use particles::{Moving, ParticleSlopes};
 
 use crate::dual::Dual;
 use crate::geometry::Quaternion;

@@ -1,10 +1,11 @@
 //! How particles change with a few inputs.
 
 use super::inputs::vectors_at;
-use super::{InLanes, Inputs, Tangent, alone, row_of, rows_at};
+use super::{InLanes, Inputs, Tangent, rows_at, slopes_of, with_slopes};
 use crate::geometry::Quaternion;
-use crate::lanes::{Kernel, Lane, Places};
-use crate::number::{Number, Vector};
+use crate::dual::{Dual, Slopes};
+use crate::lanes::{Kernel, Lane, Places, columns_at, columns_from};
+use crate::number::{Number, Row, Vector};
 use crate::state::{Particles, State};
 
 /// How the vectors of particles change.
@@ -29,6 +30,24 @@ pub(crate) struct ParticleSlopes<I: Inputs> {
     turning: bool,
     /// Which of the scene's particles each is.
     id: Vec<u32>,
+}
+
+/// How particles stand and move.
+#[derive(Clone, Copy)]
+pub(crate) struct Moving<'a> {
+    /// Positions and radii.
+    pub position: &'a [Row],
+    /// Velocities and masses.
+    pub velocity: &'a [Row],
+    /// Angular velocities and moments of inertia.
+    pub angular_velocity: &'a [Row],
+}
+
+impl<'a> Moving<'a> {
+    /// By these rows.
+    pub(crate) fn of(position: &'a [Row], velocity: &'a [Row], angular_velocity: &'a [Row]) -> Self {
+        Self { position, velocity, angular_velocity }
+    }
 }
 
 impl<I: Inputs> Tangent<I> {
@@ -61,29 +80,56 @@ impl<I: Inputs> ParticleSlopes<I> {
         }
     }
 
-    /// Half a kick, of this length \[s\].
+    /// Half a kick, of this length \[s\], of consecutive particles from one on.
     #[inline(always)]
-    fn kick(&mut self, particles: &Particles, slot: usize, half: f64) {
-        let (mass, inertia) = (particles.velocity[slot][3], particles.angular_velocity[slot][3]);
-        I::add_times(&mut self.velocity[slot], &self.force[slot], half / mass);
+    fn kick<N: Lane>(&mut self, particles: &Particles, first: usize, half: f64) {
+        let [.., mass] = columns_from::<I::Values<N>>(&particles.velocity, first);
+        add_times::<I, N>(&mut self.velocity, &self.force, first, I::Values::<N>::splat(half) / mass);
         if self.turning {
-            I::add_times(&mut self.spin[slot], &self.torque[slot], half / inertia);
+            let [.., inertia] = columns_from::<I::Values<N>>(&particles.angular_velocity, first);
+            add_times::<I, N>(&mut self.spin, &self.torque, first, I::Values::<N>::splat(half) / inertia);
         }
     }
 
-    /// Turns an orientation as the drift does; the angular velocity has had its half kick, that of the state not yet.
+    /// Turns orientations as the drift does; the angular velocity has had its half kick, that of the state not yet.
     #[inline(always)]
-    fn turn(&mut self, particles: &Particles, slot: usize, step: f64) {
-        let (mut spin, torque) = (particles.angular_velocity[slot], particles.torque[slot]);
-        if particles.owner[slot] == 0 {
-            let factor = 0.5 * step / spin[3];
+    fn turn<N: Lane>(&mut self, particles: &Particles, first: usize, step: f64) {
+        let mut spin = columns_from::<I::Values<N>>(&particles.angular_velocity, first);
+        if particles.owner[first] == 0 {
+            let torque = columns_from::<I::Values<N>>(&particles.torque, first);
+            let factor = I::Values::<N>::splat(0.5 * step) / spin[3];
             for axis in 0..3 {
-                spin[axis] += factor * torque[axis];
+                spin[axis] = spin[axis] + factor * torque[axis];
             }
         }
-        let spin = Vector::of_row(alone::<I>(spin, &self.spin[slot]));
-        let orientation = Quaternion::from_row(alone::<I>(particles.orientation[slot], &self.orientation[slot]));
-        self.orientation[slot] = row_of::<I>(orientation.turned(spin, Number::splat(step)).to_row());
+        let spin = with_slopes::<I, N>(spin, I::rows_from::<N>(&self.spin, first));
+        let orientation = columns_from(&particles.orientation, first);
+        let orientation = with_slopes::<I, N>(orientation, I::rows_from::<N>(&self.orientation, first));
+        let turned = Quaternion::from_row(orientation).turned(Vector::of_row(spin), Number::splat(step));
+        I::put_from::<N>(slopes_of::<I, N>(turned.to_row()), &mut self.orientation, first);
+    }
+
+    /// Half a kick and the drift of consecutive particles from one on, all of them free or none. Loads begin anew.
+    #[inline(always)]
+    fn drift<N: Lane>(&mut self, particles: &Particles, first: usize, step: f64) {
+        let some = first..first + I::Values::<N>::WIDTH;
+        let reached = self.is_reached[some.clone()].iter().filter(|reached| **reached).count();
+        self.all_reached &= reached == some.len();
+        // Nothing has ever been written of a particle that is not reached.
+        if reached == 0 {
+            return;
+        }
+        if particles.owner[first] == 0 {
+            self.kick::<N>(particles, first, 0.5 * step);
+            add_times::<I, N>(&mut self.position, &self.velocity, first, Number::splat(step));
+        }
+        if !self.orientation.is_empty() {
+            self.turn::<N>(particles, first, step);
+        }
+        self.force[some.clone()].fill(I::NONE);
+        if self.turning {
+            self.torque[some].fill(I::NONE);
+        }
     }
 
     /// Takes over the order of the particles.
@@ -105,17 +151,57 @@ impl<I: Inputs> ParticleSlopes<I> {
         self.id.clone_from(&particles.id);
     }
 
+    /// Two spheres of a register's worth of contacts: from the second to the first, and the radii, whose values have been found.
+    #[inline(always)]
+    pub(crate) fn pair<N: Lane>(
+        &self,
+        [x, y, z, i, j]: [I::Values<N>; 5],
+        first: &Places,
+        second: &Places,
+    ) -> [InLanes<I, N>; 5] {
+        let [dx, dy, dz, _] = I::differences_at::<N>(&self.position, first, second);
+        [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::constant(i), Dual::constant(j)]
+    }
+
+    /// Velocities and masses of their bodies; the slopes of the first ones are those of the difference.
+    #[inline(always)]
+    pub(crate) fn velocities<N: Lane>(
+        &self,
+        moving: &Moving,
+        first: &Places,
+        second: &Places,
+    ) -> [[InLanes<I, N>; 4]; 2] {
+        let [x, y, z, mass] = columns_at(moving.velocity, first);
+        let [dx, dy, dz, _] = I::differences_at::<N>(&self.velocity, first, second);
+        let difference = [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::constant(mass)];
+        [difference, Dual::constants(columns_at(moving.velocity, second))]
+    }
+
+    /// Positions with radii of the bodies of some bonds; the slopes of the first ones are those of the difference.
+    #[inline(always)]
+    pub(crate) fn positions<N: Lane>(
+        &self,
+        moving: &Moving,
+        first: &Places,
+        second: &Places,
+    ) -> [[InLanes<I, N>; 4]; 2] {
+        let [x, y, z, radius] = columns_at(moving.position, first);
+        let [dx, dy, dz, _] = I::differences_at::<N>(&self.position, first, second);
+        let difference = [Dual::new(x, dx), Dual::new(y, dy), Dual::new(z, dz), Dual::constant(radius)];
+        [difference, Dual::constants(columns_at(moving.position, second))]
+    }
+
     /// Positions with radii and velocities with masses of a register's worth of particles, with their slopes.
     #[inline(always)]
-    pub(crate) fn bodies<N: Lane>(&self, particles: &Particles, slots: &Places) -> [[InLanes<I, N>; 4]; 2] {
-        let position = vectors_at::<I, N>(&particles.position, &self.position, slots);
-        [position, vectors_at::<I, N>(&particles.velocity, &self.velocity, slots)]
+    pub(crate) fn bodies<N: Lane>(&self, moving: &Moving, slots: &Places) -> [[InLanes<I, N>; 4]; 2] {
+        let position = vectors_at::<I, N>(moving.position, &self.position, slots);
+        [position, vectors_at::<I, N>(moving.velocity, &self.velocity, slots)]
     }
 
     /// Angular velocities with inertias of a register's worth of particles, with their slopes.
     #[inline(always)]
-    pub(crate) fn spins<N: Lane>(&self, particles: &Particles, slots: &Places) -> [InLanes<I, N>; 4] {
-        vectors_at::<I, N>(&particles.angular_velocity, &self.spin, slots)
+    pub(crate) fn spins<N: Lane>(&self, moving: &Moving, slots: &Places) -> [InLanes<I, N>; 4] {
+        vectors_at::<I, N>(moving.angular_velocity, &self.spin, slots)
     }
 
     /// Orientations of a register's worth of particles with their slopes, where there are any.
@@ -125,6 +211,11 @@ impl<I: Inputs> ParticleSlopes<I> {
             true => Quaternion::identity(),
             false => Quaternion::from_row(rows_at::<I, N>(&particles.orientation, &self.orientation, slots)),
         }
+    }
+
+    /// Whether an input has reached any of some particles.
+    pub(crate) fn reaches(&self, slots: &[u32]) -> bool {
+        self.all_reached || slots.iter().any(|&slot| self.is_reached[slot as usize])
     }
 
     /// Which of some particles an input has reached, a bit for each.
@@ -150,12 +241,16 @@ impl<I: Inputs> ParticleSlopes<I> {
     }
 
     /// Adds to the slopes of the forces on the first ones of some pairs of particles, and takes from those on the second ones, pair by
-    /// pair; both are reached then.
+    /// pair. Both are reached then, of the pairs whose bit is set; of others there are no slopes.
     #[inline(always)]
-    pub(crate) fn press_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], force: Vector<InLanes<I, N>>) {
+    pub(crate) fn press_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], force: Vector<InLanes<I, N>>, mut reached: u32) {
         I::add_opposite::<N>(force.slopes(), &mut self.force, slots);
-        for &slot in slots.into_iter().flatten() {
-            self.is_reached[slot as usize] = true;
+        while reached != 0 && !self.all_reached {
+            let pair = reached.trailing_zeros() as usize;
+            for slots in slots {
+                self.is_reached[slots[pair] as usize] = true;
+            }
+            reached &= reached - 1;
         }
     }
 
@@ -188,23 +283,14 @@ impl<I: Inputs> Kernel for Drift<'_, I> {
     fn run<N: Lane>(self) {
         let Self { slopes, particles, step } = self;
         slopes.all_reached = true;
-        for slot in 0..particles.len() {
-            // Nothing has ever been written of a particle that is not reached.
-            if !slopes.is_reached[slot] {
-                slopes.all_reached = false;
-                continue;
-            }
-            if particles.owner[slot] == 0 {
-                slopes.kick(particles, slot, 0.5 * step);
-                let velocity = slopes.velocity[slot];
-                I::add_times(&mut slopes.position[slot], &velocity, step);
-            }
-            if !slopes.orientation.is_empty() {
-                slopes.turn(particles, slot, step);
-            }
-            slopes.force[slot] = I::NONE;
-            if slopes.turning {
-                slopes.torque[slot] = I::NONE;
+        let mut first = 0;
+        while first < particles.len() {
+            if are_free::<I::Values<N>>(particles, first) {
+                slopes.drift::<N>(particles, first, step);
+                first += I::Values::<N>::WIDTH;
+            } else {
+                slopes.drift::<f64>(particles, first, step);
+                first += 1;
             }
         }
     }
@@ -224,10 +310,33 @@ impl<I: Inputs> Kernel for Kick<'_, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { slopes, particles, half } = self;
-        for slot in 0..particles.len() {
-            if particles.owner[slot] == 0 && slopes.is_reached[slot] {
-                slopes.kick(particles, slot, half);
+        let mut first = 0;
+        while first < particles.len() {
+            let whole = are_free::<I::Values<N>>(particles, first);
+            let count = if whole { I::Values::<N>::WIDTH } else { 1 };
+            if slopes.is_reached[first..first + count].contains(&true) {
+                if whole {
+                    slopes.kick::<N>(particles, first, half);
+                } else if particles.owner[first] == 0 {
+                    slopes.kick::<f64>(particles, first, half);
+                }
             }
+            first += count;
         }
     }
+}
+
+/// Whether there is a register's worth of particles from one on, all of them free.
+#[inline(always)]
+fn are_free<N: Lane>(particles: &Particles, first: usize) -> bool {
+    particles.owner.get(first..first + N::WIDTH).is_some_and(|owners| owners.iter().all(|&owner| owner == 0))
+}
+
+/// Adds multiples of the slopes of consecutive rows from one on.
+#[inline(always)]
+fn add_times<I: Inputs, N: Lane>(sums: &mut [I::Row], parts: &[I::Row], first: usize, factor: I::Values<N>) {
+    let ([x, y, z, w], [dx, dy, dz, dw]) = (I::rows_from::<N>(sums, first), I::rows_from::<N>(parts, first));
+    let with = I::Values::<N>::splat(1.0);
+    let sums_now = [x.mixed(with, dx, factor), y.mixed(with, dy, factor), z.mixed(with, dz, factor), w.mixed(with, dw, factor)];
+    I::put_from::<N>(sums_now, sums, first);
 }

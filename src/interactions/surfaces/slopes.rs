@@ -10,7 +10,7 @@ use crate::interactions::slopes::{Touching, beyond, constants, materials, needed
 use crate::lanes::{Kernel, Lane, columns_at};
 use crate::number::{Number, Vector};
 use crate::state::State;
-use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, Tangent, Waiting, spread};
+use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, Moving, Tangent, Waiting, spread};
 
 /// Rows of particles as a boundary sees them whose own part has these slopes.
 #[inline(always)]
@@ -47,6 +47,7 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
     fn run<N: Lane>(self) {
         let Self { pass: Touching((surface, plane)), state, tangent, step } = self;
         let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
+        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
         let (step, table) = (spread::<I, N>(step), &surface.table);
         let uniform = table.uniform_with(surface.material).map(in_lanes::<I::Values<N>>);
         let Tangent { particles: moved, walls, boundaries, .. } = tangent;
@@ -75,8 +76,8 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
                 continue;
             }
             let Group { entries, bodies: [slots], count } = group;
-            let [position, velocity] = moved.bodies::<N>(particles, &slots);
-            let spin = if TURNING { moved.spins(particles, &slots) } else { [Dual::zero(); 4] };
+            let [position, velocity] = moved.bodies::<N>(&moving, &slots);
+            let spin = if TURNING { moved.spins(&moving, &slots) } else { [Dual::zero(); 4] };
             let (place, speed) = (Dual::values_of(position), Dual::values_of(velocity));
             let (position, velocity) =
                 (seen::<I, N>(position, &boundary.displacement), seen::<I, N>(velocity, &boundary.velocity));
@@ -90,7 +91,7 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
             let row = match &uniform {
                 Some(row) => row,
                 None => {
-                    gathered = table.lanes(materials(particles, &slots), [surface.material; 8]);
+                    gathered = table.lanes(materials(&particles.material, &slots), [surface.material; 8]);
                     &gathered
                 }
             };
