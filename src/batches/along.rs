@@ -3,8 +3,8 @@
 use super::buffer::Buffer;
 use super::{Entries, FOUND};
 use crate::contact::{Needs, Reaction};
-use crate::lanes::{Lane, Places, columns};
-use crate::number::Row;
+use crate::lanes::{Lane, Places, columns, rows_from};
+use crate::number::{Row, Vector};
 use crate::state::contacts::SLIDING;
 
 /// Goes along with the evaluation of a list.
@@ -92,19 +92,15 @@ impl Batch<'_> {
     /// Writes what the law does, and the arms of the bodies \[m\].
     #[inline(always)]
     pub(crate) fn put<N: Lane>(&mut self, at: usize, reaction: &Reaction<N>, arms: [N; 2], needs: Needs) {
-        let put = |vector, rows: &mut [Row]| {
-            // SAFETY: so many rows are there.
-            unsafe { N::store_block(columns(vector), rows[at..at + N::WIDTH].as_mut_ptr()) }
-        };
-        put(reaction.force, &mut self.buffer.force);
+        put(reaction.force, &mut self.buffer.force[at..at + N::WIDTH]);
         if !needs.torque {
             return;
         }
-        put(reaction.couple, &mut self.buffer.couple);
+        put(reaction.couple, &mut self.buffer.couple[at..at + N::WIDTH]);
         // SAFETY: `at` + a register is at most the room of the buffer, or the above has panicked.
         unsafe { self.buffer.put_arms(at, arms) };
         if needs.spin {
-            put(reaction.rolling, &mut self.buffer.rolling);
+            put(reaction.rolling, &mut self.buffer.rolling[at..at + N::WIDTH]);
         }
         let mut sliding = N::bits(reaction.sliding);
         while sliding != 0 {
@@ -114,4 +110,10 @@ impl Batch<'_> {
             sliding &= sliding - 1;
         }
     }
+}
+
+/// Writes vectors to as many rows.
+#[inline(always)]
+fn put<N: Lane>(vector: Vector<N>, rows: &mut [Row]) {
+    rows_from(columns(vector), rows, 0);
 }

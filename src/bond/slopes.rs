@@ -157,8 +157,7 @@ impl<B: Breakage, V: Lane, S: Slopes<V>> Work for Judged<'_, B, V, S> {
 }
 
 /// What a formulation does to bonds, whose rows go on, with slopes.
-type Respond<V, S> =
-    fn(&Coefficients<Dual<V, S>>, &Pair<Dual<V, S>>, &mut Rows<Dual<V, S>>, &mut Answer<Dual<V, S>>);
+type Respond<V, S> = fn(&Coefficients<Dual<V, S>>, &Pair<Dual<V, S>>, &mut Rows<Dual<V, S>>, &mut Answer<Dual<V, S>>);
 
 /// Takes what a formulation does, with slopes.
 struct TakeSloped<V, S>(PhantomData<(V, S)>);

@@ -7,19 +7,31 @@ use crate::dual::{Dual, Slopes};
 use crate::lanes::{Kernel, Lane, Places, columns_at, columns_from, lanes_of, vectors_of};
 use crate::number::Vector;
 use crate::state::{BondList, Particles, Row, State};
-use crate::tangent::{AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, Moving, ParticleSlopes, Tangent};
+use crate::tangent::{
+    AddSlopes, Alone, FollowPass, Group, InLanes, Inputs, ListSlopes, Moving, ParticleSlopes, Tangent,
+};
 use crate::tangent::{rows_at, slopes_of, spread, with_slopes};
 
 /// Particles as bodies of bonds, with slopes.
 #[inline(always)]
 fn bodies<I: Inputs, N: Lane>(moved: &ParticleSlopes<I>, particles: &Particles, slots: &Places) -> Body<InLanes<I, N>> {
     let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-    let ([position, velocity], spin) = (moved.bodies(&moving, slots), moved.spins(&moving, slots));
+    let [position, velocity] = moved.bodies(&moving, slots);
+    body::<I, N>([position, velocity, moved.spins(&moving, slots)], moved.orientations(particles, slots))
+}
+
+/// A body of each bond, by positions with radii, velocities with masses, angular velocities with moments of inertia; and
+/// orientations. (Closures would not always be compiled for the features of the registers.)
+#[inline(always)]
+fn body<I: Inputs, N: Lane>(
+    [position, velocity, spin]: [[InLanes<I, N>; 4]; 3],
+    orientation: Quaternion<InLanes<I, N>>,
+) -> Body<InLanes<I, N>> {
     Body {
         position: Vector::of_row(position),
         velocity: Vector::of_row(velocity),
         spin: Vector::of_row(spin),
-        orientation: moved.orientations(particles, slots),
+        orientation,
         radius: position[3],
         mass: velocity[3],
         inertia: spin[3],
@@ -48,19 +60,9 @@ fn pairs<I: Inputs, N: Lane>(
 ) -> Pair<InLanes<I, N>> {
     let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
     let (positions, velocities) = (moved.positions::<N>(&moving, i, j), moved.velocities::<N>(&moving, i, j));
-    let body = |body: usize, slots: &Places| {
-        let (position, velocity, spin) = (positions[body], velocities[body], moved.spins(&moving, slots));
-        Body {
-            position: Vector::of_row(position),
-            velocity: Vector::of_row(velocity),
-            spin: Vector::of_row(spin),
-            orientation: moved.orientations(particles, slots),
-            radius: position[3],
-            mass: velocity[3],
-            inertia: spin[3],
-        }
-    };
-    Pair::of_spheres(&body(0, i), &body(1, j))
+    let first = body::<I, N>([positions[0], velocities[0], moved.spins(&moving, i)], moved.orientations(particles, i));
+    let second = body::<I, N>([positions[1], velocities[1], moved.spins(&moving, j)], moved.orientations(particles, j));
+    Pair::of_spheres(&first, &second)
 }
 
 /// Room for what some bonds remember and do.
@@ -180,7 +182,8 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
         let mut room = Room::<I, N>::new();
         for first in (0..list.first.len()).step_by(I::Values::<N>::WIDTH) {
             let count = usize::min(list.first.len() - first, I::Values::<N>::WIDTH);
-            let [i, j] = [&list.first, &list.second].map(|slots| Places::of(&slots[first..first + count]));
+            let some = first..first + count;
+            let (i, j) = (Places::of(&list.first[some.clone()]), Places::of(&list.second[some]));
             if moved.reached(i.first(count)) | moved.reached(j.first(count)) == 0 {
                 continue;
             }

@@ -115,12 +115,7 @@ impl Pass for ContactPass {
 
 impl ContactPass {
     /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
-    fn evaluate<const PLANE: bool>(
-        &self,
-        state: &mut State,
-        context: &Context,
-        followed: &mut [Tangent<OneInput>],
-    ) {
+    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context, followed: &mut [Tangent<OneInput>]) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);

@@ -4,11 +4,11 @@ use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
 use crate::contact::Response;
+use crate::dual::Dual;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::dual::Dual;
 use crate::tangent::{FollowPass, OneInput, Tangent};
 use crate::threads::Context;
 

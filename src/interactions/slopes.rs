@@ -229,9 +229,9 @@ impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
             }
             let constant = batch.constants::<I::Values<N>>(at);
             let geometry = SpherePair::from_found(spheres).meet(velocities, spins, Dual::constant(constant));
-            let values = SpherePair::from_found(found)
-                .meet(velocities.map(Dual::values_of), [[Number::zero(); 4]; 2], constant)
-                .contact;
+            let [velocity_i, velocity_j] = velocities;
+            let known = [Dual::values_of(velocity_i), Dual::values_of(velocity_j)];
+            let values = SpherePair::from_found(found).meet(known, [[Number::zero(); 4]; 2], constant).contact;
             let mut geometry = needed::<I, N, TURNING>(geometry, &values, needs);
             let gathered;
             let row = match &uniform {
@@ -245,7 +245,8 @@ impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
                 let slopes = slopes.begin::<N>(place, &entries, count);
                 *row = with_slopes::<I, N>(batch.remembered(place, at), slopes);
             }
-            let reaction = react_by::<I, N, TURNING>(law, &acting, row, &mut geometry.contact, &mut rows[..remembered], step);
+            let reaction =
+                react_by::<I, N, TURNING>(law, &acting, row, &mut geometry.contact, &mut rows[..remembered], step);
             if writes {
                 for (place, row) in rows[..remembered].iter().enumerate() {
                     batch.remember(place, at, Dual::values_of(*row));
@@ -275,12 +276,12 @@ impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
 /// The values of what a law does.
 #[inline(always)]
 fn values_of<V: Number, S: Slopes<V>>(reaction: &Reaction<Dual<V, S>>) -> Reaction<V> {
-    let values = |vector: Vector<Dual<V, S>>| Vector::new(vector.x.value, vector.y.value, vector.z.value);
+    let Reaction { force, couple, rolling, sliding } = *reaction;
     Reaction {
-        force: values(reaction.force),
-        couple: values(reaction.couple),
-        rolling: values(reaction.rolling),
-        sliding: reaction.sliding,
+        force: Vector::new(force.x.value, force.y.value, force.z.value),
+        couple: Vector::new(couple.x.value, couple.y.value, couple.z.value),
+        rolling: Vector::new(rolling.x.value, rolling.y.value, rolling.z.value),
+        sliding,
     }
 }
 

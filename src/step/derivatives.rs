@@ -5,10 +5,9 @@
 
 use super::Simulation;
 use super::habit::Input;
+use super::no_derivative::{NoDerivative, refuse};
 use super::way_back::Given;
-use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
-use crate::motion::AxisMotion;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
@@ -30,25 +29,6 @@ pub struct BoundaryDerivatives {
     pub mean_force: [f64; 3],
     /// Of the mean moment of the communication step \[N m\].
     pub mean_moment: [f64; 3],
-}
-
-/// Why there is no derivative.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoDerivative {
-    /// Something in the scene is not followed.
-    #[error("{what}: derivatives do not follow it; {right} has them")]
-    Refused {
-        /// What it is.
-        what: String,
-        /// What would be right.
-        right: &'static str,
-    },
-    /// No communication step to follow.
-    #[error(
-        "derivatives are those of the last communication step, and there is none since the state was set or a parameter \
-         changed; a communication step before is right"
-    )]
-    NoStep,
 }
 
 impl Simulation {
@@ -172,7 +152,11 @@ impl Simulation {
         for tangent in followed {
             slopes::sum_groups(scene, state, tangent, weight);
             tangent.follow_bonds(state);
-            fields.damp_slopes::<OneInput>(&state.particles, &mut tangent.particles.force, &mut tangent.particles.torque);
+            fields.damp_slopes::<OneInput>(
+                &state.particles,
+                &mut tangent.particles.force,
+                &mut tangent.particles.torque,
+            );
             tangent.kick_particles(state, step);
             slopes::kick_again(bodies, state, tangent, step);
             for boundary in &mut tangent.boundaries {
@@ -201,44 +185,90 @@ fn told(slopes: &BoundarySlopes<OneInput>, length: f64) -> BoundaryDerivatives {
     }
 }
 
-/// Refuses what slopes do not follow.
-fn refuse(scene: &Scene) -> Result<(), NoDerivative> {
-    let refused = |what: String, right| Err(NoDerivative::Refused { what, right });
-    let right = "a scene whose particles stay";
-    if let Some(insertion) = scene.insertions.first() {
-        return refused(format!("[insertion.{}] particles that come", insertion.name), right);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+    use std::sync::Arc;
+
+    /// Spheres between two planes, whose upper one is driven.
+    const PRESSED: &str = r#"
+[run]
+step = 1.0e-5
+threads = 2
+[material.glass]
+density = 2500.0
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+[pair.glass.glass]
+restitution = 0.5
+friction = 0.5
+[contact.all.normal.hertz]
+[contact.all.tangential.history]
+[particles.all]
+material = "glass"
+lattice = { kind = "simple_cubic", radius = 0.005, spacing = 0.00999, counts = [12, 3, 3], origin = [0.0, 0.0, 0.0] }
+[boundary.floor]
+plane = { point = [0.0, 0.0, -0.004995], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+[boundary.top]
+plane = { point = [0.0, 0.0, 0.024975], normal = [0.0, 0.0, -1.0] }
+material = "glass"
+motion = { driven = ["x", "z"] }
+"#;
+
+    /// At time 0, on so many threads.
+    fn begin(threads: usize) -> Simulation {
+        let text = PRESSED.replace("threads = 2", &format!("threads = {threads}"));
+        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+        let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+        Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
     }
-    if let Some(outlet) = scene.outlets.first() {
-        return refused(format!("[outlet.{}] particles that go", outlet.name), right);
+
+    /// Makes a communication step in which the top goes on.
+    fn advance(simulation: &mut Simulation, number: u32) {
+        simulation.set_input(BoundaryIndex(1), 0, 2.0e-6 * f64::from(number));
+        simulation.set_input(BoundaryIndex(1), 2, -1.0e-6 * f64::from(number));
+        simulation.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
     }
-    if scene.removes() {
-        return refused("[domain] outside = \"remove\", particles that go".to_owned(), right);
+
+    #[test]
+    fn slopes_that_go_along_are_those_of_the_step_made_again_and_change_nothing() {
+        let across = (BoundaryIndex(1), 0);
+        let inputs = [across, (BoundaryIndex(1), 2)];
+        for threads in [1, 2] {
+            let (mut asked, mut plain) = (begin(threads), begin(1));
+            for number in 1..=6 {
+                advance(&mut asked, number);
+                advance(&mut plain, number);
+                assert!(asked.state() == plain.state());
+                assert_eq!(asked.habit.by(across).is_some(), number > 3);
+                assert!(plain.habit.by(across).is_none());
+                let found = asked.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}"));
+                if number == 6 {
+                    assert!(found[0] != found[1]);
+                    assert!(found == plain.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+                }
+            }
+            // What does not go along is found beside what does.
+            advance(&mut asked, 7);
+            advance(&mut plain, 7);
+            let other = [(BoundaryIndex(1), 1), across];
+            let both = [&mut asked, &mut plain].map(|it| it.derivatives(&other));
+            assert!(both[0].is_ok() && both[0] == both[1]);
+            assert!(asked.state() == plain.state());
+        }
     }
-    for boundary in &scene.boundaries {
-        let name = &boundary.name;
-        if boundary.axes.iter().any(|axis| axis.servo().is_some()) {
-            return refused(format!("[boundary.{name}] moved by a servo"), "one that is driven or loaded");
+
+    #[test]
+    fn slopes_of_a_state_that_was_left_are_forgotten() {
+        let mut simulation = begin(1);
+        for number in 1..=5 {
+            advance(&mut simulation, number);
+            simulation.derivatives(&[(BoundaryIndex(1), 2)]).unwrap_or_else(|refusal| panic!("{refusal}"));
         }
-        if boundary.axes[3..].iter().any(AxisMotion::is_free) {
-            return refused(format!("[boundary.{name}] turned by forces"), "one that forces move along its axes alone");
-        }
-        let free = boundary.axes.iter().any(AxisMotion::is_free);
-        let damped = |member: &u32| scene.damping.iter().any(|set| set.linear[*member as usize] != 0.0);
-        if free && boundary.shape.members().iter().any(damped) {
-            let what = format!("[boundary.{name}] moved by forces under [damping]");
-            return refused(what, "one without global damping");
-        }
-        if boundary.shape.material().is_some() && boundary.shifting_plane().is_none() {
-            return refused(format!("[boundary.{name}] a surface of features"), "a plane, or a group of particles,");
-        }
+        let state = simulation.state().clone();
+        simulation.return_to(&state);
+        assert_eq!(simulation.derivatives(&[(BoundaryIndex(1), 2)]), Err(NoDerivative::NoStep));
     }
-    for bond in &scene.bonds {
-        if bond.keys.contact != ContactPolicy::Parallel {
-            return refused(format!("[bond.{}] a bond that suppresses contacts", bond.name), "contact = \"parallel\"");
-        }
-        if bond.create.due() != Due::AtStart {
-            return refused(format!("[bond.{}] a bond made on the way", bond.name), "one made before the first step");
-        }
-    }
-    Ok(())
 }

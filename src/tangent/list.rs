@@ -21,7 +21,13 @@ pub(crate) struct ListSlopes<I: Inputs> {
 impl<I: Inputs> ListSlopes<I> {
     /// An empty list of so many rows.
     pub(super) fn of(rows: usize) -> Self {
-        Self { bodies: Vec::new(), rows: vec![Vec::new(); rows], odd: vec![[false; 4]; rows], last: Vec::new(), evaluation: 0 }
+        Self {
+            bodies: Vec::new(),
+            rows: vec![Vec::new(); rows],
+            odd: vec![[false; 4]; rows],
+            last: Vec::new(),
+            evaluation: 0,
+        }
     }
 
     /// Says which numbers of the first rows change their sign where the bodies change places.

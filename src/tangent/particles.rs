@@ -2,8 +2,8 @@
 
 use super::inputs::vectors_at;
 use super::{InLanes, Inputs, Tangent, rows_at, slopes_of, with_slopes};
-use crate::geometry::Quaternion;
 use crate::dual::{Dual, Slopes};
+use crate::geometry::Quaternion;
 use crate::lanes::{Kernel, Lane, Places, columns_at, columns_from};
 use crate::number::{Number, Row, Vector};
 use crate::state::{Particles, State};
@@ -337,6 +337,7 @@ fn are_free<N: Lane>(particles: &Particles, first: usize) -> bool {
 fn add_times<I: Inputs, N: Lane>(sums: &mut [I::Row], parts: &[I::Row], first: usize, factor: I::Values<N>) {
     let ([x, y, z, w], [dx, dy, dz, dw]) = (I::rows_from::<N>(sums, first), I::rows_from::<N>(parts, first));
     let with = I::Values::<N>::splat(1.0);
-    let sums_now = [x.mixed(with, dx, factor), y.mixed(with, dy, factor), z.mixed(with, dz, factor), w.mixed(with, dw, factor)];
+    let sums_now =
+        [x.mixed(with, dx, factor), y.mixed(with, dy, factor), z.mixed(with, dz, factor), w.mixed(with, dw, factor)];
     I::put_from::<N>(sums_now, sums, first);
 }

@@ -410,11 +410,13 @@ impl Law {
         }
         let along = if offset.acts { normal.force } else { 0.0 };
         let acting = f64::acting(self);
-        let (force, couple, sliding) =
-            self.friction(&acting, row, contact, (&normal, along), history, (step, carry));
+        let (force, couple, sliding) = self.friction(&acting, row, contact, (&normal, along), history, (step, carry));
         let pressed = Contact { overlap: offset.pressing, ..*contact };
-        let rolling =
-            if offset.acts { self.roll(&acting, row, &pressed, &normal, history, (step, carry)) } else { Vector::zero() };
+        let rolling = if offset.acts {
+            self.roll(&acting, row, &pressed, &normal, history, (step, carry))
+        } else {
+            Vector::zero()
+        };
         Reaction { force, couple, rolling, sliding }
     }
 
@@ -493,8 +495,7 @@ impl Law {
             before = carry.torque(contact.normal, before);
             (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
         }
-        let (torque, mut after) =
-            (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
+        let (torque, mut after) = (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
         if carry.is_some() {
             after[3] = normal.response.normal_stiffness;
         }
