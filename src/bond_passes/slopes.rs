@@ -116,7 +116,7 @@ impl Bonds<'_> {
     fn put<I: Inputs, N: Lane>(&self, row: [InLanes<I, N>; 4], slopes: &mut [I::Row]) {
         match self.count == I::Values::<N>::WIDTH {
             true => I::put_from::<N>(slopes_of::<I, N>(row), slopes, self.first),
-            false => I::put::<N>(slopes_of::<I, N>(row), slopes, self.places().first(self.count)),
+            false => I::put::<N>(slopes_of::<I, N>(row), slopes, &self.places()),
         }
     }
 
@@ -190,9 +190,8 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &BondPass, I> {
             let pair = pairs::<I, N>(moved, particles, [&i, &j]);
             let bonds = (Bonds { list, first, count }, &mut *slopes);
             let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut room, fixed));
-            let slots = [i.first(count), j.first(count)];
-            moved.press_pairs(slots, found.force, (1 << count) - 1);
-            moved.twist_pairs(slots, [found.torque_i, found.torque_j]);
+            moved.press_pairs([&i, &j], (count, (1 << count) - 1), found.force);
+            moved.twist_pairs([&i, &j], count, [found.torque_i, found.torque_j]);
         }
     }
 }
@@ -229,8 +228,8 @@ impl<I: Inputs> Kernel for AddSlopes<'_, &WallBondPass, I> {
             let pair = Pair::at_wall(&bodies::<I, N>(moved, particles, &slots), &foot);
             let bonds = (Bonds { list, first, count }, &mut *slopes);
             let found = react::<I, N>(&pass.law, &coefficients, &pair, bonds, (&mut room, fixed));
-            moved.press(slots.first(count), found.force);
-            moved.twist(slots.first(count), found.torque_i);
+            moved.press(&slots, count, found.force);
+            moved.twist(&slots, count, found.torque_i);
             let arm = |lane: usize| Vector::from(list.foot[entries.at(lane)]) - pass.reference;
             let moment = found.torque_j - moving::<I, N>(vectors_of(arm), [I::Each::none(); 3]).cross(found.force);
             I::sum::<N>((-found.force).slopes(), &mut boundary.force, count);

@@ -41,26 +41,24 @@ fn react_by<I: Inputs, N: Lane, const TURNING: bool>(
 /// The same; slopes of what they remember, at these places of the list, go on. `rows` is room for that.
 #[inline(always)]
 pub(super) fn react<I: Inputs, N: Lane, const TURNING: bool>(
-    law: &Law,
-    row: &[I::Values<N>],
+    (law, acting, row): (&Law, &Acting<InLanes<I, N>>, &[I::Values<N>]),
     contact: &mut Contact<InLanes<I, N>>,
-    (history, slopes, entries): (&[Vec<Row>], &mut ListSlopes<I>, (&Places, usize)),
+    (history, slopes, entries): (&[Vec<Row>], &mut ListSlopes<I>, &Places),
     (rows, step): (&mut Remembered<I, N>, InLanes<I, N>),
 ) -> Reaction<InLanes<I, N>> {
-    let (entries, count) = entries;
     let rows = &mut rows[..law.history().len()];
     for (row, (values, slopes)) in rows.iter_mut().zip(history.iter().zip(&slopes.rows)) {
         *row = rows_at::<I, N>(values, slopes, entries);
     }
-    let reaction = react_by::<I, N, TURNING>(law, &Evaluated::acting(law), row, contact, rows, step);
+    let reaction = react_by::<I, N, TURNING>(law, acting, row, contact, rows, step);
     for (slopes, row) in slopes.rows.iter_mut().zip(rows) {
-        I::put::<N>(slopes_of::<I, N>(*row), slopes, entries.first(count));
+        I::put::<N>(slopes_of::<I, N>(*row), slopes, entries);
     }
     reaction
 }
 
 /// Contacts with what their law looks at, and no slopes of what follows from radii and masses, which do not change: of the rest
-/// nothing is computed. `values` are those of the same contacts.
+/// nothing is computed. `values` are those of the same contacts. The area of the section is left to be found, where it is needed.
 #[inline(always)]
 pub(super) fn needed<I: Inputs, N: Lane, const TURNING: bool>(
     geometry: ContactGeometry<InLanes<I, N>>,
@@ -71,7 +69,7 @@ pub(super) fn needed<I: Inputs, N: Lane, const TURNING: bool>(
     let contact = Contact {
         radius: Dual::constant(values.radius),
         mass: Dual::constant(values.mass),
-        section_area: if needs.section { contact.section_area } else { Dual::zero() },
+        section_area: Dual::zero(),
         section_radius: Dual::constant(values.section_radius),
         slip: kept(TURNING && (needs.torque || needs.carry), contact.slip),
         relative_spin: kept(TURNING && needs.spin, contact.relative_spin),
@@ -228,11 +226,15 @@ impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
                 spins = [moved.spins(moving, &i), moved.spins(moving, &j)];
             }
             let constant = batch.constants::<I::Values<N>>(at);
-            let geometry = SpherePair::from_found(spheres).meet(velocities, spins, Dual::constant(constant));
+            let spheres = SpherePair::from_found(spheres);
+            let geometry = spheres.meet(velocities, spins, Dual::constant(constant));
             let [velocity_i, velocity_j] = velocities;
             let known = [Dual::values_of(velocity_i), Dual::values_of(velocity_j)];
             let values = SpherePair::from_found(found).meet(known, [[Number::zero(); 4]; 2], constant).contact;
             let mut geometry = needed::<I, N, TURNING>(geometry, &values, needs);
+            if needs.section {
+                geometry.contact.section_area = spheres.section(spheres.roots(), geometry.contact.overlap);
+            }
             let gathered;
             let row = match &uniform {
                 Some(row) => row,
@@ -258,16 +260,13 @@ impl<I: Inputs, const TURNING: bool> Kernel for Follow<'_, '_, '_, I, TURNING> {
                 continue;
             }
             for (place, row) in rows[..remembered].iter().enumerate() {
-                slopes.put::<N>(place, &entries, count, slopes_of::<I, N>(*row));
+                slopes.put::<N>(place, &entries, slopes_of::<I, N>(*row));
             }
             let Reaction { force, couple, rolling, .. } = reaction;
-            let slots = [i.first(count), j.first(count)];
-            moved.press_pairs(slots, force, reached);
+            moved.press_pairs([&i, &j], (count, reached), force);
             if TURNING {
-                moved.twist_pairs(
-                    slots,
-                    [-(couple * geometry.first_arm) - rolling, rolling - couple * geometry.second_arm],
-                );
+                let on_i = -(couple * geometry.first_arm) - rolling;
+                moved.twist_pairs([&i, &j], count, [on_i, rolling - couple * geometry.second_arm]);
             }
         }
     }

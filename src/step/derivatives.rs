@@ -157,7 +157,7 @@ impl Simulation {
                 &mut tangent.particles.force,
                 &mut tangent.particles.torque,
             );
-            tangent.kick_particles(state, step);
+            tangent.kick_particles(step);
             slopes::kick_again(bodies, state, tangent, step);
             for boundary in &mut tangent.boundaries {
                 boundary.book(0.5 * step);

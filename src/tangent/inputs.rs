@@ -2,7 +2,7 @@
 
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{self, Kernel, Lane, Places, Width, columns_at, differences_at, rows_of};
-use crate::number::{Number, Row, Vector, add, subtract};
+use crate::number::{Number, Row, Vector};
 use std::ops::IndexMut;
 
 /// Some inputs that are followed together.
@@ -48,19 +48,27 @@ pub(crate) trait Inputs: Send + Sync + 'static {
     fn spread<N: Lane>(each: Self::Each) -> Self::Slopes<N>;
 
     /// Writes slopes to the rows at these places.
-    fn put<N: Lane>(columns: [Self::Slopes<N>; 4], rows: &mut [Self::Row], places: &[u32]);
+    fn put<N: Lane>(columns: [Self::Slopes<N>; 4], rows: &mut [Self::Row], places: &Places);
 
-    /// Adds the slopes of vectors to those of the rows at these places.
-    fn add<N: Lane>(columns: [Self::Slopes<N>; 3], rows: &mut [Self::Row], places: &[u32]);
+    /// Adds the slopes of vectors to those of the rows at the first so many places.
+    fn add<N: Lane>(columns: [Self::Slopes<N>; 3], rows: &mut [Self::Row], places: &Places, count: usize);
 
     /// The same for pairs of rows, one pair after another: the first vectors to the first rows, the others to the second ones.
-    fn add_pairs<N: Lane>(columns: [[Self::Slopes<N>; 3]; 2], rows: &mut [Self::Row], places: [&[u32]; 2]);
+    fn add_pairs<N: Lane>(
+        columns: [[Self::Slopes<N>; 3]; 2],
+        rows: &mut [Self::Row],
+        places: [&Places; 2],
+        count: usize,
+    );
 
     /// The same where the others are opposite to the first vectors.
-    fn add_opposite<N: Lane>(columns: [Self::Slopes<N>; 3], rows: &mut [Self::Row], places: [&[u32]; 2]);
+    fn add_opposite<N: Lane>(columns: [Self::Slopes<N>; 3], rows: &mut [Self::Row], places: [&Places; 2], count: usize);
 
     /// Adds the slopes of the first so many vectors, one after another.
     fn sum<N: Lane>(columns: [Self::Slopes<N>; 3], sums: &mut [Self::Each; 3], count: usize);
+
+    /// Adds multiples of the slopes of a row.
+    fn add_times(sums: &mut Self::Row, parts: &Self::Row, factor: f64);
 
     /// The slopes of a number of the row.
     fn each(row: &Self::Row, place: usize) -> Self::Each;
@@ -170,35 +178,24 @@ impl Inputs for OneInput {
     }
 
     #[inline(always)]
-    fn put<N: Lane>([[x], [y], [z], [w]]: [[N; 1]; 4], rows: &mut [Row], places: &[u32]) {
-        for (&place, row) in places.iter().zip(&rows_of([x, y, z, w])) {
-            rows[place as usize] = *row;
-        }
+    fn put<N: Lane>([[x], [y], [z], [w]]: [[N; 1]; 4], rows: &mut [Row], places: &Places) {
+        lanes::put_at([x, y, z, w], rows, places);
     }
 
     #[inline(always)]
-    fn add<N: Lane>([[x], [y], [z]]: [[N; 1]; 3], rows: &mut [Row], places: &[u32]) {
-        for (&place, row) in places.iter().zip(&rows_of([x, y, z, N::zero()])) {
-            add(&mut rows[place as usize], row);
-        }
+    fn add<N: Lane>([[x], [y], [z]]: [[N; 1]; 3], rows: &mut [Row], places: &Places, count: usize) {
+        lanes::add_at([x, y, z, N::zero()], rows, places, count);
     }
 
     #[inline(always)]
-    fn add_pairs<N: Lane>([first, second]: [[[N; 1]; 3]; 2], rows: &mut [Row], [i, j]: [&[u32]; 2]) {
-        let ([[a], [b], [c]], [[d], [e], [f]], none) = (first, second, N::zero());
-        let (first, second) = (rows_of([a, b, c, none]), rows_of([d, e, f, none]));
-        for ((&i, &j), (first, second)) in i.iter().zip(j).zip(first.iter().zip(&second)) {
-            add(&mut rows[i as usize], first);
-            add(&mut rows[j as usize], second);
-        }
+    fn add_pairs<N: Lane>([one, other]: [[[N; 1]; 3]; 2], rows: &mut [Row], [i, j]: [&Places; 2], count: usize) {
+        let ([[a], [b], [c]], [[d], [e], [f]], none) = (one, other, N::zero());
+        lanes::add_pairs_at([[a, b, c, none], [d, e, f, none]], rows, i, j, count);
     }
 
     #[inline(always)]
-    fn add_opposite<N: Lane>([[x], [y], [z]]: [[N; 1]; 3], rows: &mut [Row], [i, j]: [&[u32]; 2]) {
-        for ((&i, &j), row) in i.iter().zip(j).zip(&rows_of([x, y, z, N::zero()])) {
-            add(&mut rows[i as usize], row);
-            subtract(&mut rows[j as usize], row);
-        }
+    fn add_opposite<N: Lane>([[x], [y], [z]]: [[N; 1]; 3], rows: &mut [Row], [i, j]: [&Places; 2], count: usize) {
+        lanes::add_opposite_at([x, y, z, N::zero()], rows, i, j, count);
     }
 
     #[inline(always)]
@@ -207,6 +204,13 @@ impl Inputs for OneInput {
             for (sum, part) in sums.iter_mut().zip(row) {
                 sum[0] += part;
             }
+        }
+    }
+
+    #[inline(always)]
+    fn add_times(sums: &mut Row, parts: &Row, factor: f64) {
+        for (sum, part) in sums.iter_mut().zip(parts) {
+            *sum += factor * part;
         }
     }
 

@@ -61,14 +61,20 @@ impl<I: Inputs> ListSlopes<I> {
 
     /// Writes slopes of a row.
     #[inline(always)]
-    pub(crate) fn put<N: Lane>(&mut self, row: usize, entries: &Places, count: usize, slopes: [I::Slopes<N>; 4]) {
-        I::put::<N>(slopes, &mut self.rows[row], entries.first(count));
+    pub(crate) fn put<N: Lane>(&mut self, row: usize, entries: &Places, slopes: [I::Slopes<N>; 4]) {
+        I::put::<N>(slopes, &mut self.rows[row], entries);
     }
 
     /// Takes over the entries of a list: those of the same bodies keep their slopes, others have none.
     pub(super) fn follow(&mut self, bodies: impl Iterator<Item = [u32; 2]>) {
         let bodies: Vec<[u32; 2]> = bodies.collect();
         if bodies == self.bodies {
+            return;
+        }
+        if self.bodies.is_empty() {
+            self.rows.iter_mut().for_each(|rows| *rows = vec![I::NONE; bodies.len()]);
+            self.last = vec![0; if self.last.is_empty() { 0 } else { bodies.len() }];
+            self.bodies = bodies;
             return;
         }
         let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];

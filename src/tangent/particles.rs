@@ -2,7 +2,7 @@
 
 use super::inputs::vectors_at;
 use super::{InLanes, Inputs, Tangent, rows_at, slopes_of, with_slopes};
-use crate::dual::{Dual, Slopes};
+use crate::dual::Dual;
 use crate::geometry::Quaternion;
 use crate::lanes::{Kernel, Lane, Places, columns_at, columns_from};
 use crate::number::{Number, Row, Vector};
@@ -28,6 +28,8 @@ pub(crate) struct ParticleSlopes<I: Inputs> {
     all_reached: bool,
     /// Whether torques turn the particles.
     turning: bool,
+    /// 1 over mass \[1/kg\] and moment of inertia \[1/(kg m²)\] of each; 0 of those of boundaries.
+    inverse: Vec<[f64; 2]>,
     /// Which of the scene's particles each is.
     id: Vec<u32>,
 }
@@ -57,8 +59,8 @@ impl<I: Inputs> Tangent<I> {
     }
 
     /// The second half of the kick of free particles.
-    pub(crate) fn kick_particles(&mut self, state: &State, step: f64) {
-        I::run(self.width, Kick { slopes: &mut self.particles, particles: &state.particles, half: 0.5 * step });
+    pub(crate) fn kick_particles(&mut self, step: f64) {
+        I::run(self.width, Kick { slopes: &mut self.particles, half: 0.5 * step });
     }
 }
 
@@ -76,18 +78,18 @@ impl<I: Inputs> ParticleSlopes<I> {
             is_reached: vec![false; particles.len()],
             all_reached: false,
             turning,
+            inverse: (0..particles.len()).map(|slot| inverse(particles, slot)).collect(),
             id: particles.id.clone(),
         }
     }
 
-    /// Half a kick, of this length \[s\], of consecutive particles from one on.
+    /// Half a kick of a particle, of this length \[s\].
     #[inline(always)]
-    fn kick<N: Lane>(&mut self, particles: &Particles, first: usize, half: f64) {
-        let [.., mass] = columns_from::<I::Values<N>>(&particles.velocity, first);
-        add_times::<I, N>(&mut self.velocity, &self.force, first, I::Values::<N>::splat(half) / mass);
+    fn kick(&mut self, slot: usize, half: f64) {
+        let [per_mass, per_inertia] = self.inverse[slot];
+        I::add_times(&mut self.velocity[slot], &self.force[slot], half * per_mass);
         if self.turning {
-            let [.., inertia] = columns_from::<I::Values<N>>(&particles.angular_velocity, first);
-            add_times::<I, N>(&mut self.spin, &self.torque, first, I::Values::<N>::splat(half) / inertia);
+            I::add_times(&mut self.spin[slot], &self.torque[slot], half * per_inertia);
         }
     }
 
@@ -109,29 +111,6 @@ impl<I: Inputs> ParticleSlopes<I> {
         I::put_from::<N>(slopes_of::<I, N>(turned.to_row()), &mut self.orientation, first);
     }
 
-    /// Half a kick and the drift of consecutive particles from one on, all of them free or none. Loads begin anew.
-    #[inline(always)]
-    fn drift<N: Lane>(&mut self, particles: &Particles, first: usize, step: f64) {
-        let some = first..first + I::Values::<N>::WIDTH;
-        let reached = self.is_reached[some.clone()].iter().filter(|reached| **reached).count();
-        self.all_reached &= reached == some.len();
-        // Nothing has ever been written of a particle that is not reached.
-        if reached == 0 {
-            return;
-        }
-        if particles.owner[first] == 0 {
-            self.kick::<N>(particles, first, 0.5 * step);
-            add_times::<I, N>(&mut self.position, &self.velocity, first, Number::splat(step));
-        }
-        if !self.orientation.is_empty() {
-            self.turn::<N>(particles, first, step);
-        }
-        self.force[some.clone()].fill(I::NONE);
-        if self.turning {
-            self.torque[some].fill(I::NONE);
-        }
-    }
-
     /// Takes over the order of the particles.
     pub(super) fn follow(&mut self, particles: &Particles) {
         let mut before = vec![0_u32; self.id.len()];
@@ -148,6 +127,7 @@ impl<I: Inputs> ParticleSlopes<I> {
             move_all(&mut self.orientation);
         }
         self.is_reached = came_from.iter().map(|&slot| self.is_reached[slot]).collect();
+        self.inverse = (0..particles.len()).map(|slot| inverse(particles, slot)).collect();
         self.id.clone_from(&particles.id);
     }
 
@@ -231,41 +211,56 @@ impl<I: Inputs> ParticleSlopes<I> {
         bits
     }
 
-    /// Adds to the slopes of the forces on some particles, which are reached then.
+    /// Adds to the slopes of the forces on the first so many of some particles, which are reached then.
     #[inline(always)]
-    pub(crate) fn press<N: Lane>(&mut self, slots: &[u32], force: Vector<InLanes<I, N>>) {
-        I::add::<N>(force.slopes(), &mut self.force, slots);
-        for &slot in slots {
+    pub(crate) fn press<N: Lane>(&mut self, slots: &Places, count: usize, force: Vector<InLanes<I, N>>) {
+        I::add::<N>(force.slopes(), &mut self.force, slots, count);
+        for &slot in slots.first(count) {
             self.is_reached[slot as usize] = true;
         }
     }
 
     /// Adds to the slopes of the forces on the first ones of some pairs of particles, and takes from those on the second ones, pair by
-    /// pair. Both are reached then, of the pairs whose bit is set; of others there are no slopes.
+    /// pair, of the first so many. Both are reached then, of the pairs whose bit is set; of others there are no slopes.
     #[inline(always)]
-    pub(crate) fn press_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], force: Vector<InLanes<I, N>>, mut reached: u32) {
-        I::add_opposite::<N>(force.slopes(), &mut self.force, slots);
+    pub(crate) fn press_pairs<N: Lane>(
+        &mut self,
+        slots: [&Places; 2],
+        (count, mut reached): (usize, u32),
+        force: Vector<InLanes<I, N>>,
+    ) {
+        I::add_opposite::<N>(force.slopes(), &mut self.force, slots, count);
         while reached != 0 && !self.all_reached {
             let pair = reached.trailing_zeros() as usize;
             for slots in slots {
-                self.is_reached[slots[pair] as usize] = true;
+                self.is_reached[slots.at(pair)] = true;
             }
             reached &= reached - 1;
         }
     }
 
-    /// Adds to the slopes of the torques on both particles of some pairs, pair by pair.
+    /// Adds to the slopes of the torques on both particles of the first so many of some pairs, pair by pair.
     #[inline(always)]
-    pub(crate) fn twist_pairs<N: Lane>(&mut self, slots: [&[u32]; 2], torques: [Vector<InLanes<I, N>>; 2]) {
-        let [first, second] = torques;
-        I::add_pairs::<N>([first.slopes(), second.slopes()], &mut self.torque, slots);
+    pub(crate) fn twist_pairs<N: Lane>(
+        &mut self,
+        slots: [&Places; 2],
+        count: usize,
+        [first, second]: [Vector<InLanes<I, N>>; 2],
+    ) {
+        I::add_pairs::<N>([first.slopes(), second.slopes()], &mut self.torque, slots, count);
     }
 
-    /// Adds to the slopes of the torques on some particles.
+    /// Adds to the slopes of the torques on the first so many of some particles.
     #[inline(always)]
-    pub(crate) fn twist<N: Lane>(&mut self, slots: &[u32], torque: Vector<InLanes<I, N>>) {
-        I::add::<N>(torque.slopes(), &mut self.torque, slots);
+    pub(crate) fn twist<N: Lane>(&mut self, slots: &Places, count: usize, torque: Vector<InLanes<I, N>>) {
+        I::add::<N>(torque.slopes(), &mut self.torque, slots, count);
     }
+}
+
+/// 1 over mass \[1/kg\] and moment of inertia \[1/(kg m²)\] of a particle; 0 of one of a boundary.
+fn inverse(particles: &Particles, slot: usize) -> [f64; 2] {
+    let free = if particles.owner[slot] == 0 { 1.0 } else { 0.0 };
+    [free / particles.velocity[slot][3], free / particles.angular_velocity[slot][3]]
 }
 
 /// Half a kick and the drift of particles.
@@ -282,16 +277,31 @@ impl<I: Inputs> Kernel for Drift<'_, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { slopes, particles, step } = self;
-        slopes.all_reached = true;
-        let mut first = 0;
-        while first < particles.len() {
-            if are_free::<I::Values<N>>(particles, first) {
-                slopes.drift::<N>(particles, first, step);
-                first += I::Values::<N>::WIDTH;
-            } else {
-                slopes.drift::<f64>(particles, first, step);
-                first += 1;
+        slopes.all_reached = !slopes.is_reached.contains(&false);
+        for slot in 0..particles.len() {
+            // Nothing has ever been written of a particle that is not reached. Those of boundaries are put where they belong later.
+            if slopes.is_reached[slot] {
+                slopes.kick(slot, 0.5 * step);
+                I::add_times(&mut slopes.position[slot], &slopes.velocity[slot], step);
+                slopes.force[slot] = I::NONE;
             }
+        }
+        let mut first = 0;
+        while first < slopes.orientation.len() {
+            let whole = are_free::<I::Values<N>>(particles, first);
+            let some = first..first + if whole { I::Values::<N>::WIDTH } else { 1 };
+            first = some.end;
+            if !slopes.is_reached[some.clone()].contains(&true) {
+                continue;
+            }
+            if whole {
+                slopes.turn::<N>(particles, some.start, step);
+            } else {
+                slopes.turn::<f64>(particles, some.start, step);
+            }
+        }
+        if slopes.turning {
+            slopes.torque.fill(I::NONE);
         }
     }
 }
@@ -300,8 +310,6 @@ impl<I: Inputs> Kernel for Drift<'_, I> {
 struct Kick<'a, I: Inputs> {
     /// What changes.
     slopes: &'a mut ParticleSlopes<I>,
-    /// The particles.
-    particles: &'a Particles,
     /// Its length \[s\].
     half: f64,
 }
@@ -309,19 +317,11 @@ struct Kick<'a, I: Inputs> {
 impl<I: Inputs> Kernel for Kick<'_, I> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { slopes, particles, half } = self;
-        let mut first = 0;
-        while first < particles.len() {
-            let whole = are_free::<I::Values<N>>(particles, first);
-            let count = if whole { I::Values::<N>::WIDTH } else { 1 };
-            if slopes.is_reached[first..first + count].contains(&true) {
-                if whole {
-                    slopes.kick::<N>(particles, first, half);
-                } else if particles.owner[first] == 0 {
-                    slopes.kick::<f64>(particles, first, half);
-                }
+        let Self { slopes, half } = self;
+        for slot in 0..slopes.velocity.len() {
+            if slopes.is_reached[slot] {
+                slopes.kick(slot, half);
             }
-            first += count;
         }
     }
 }
@@ -330,14 +330,4 @@ impl<I: Inputs> Kernel for Kick<'_, I> {
 #[inline(always)]
 fn are_free<N: Lane>(particles: &Particles, first: usize) -> bool {
     particles.owner.get(first..first + N::WIDTH).is_some_and(|owners| owners.iter().all(|&owner| owner == 0))
-}
-
-/// Adds multiples of the slopes of consecutive rows from one on.
-#[inline(always)]
-fn add_times<I: Inputs, N: Lane>(sums: &mut [I::Row], parts: &[I::Row], first: usize, factor: I::Values<N>) {
-    let ([x, y, z, w], [dx, dy, dz, dw]) = (I::rows_from::<N>(sums, first), I::rows_from::<N>(parts, first));
-    let with = I::Values::<N>::splat(1.0);
-    let sums_now =
-        [x.mixed(with, dx, factor), y.mixed(with, dy, factor), z.mixed(with, dz, factor), w.mixed(with, dw, factor)];
-    I::put_from::<N>(sums_now, sums, first);
 }

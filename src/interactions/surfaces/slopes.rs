@@ -1,10 +1,10 @@
 //! How contacts with surfaces change with a few inputs.
 
 use super::plane::Plane;
-use super::sphere::lanes;
+use super::sphere::{SphereAt, lanes};
 use super::{AtSurface, SurfacePass, Touched};
 use crate::coefficients::in_lanes;
-use crate::contact::{MOST_HISTORY, Reaction};
+use crate::contact::{Evaluated, MOST_HISTORY, Reaction};
 use crate::dual::Dual;
 use crate::interactions::slopes::{Touching, beyond, constants, materials, needed, part, react};
 use crate::lanes::{Kernel, Lane, columns_at};
@@ -54,6 +54,7 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
         let (slopes, boundary) = (&mut walls[surface.index], &mut boundaries[list.boundary as usize]);
         let pivot = surface.reference + state.boundaries[list.boundary as usize].displacement.into();
         let (moves, mut waiting) = (boundary.is_moved(), Waiting::of([&list.particle]));
+        let acting = Evaluated::acting(law);
         let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
         while let Some(mut group) = waiting.look::<I::Values<N>>() {
             let Group { entries, bodies: [slots], count } = group;
@@ -84,9 +85,13 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
             let constant = constants::<I::Values<N>>(&list.pair_constant, &entries);
             let at = [plane.distance(position), position[3]];
             let geometry = plane.meet(at, [velocity, spin], Dual::constant(constant));
-            let at = [plane.distance(place), place[3]];
-            let values = plane.meet(at, [speed, [Number::zero(); 4]], constant).contact;
+            let values = plane.meet([plane.distance(place), place[3]], [speed, [Number::zero(); 4]], constant).contact;
             let mut geometry = needed::<I, N, TURNING>(geometry, &values, surface.law.needs);
+            if surface.law.needs.section {
+                let [distance, radius] = at;
+                geometry.contact.section_area =
+                    SphereAt { normal: geometry.contact.normal, distance, radius }.section();
+            }
             let gathered;
             let row = match &uniform {
                 Some(row) => row,
@@ -95,12 +100,12 @@ impl<const TURNING: bool, I: Inputs> Kernel for AddSlopes<'_, Touching<(&AtSurfa
                     &gathered
                 }
             };
-            let remembered = (&*list.history, &mut *slopes, (&entries, count));
+            let (law, remembered) = ((law, &acting, &row[..]), (&*list.history, &mut *slopes, &entries));
             let Reaction { force, couple, rolling, .. } =
-                react::<I, N, TURNING>(law, row, &mut geometry.contact, remembered, (&mut rows, step));
-            moved.press(slots.first(count), force);
+                react::<I, N, TURNING>(law, &mut geometry.contact, remembered, (&mut rows, step));
+            moved.press(&slots, count, force);
             if TURNING {
-                moved.twist(slots.first(count), -(couple * geometry.first_arm) - rolling);
+                moved.twist(&slots, count, -(couple * geometry.first_arm) - rolling);
             }
             let away = Vector::of_row(place) - lanes(pivot);
             let [x, y, z, _] = position;
