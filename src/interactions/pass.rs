@@ -9,11 +9,11 @@ use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::tangent::{FollowPass, OneInput, Tangent};
+use crate::tangent::{FollowPass, Tangent};
 use crate::threads::Context;
 
 /// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: FollowPass<OneInput> + Send + Sync {
+pub(crate) trait Pass: FollowPass + Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
@@ -22,7 +22,7 @@ pub(crate) trait Pass: FollowPass<OneInput> + Send + Sync {
     fn apply_with_slopes(
         &self,
         state: &mut State,
-        followed: &mut [Tangent<OneInput>],
+        followed: &mut [Tangent],
         context: &Context,
     ) -> Result<(), RunError> {
         for tangent in followed {

@@ -12,7 +12,7 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
-use crate::tangent::{BoundarySlopes, OneInput, PASSING, Tangent};
+use crate::tangent::{BoundarySlopes, PASSING, Tangent};
 
 /// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,12 +84,12 @@ impl Simulation {
     }
 
     /// What follows these inputs through a communication step of this length \[s\] that begins now.
-    fn follow_all(&self, inputs: &[Input], length: f64) -> Vec<Tangent<OneInput>> {
+    fn follow_all(&self, inputs: &[Input], length: f64) -> Vec<Tangent> {
         let follow = |&(boundary, axis): &Input| {
             let mut tangent = Tangent::of(&self.state, self.width, self.turning);
             let place = boundary.index();
             let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
-            slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, 0), length);
+            slopes::begin(&self.scene.boundaries[place], moved, followed, axis, length);
             tangent
         };
         inputs.iter().map(follow).collect()
@@ -152,11 +152,7 @@ impl Simulation {
         for tangent in followed {
             slopes::sum_groups(scene, state, tangent, weight);
             tangent.follow_bonds(state);
-            fields.damp_slopes::<OneInput>(
-                &state.particles,
-                &mut tangent.particles.force,
-                &mut tangent.particles.torque,
-            );
+            fields.damp_slopes(&state.particles, &mut tangent.particles.force, &mut tangent.particles.torque);
             tangent.kick_particles(step);
             slopes::kick_again(bodies, state, tangent, step);
             for boundary in &mut tangent.boundaries {
@@ -167,12 +163,12 @@ impl Simulation {
 }
 
 /// What is told of the boundaries after a communication step of this length \[s\].
-fn told_of(tangent: &Tangent<OneInput>, length: f64) -> Vec<BoundaryDerivatives> {
+fn told_of(tangent: &Tangent, length: f64) -> Vec<BoundaryDerivatives> {
     tangent.boundaries.iter().map(|slopes| told(slopes, length)).collect()
 }
 
 /// What is told of a boundary after a communication step of this length \[s\].
-fn told(slopes: &BoundarySlopes<OneInput>, length: f64) -> BoundaryDerivatives {
+fn told(slopes: &BoundarySlopes, length: f64) -> BoundaryDerivatives {
     let of = |slopes: &[[f64; 1]; 3]| slopes.map(|[slope]| slope);
     let mean = |impulse: &[[f64; 1]; 3]| impulse.map(|[impulse]| impulse / length);
     BoundaryDerivatives {

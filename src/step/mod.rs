@@ -48,7 +48,7 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{Foresight, State, StateFault};
-use crate::tangent::{OneInput, Tangent};
+use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -93,7 +93,7 @@ pub struct Simulation {
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
     /// How the state changes with some inputs, while that is followed.
-    followed: Vec<Tangent<OneInput>>,
+    followed: Vec<Tangent>,
     /// When and for which derivatives the host asks.
     habit: Habit,
     /// A flag that another thread sets to end the present interval.
