@@ -2,9 +2,7 @@
 
 use super::buffer::Buffer;
 use super::{Entries, FOUND};
-use crate::contact::{Needs, Reaction};
-use crate::lanes::{Lane, Places, columns, rows_from};
-use crate::number::{Row, Vector};
+use crate::lanes::Lane;
 use crate::state::contacts::SLIDING;
 
 /// Goes along with the evaluation of a list.
@@ -29,28 +27,10 @@ pub(crate) struct Batch<'a> {
     /// What the list stores. The entries of the batch belong to the piece that is worked on.
     pub(super) entries: &'a Entries,
     /// The batch.
-    pub(super) buffer: &'a mut Buffer,
+    pub(crate) buffer: &'a mut Buffer,
 }
 
 impl Batch<'_> {
-    /// How many there are.
-    #[inline(always)]
-    pub(crate) fn count(&self) -> usize {
-        self.buffer.ready
-    }
-
-    /// Their bodies.
-    pub(crate) fn slots(&self) -> [&[u32]; 2] {
-        [&self.buffer.first[..self.buffer.ready], &self.buffer.second[..self.buffer.ready]]
-    }
-
-    /// First bodies, second bodies and entries, a register's worth from one on; the last one of the batch is repeated.
-    #[inline(always)]
-    pub(crate) fn places<N: Lane>(&self, at: usize) -> [Places; 3] {
-        let Buffer { first, second, entry, .. } = &*self.buffer;
-        [Places::from::<N>(first, at), Places::from::<N>(second, at), Places::from::<N>(entry, at)]
-    }
-
     /// What was found of their places.
     #[inline(always)]
     pub(crate) fn found<N: Lane>(&self, at: usize) -> [N; FOUND] {
@@ -89,20 +69,9 @@ impl Batch<'_> {
         unsafe { N::store_rows(values, self.entries.history()[row].pointer(), entries.as_ptr()) };
     }
 
-    /// Writes what the law does, and the arms of the bodies \[m\].
+    /// Notes that those entries of a register's worth slide whose bit is set.
     #[inline(always)]
-    pub(crate) fn put<N: Lane>(&mut self, at: usize, reaction: &Reaction<N>, arms: [N; 2], needs: Needs) {
-        put(reaction.force, &mut self.buffer.force[at..at + N::WIDTH]);
-        if !needs.torque {
-            return;
-        }
-        put(reaction.couple, &mut self.buffer.couple[at..at + N::WIDTH]);
-        // SAFETY: `at` + a register is at most the room of the buffer, or the above has panicked.
-        unsafe { self.buffer.put_arms(at, arms) };
-        if needs.spin {
-            put(reaction.rolling, &mut self.buffer.rolling[at..at + N::WIDTH]);
-        }
-        let mut sliding = N::bits(reaction.sliding);
+    pub(crate) fn slide(&mut self, at: usize, mut sliding: u32) {
         while sliding != 0 {
             let entry = self.buffer.entry[at + sliding.trailing_zeros() as usize] as usize;
             // SAFETY: there is a flag for each entry, which this piece alone works on.
@@ -110,10 +79,4 @@ impl Batch<'_> {
             sliding &= sliding - 1;
         }
     }
-}
-
-/// Writes vectors to as many rows.
-#[inline(always)]
-fn put<N: Lane>(vector: Vector<N>, rows: &mut [Row]) {
-    rows_from(columns(vector), rows, 0);
 }

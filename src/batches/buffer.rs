@@ -289,12 +289,10 @@ impl Buffer {
     }
 
     /// Writes the arms of a register's worth of contacts.
-    ///
-    /// # Safety
-    /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn put_arms<N: Lane>(&mut self, place: usize, [first, second]: [N; 2]) {
-        // SAFETY: the caller's promise.
+    pub(crate) fn put_arms<N: Lane>(&mut self, place: usize, [first, second]: [N; 2]) {
+        assert!(place + N::WIDTH <= ROOM, "contact {place}");
+        // SAFETY: there is room.
         unsafe {
             self.store(at::FIRST_ARM, place, first);
             self.store(at::SECOND_ARM, place, second);

@@ -35,7 +35,7 @@ use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 pub(crate) use along::{Along, Batch, Left};
-use buffer::Buffer;
+pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};

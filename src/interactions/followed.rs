@@ -2,11 +2,11 @@
 //! the bit, so the law is not evaluated beside.
 
 use super::slopes::{materials, needed, react_by};
-use crate::batches::{Along, Batch, BatchLaw, Left, SpherePair};
+use crate::batches::{Along, Batch, BatchLaw, Buffer, Left, SpherePair};
 use crate::coefficients::{CoefficientTable, in_lanes};
-use crate::contact::{Evaluated, MOST_HISTORY, Reaction};
+use crate::contact::{Evaluated, MOST_HISTORY, Needs, Reaction};
 use crate::dual::{Dual, Slopes};
-use crate::lanes::{self, Kernel, Lane};
+use crate::lanes::{self, Kernel, Lane, Places, columns, rows_from};
 use crate::number::{Number, Vector};
 use crate::tangent::{Moving, Tangent, slopes_of, spread, with_slopes};
 use std::sync::{Mutex, PoisonError};
@@ -64,7 +64,8 @@ impl<'a> Followed<'a> {
 impl Along for Followed<'_> {
     fn follow(&self, batch: &mut Batch) -> Left {
         let mut tangents = self.tangents.lock().unwrap_or_else(PoisonError::into_inner);
-        let reaches = |tangent: &Tangent| batch.slots().iter().any(|slots| tangent.particles.reaches(slots));
+        let slots = [&batch.buffer.first[..batch.buffer.ready], &batch.buffer.second[..batch.buffer.ready]];
+        let reaches = |tangent: &Tangent| slots.iter().any(|slots| tangent.particles.reaches(slots));
         let Some(last) = tangents.iter().rposition(reaches) else {
             return if self.looks { Left::Nothing } else { Left::All };
         };
@@ -109,9 +110,11 @@ impl<const TURNING: bool> Kernel for Follow<'_, '_, '_, TURNING> {
         let uniform = table.uniform().map(in_lanes::<N>);
         let acting = Evaluated::acting(law);
         let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
-        for at in (0..batch.count()).step_by(N::WIDTH) {
-            let [i, j, entries] = batch.places::<N>(at);
-            let count = usize::min(batch.count() - at, N::WIDTH);
+        for at in (0..batch.buffer.ready).step_by(N::WIDTH) {
+            let Buffer { first, second, entry, ready, .. } = &*batch.buffer;
+            let (i, j, entries) =
+                (Places::from::<N>(first, at), Places::from::<N>(second, at), Places::from::<N>(entry, at));
+            let count = usize::min(ready - at, N::WIDTH);
             let reached = moved.reached(i.first(count)) | moved.reached(j.first(count));
             if reached == 0 && !writes {
                 continue;
@@ -152,7 +155,7 @@ impl<const TURNING: bool> Kernel for Follow<'_, '_, '_, TURNING> {
                     batch.remember(place, at, Dual::values_of(*row));
                 }
                 let arms = [geometry.first_arm.value, geometry.second_arm.value];
-                batch.put(at, &values_of(&reaction), arms, needs);
+                put(batch, at, &values_of(&reaction), (arms, needs));
             }
             if reached == 0 {
                 continue;
@@ -168,6 +171,21 @@ impl<const TURNING: bool> Kernel for Follow<'_, '_, '_, TURNING> {
             }
         }
     }
+}
+
+/// Writes what the law does to a register's worth of contacts, and the arms of the bodies \[m\]; the last contact of the batch is repeated.
+#[inline(always)]
+fn put<N: Lane>(batch: &mut Batch, at: usize, reaction: &Reaction<N>, (arms, needs): ([N; 2], Needs)) {
+    rows_from(columns(reaction.force), &mut batch.buffer.force, at);
+    if !needs.torque {
+        return;
+    }
+    rows_from(columns(reaction.couple), &mut batch.buffer.couple, at);
+    batch.buffer.put_arms(at, arms);
+    if needs.spin {
+        rows_from(columns(reaction.rolling), &mut batch.buffer.rolling, at);
+    }
+    batch.slide(at, N::bits(reaction.sliding));
 }
 
 /// The values of what a law does.

@@ -4,8 +4,8 @@
 //! beginning, with the same bits. Each time step has its own contacts, stick and slip, as they were.
 
 use super::Simulation;
+use super::answer::{BoundaryDerivatives, NoDerivative, refuse};
 use super::habit::Input;
-use super::no_derivative::{NoDerivative, refuse};
 use super::way_back::Given;
 use crate::boundaries::slopes;
 use crate::motion::Progress;
@@ -13,23 +13,6 @@ use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::tangent::{BoundarySlopes, PASSING, Tangent};
-
-/// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BoundaryDerivatives {
-    /// Of the force of the particles \[N\].
-    pub force: [f64; 3],
-    /// Of its displacement \[m\].
-    pub displacement: [f64; 3],
-    /// Of its velocity \[m/s\].
-    pub velocity: [f64; 3],
-    /// Of their moment \[N m\].
-    pub moment: [f64; 3],
-    /// Of the mean force of the communication step \[N\].
-    pub mean_force: [f64; 3],
-    /// Of the mean moment of the communication step \[N m\].
-    pub mean_moment: [f64; 3],
-}
 
 impl Simulation {
     /// How the boundaries change with each of some inputs, axes of boundaries, at the end of the last communication step. The

@@ -5,7 +5,7 @@
 //! So what a host did the last time in the same situation is taken for what it will do, and the situation is whether it asked after
 //! each of the two steps before.
 
-use super::BoundaryDerivatives;
+use super::answer::BoundaryDerivatives;
 use crate::quantity::BoundaryIndex;
 
 /// An axis of a boundary that derivatives are taken by.

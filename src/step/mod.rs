@@ -1,5 +1,6 @@
 //! One time step: the passes, in their order, over the state.
 
+mod answer;
 mod assemble;
 mod coefficients;
 mod depth;
@@ -8,7 +9,6 @@ mod exchange;
 mod habit;
 mod limits;
 mod losses;
-mod no_derivative;
 mod observe;
 mod placement;
 mod plane;
@@ -23,11 +23,10 @@ mod way_back;
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
+pub use answer::{BoundaryDerivatives, NoDerivative};
 pub use coefficients::TuneError;
-pub use derivatives::BoundaryDerivatives;
 use habit::Habit;
 pub use limits::LONGEST_AUTOMATIC_STEP;
-pub use no_derivative::NoDerivative;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};

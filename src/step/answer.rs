@@ -1,8 +1,25 @@
-//! Why there is no derivative: what in a scene slopes do not follow.
+//! What a host gets that asks for derivatives: how boundaries change, or why that is not known.
 
 use crate::bond::creation::{ContactPolicy, Due};
 use crate::motion::AxisMotion;
 use crate::scene::Scene;
+
+/// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoundaryDerivatives {
+    /// Of the force of the particles \[N\].
+    pub force: [f64; 3],
+    /// Of its displacement \[m\].
+    pub displacement: [f64; 3],
+    /// Of its velocity \[m/s\].
+    pub velocity: [f64; 3],
+    /// Of their moment \[N m\].
+    pub moment: [f64; 3],
+    /// Of the mean force of the communication step \[N\].
+    pub mean_force: [f64; 3],
+    /// Of the mean moment of the communication step \[N m\].
+    pub mean_moment: [f64; 3],
+}
 
 /// Why there is no derivative.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
