@@ -8,7 +8,7 @@ use cograin::interface::{Interface, Value};
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
-use cograin::state::BoundaryState;
+use cograin::state::{BoundaryState, State};
 use cograin::step::{BoundaryDerivatives, Simulation};
 use std::sync::Arc;
 
@@ -63,18 +63,19 @@ fn distance(simulation: &mut Simulation, (name, axis): (&str, usize), length: f6
     let reached = at(given);
     let bytes = simulation.state().clone();
     simulation.set_input(boundary, axis, given + 1.0);
-    // One input and several are followed in ways of their own.
+    // The last of several inputs is followed where the law is evaluated, the others beside it.
     let mut by = |count: usize| {
         let inputs = vec![(boundary, axis); count];
-        let mut found = simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}"));
-        found.swap_remove(count - 1)
+        simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}"))
     };
-    let found = by(1);
-    assert_eq!(found, by(5));
+    let found = by(1).swap_remove(0);
+    assert!(by(3).iter().all(|other| *other == found));
     assert_eq!(simulation.state().boundaries[boundary.index()].target[axis], given + 1.0, "an input was forgotten");
     simulation.set_input(boundary, axis, given);
     assert_eq!(reached, seen(simulation));
     assert!(bytes == *simulation.state(), "the state is another one");
+    assert_eq!(carried(simulation, &begin, ((boundary, axis), given), length), found);
+    assert!(bytes == *simulation.state(), "the state is another one where slopes go along");
     let (found, mut most) = (slopes(&found), 0.0_f64);
     for kind in 0..found.len() {
         let expected = there[kind].iter().zip(&back[kind]).map(|(there, back)| (there - back) / (2.0 * change));
@@ -82,6 +83,24 @@ fn distance(simulation: &mut Simulation, (name, axis): (&str, usize), length: f6
         most = most.max(away(&found[kind], &expected));
     }
     most
+}
+
+/// The derivatives by an input with this value after a step that is made again and again from the same state, with a question after
+/// each: from some time on the slopes go along in the step.
+fn carried(
+    simulation: &mut Simulation,
+    begin: &State,
+    (input, value): ((BoundaryIndex, usize), f64),
+    length: f64,
+) -> Vec<BoundaryDerivatives> {
+    let mut found = Vec::new();
+    for _ in 0..4 {
+        simulation.restore(begin).unwrap_or_else(|fault| panic!("{fault}"));
+        simulation.set_input(input.0, input.1, value);
+        simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
+        found = simulation.derivatives(&[input]).unwrap_or_else(|refusal| panic!("{refusal}"));
+    }
+    found.swap_remove(0)
 }
 
 /// Length of the difference of two vectors over the length of the second.
@@ -315,7 +334,6 @@ fn derivatives_are_the_same_in_every_lane_width_and_beside_other_inputs() {
     pressed.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
     let lid = named(&pressed, "lid");
     for (mut simulation, [across, along]) in [(bonded, [(grip, 0), (grip, 2)]), (pressed, [(lid, 0), (lid, 2)])] {
-        // More than are followed one by one, and more than are followed together.
         let inputs = [across, along, along, across, along, across, along, across, across, along, along];
         let mut follow = |inputs: &[(BoundaryIndex, usize)], width: Width| {
             simulation.set_width(width);

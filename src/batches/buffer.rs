@@ -288,6 +288,17 @@ impl Buffer {
         }
     }
 
+    /// Writes the arms of a register's worth of contacts.
+    #[inline(always)]
+    pub(crate) fn put_arms<N: Lane>(&mut self, place: usize, [first, second]: [N; 2]) {
+        assert!(place + N::WIDTH <= ROOM, "contact {place}");
+        // SAFETY: there is room.
+        unsafe {
+            self.store(at::FIRST_ARM, place, first);
+            self.store(at::SECOND_ARM, place, second);
+        }
+    }
+
     /// Reads a register's worth of contacts. What is not looked at is not read.
     ///
     /// # Safety

@@ -15,6 +15,7 @@
 //! A new kind of body needs an implementation of [`Bodies`]; its pass fills [`Batches`] and calls [`Batches::run`] on pieces
 //! of the list. Pieces that run at the same time must not write to the same body.
 
+mod along;
 mod buffer;
 mod gathered;
 mod law;
@@ -33,7 +34,8 @@ use crate::contact::{Contact, MOST_KEPT, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
-use buffer::Buffer;
+pub(crate) use along::{Along, Batch, Left};
+pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};
@@ -257,6 +259,8 @@ pub(crate) struct Batches<'a, B> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
+    /// What goes along, where something does.
+    pub along: Option<&'a dyn Along>,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -320,12 +324,16 @@ impl<B: Bodies> Batches<'_, B> {
                 lanes::run(width, Touch::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
             buffer.complete::<B>(next == to);
-            self.meet(needs, buffer);
-            let stage = &mut self.stage(buffer);
-            for run in runs {
-                run(width, stage);
+            let entries = &self.entries;
+            let left = self.along.map_or(Left::All, |along| along.follow(&mut Batch { entries, buffer }));
+            if left == Left::All {
+                self.meet(needs, buffer);
+                let stage = &mut self.stage(buffer);
+                for run in runs {
+                    run(width, stage);
+                }
             }
-            if !matches!(manner, Some(Manner::Followed)) {
+            if left != Left::Nothing && !matches!(manner, Some(Manner::Followed)) {
                 lanes::run(width, Spread { bodies, needs, buffer, sum });
             }
             buffer.proceed::<B>();

@@ -2,7 +2,7 @@
 
 use super::{ContactGeometry, FOUND};
 use crate::contact::Contact;
-use crate::lanes::{Lane, vector};
+use crate::lanes::vector;
 use crate::number::{Number, Vector};
 
 /// How two spheres i and j lie to each other.
@@ -49,6 +49,18 @@ impl<N: Number> SpherePair<N> {
         [distance, N::splat(1.0) / distance]
     }
 
+    /// Area of the circle in which the spheres intersect at this overlap \[m\], in m².
+    #[inline(always)]
+    pub(crate) fn section(&self, [distance, per_distance]: [N; 2], overlap: N) -> N {
+        let (reach, difference) = (self.radius_i + self.radius_j, self.radius_i - self.radius_j);
+        N::splat(std::f64::consts::FRAC_PI_4)
+            * overlap
+            * (distance + difference)
+            * (distance - difference)
+            * (distance + reach)
+            * (per_distance * per_distance)
+    }
+
     /// Geometry and relative motion of the overlapping spheres: velocities and masses, angular velocities.
     #[inline(always)]
     pub(crate) fn meet(&self, velocities: [[N; 4]; 2], spins: [[N; 4]; 2], pair_constant: N) -> ContactGeometry<N> {
@@ -65,7 +77,7 @@ impl<N: Number> SpherePair<N> {
         pair_constant: N,
     ) -> ContactGeometry<N> {
         let Self { apart, radius_i, radius_j } = *self;
-        let (half, one) = (N::splat(0.5), N::splat(1.0));
+        let one = N::splat(1.0);
         let normal = apart * per_distance;
         let reach = radius_i + radius_j;
         let overlap = reach - distance;
@@ -73,25 +85,19 @@ impl<N: Number> SpherePair<N> {
         let mass = mass_i + mass_j;
         // Effective radius and mass share their division, which is dear.
         let shared = one / (reach * mass);
-        let arm_i = radius_i - half * overlap;
-        let arm_j = radius_j - half * overlap;
+        let half = overlap.scaled(N::splat(0.5));
+        let (arm_i, arm_j) = (radius_i - half, radius_j - half);
         let relative = vector(velocity_i) - vector(velocity_j);
         let normal_velocity = relative.dot(normal);
         let turning = vector(spin_i) * arm_i + vector(spin_j) * arm_j;
         let slip = relative - normal * normal_velocity - turning.cross(normal);
-        let difference = radius_i - radius_j;
         let (first_inertia, second_inertia) = (mass_i * radius_i * radius_i, mass_j * radius_j * radius_j);
         let radius = radius_i * radius_j * (mass * shared);
         let contact = Contact {
             overlap,
             radius,
             mass: mass_i * mass_j * (reach * shared),
-            section_area: N::splat(std::f64::consts::FRAC_PI_4)
-                * overlap
-                * (distance + difference)
-                * (distance - difference)
-                * (distance + reach)
-                * (per_distance * per_distance),
+            section_area: self.section([distance, per_distance], overlap),
             section_radius: radius + radius,
             normal,
             normal_velocity,
@@ -106,9 +112,7 @@ impl<N: Number> SpherePair<N> {
         };
         ContactGeometry { contact, first_arm: arm_i, second_arm: arm_j }
     }
-}
 
-impl<N: Lane> SpherePair<N> {
     /// As numbers.
     #[inline(always)]
     pub(crate) fn to_found(self) -> [N; FOUND] {

@@ -44,7 +44,7 @@ pub use formulation::Formulation;
 pub use law::{Law, OneBond, Reaction, remembered, rows};
 pub use motion::{Lengths, Motion, Opening, RateRows, Rates};
 pub use pair::{Body, Pair, Section};
-pub use slopes::{Remembered, Sloped};
+pub use slopes::{Answer, Remembered, Sloped};
 
 use crate::number::{Number, Vector};
 

@@ -3,7 +3,7 @@
 use super::breakage::{Breakage, Loaded, TakeRule};
 use super::damping::{Damping, DampingLoad, TakeDamping};
 use super::formulation::{Formulation, TakeFormulation};
-use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, RateRows, Rows};
+use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, RateRows, Rows, Section, motion::Turn};
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{Lane, Work};
 use crate::number::{Number, Vector};
@@ -39,8 +39,62 @@ impl<N: Number> Remembered<N> {
     }
 }
 
+/// What a formulation answers for some bonds: how they move, forces and torques. Energies and new rows are not found.
+#[derive(Clone, Copy)]
+pub struct Answer<N: Number> {
+    /// How they move.
+    motion: Motion<N>,
+    /// Forces and torques.
+    elastic: Elastic<N>,
+}
+
+impl<N: Number> Answer<N> {
+    /// Room for it.
+    #[inline(always)]
+    pub fn room() -> Self {
+        let (zero, none) = (N::zero(), Vector::zero());
+        let motion = Motion {
+            axis: none,
+            distance: zero,
+            per_distance: zero,
+            normal_velocity: zero,
+            slip: none,
+            twist_rate: zero,
+            bending_rate: none,
+            turn: Turn::none(),
+            section: Section { radius: zero, area: zero, polar: zero, axial: zero },
+        };
+        let elastic = Elastic {
+            compression: zero,
+            normal: zero,
+            shear: none,
+            torsion: zero,
+            bending: none,
+            force: none,
+            torque_i: none,
+            torque_j: none,
+            energy: zero,
+            relaxed: zero,
+            overbent: zero.greater(zero),
+            rows: [[zero; 4]; MOST_ROWS],
+        };
+        Self { motion, elastic }
+    }
+
+    /// This answer, without energies and new rows.
+    #[inline(always)]
+    fn put(&mut self, motion: &Motion<N>, elastic: &Elastic<N>) {
+        self.motion = *motion;
+        let to = &mut self.elastic;
+        (to.compression, to.normal, to.torsion, to.overbent) =
+            (elastic.compression, elastic.normal, elastic.torsion, elastic.overbent);
+        (to.shear, to.bending, to.force) = (elastic.shear, elastic.bending, elastic.force);
+        (to.torque_i, to.torque_j) = (elastic.torque_i, elastic.torque_j);
+    }
+}
+
 impl Law {
-    /// Loads of some bonds, with slopes. What they remember goes on. Called where the features of the registers
+    /// Loads of some bonds, with slopes. What they remember goes on; `answer` is room. Called where the features of the registers
     /// are there.
     #[inline(always)]
     pub fn react_with_slopes<V: Lane, S: Slopes<V>>(
@@ -48,15 +102,17 @@ impl Law {
         law: &Coefficients<Dual<V, S>>,
         pair: &Pair<Dual<V, S>>,
         remembered: &mut Remembered<Dual<V, S>>,
+        answer: &mut Answer<Dual<V, S>>,
     ) -> Sloped<V, S> {
         let respond = self.formulation.visit(self.asked(), TakeSloped(PhantomData));
         let Remembered { rows, rates } = remembered;
-        let (motion, elastic) = respond(law, pair, rows);
+        respond(law, pair, rows, answer);
+        let Answer { motion, elastic } = answer;
         let mut found =
             Sloped { force: elastic.force, torque_i: elastic.torque_i, torque_j: elastic.torque_j, broken: 0 };
         if let Some(damping) = &self.damping {
             let rates = self.foresees.then_some(rates);
-            let load = damping.visit(Damp { law, pair, motion: &motion, elastic: &elastic, rates });
+            let load = damping.visit(Damp { law, pair, motion, elastic, rates });
             found.force += load.force;
             found.torque_i += load.torque_i;
             found.torque_j += load.torque_j;
@@ -65,7 +121,7 @@ impl Law {
             return found;
         }
         // Values alone decide whether a bond breaks.
-        let (loaded, mut broken) = (elastic.loaded(&motion), V::zero().greater(V::zero()));
+        let (loaded, mut broken) = (elastic.loaded(motion), V::zero().greater(V::zero()));
         for rule in &self.breakage {
             broken = V::either(broken, rule.visit(Judge(&loaded)));
         }
@@ -100,12 +156,8 @@ impl<B: Breakage, V: Lane, S: Slopes<V>> Work for Judged<'_, B, V, S> {
     }
 }
 
-/// What a formulation does to bonds, whose rows go on, with slopes: energies are not found.
-type Respond<V, S> = fn(
-    &Coefficients<Dual<V, S>>,
-    &Pair<Dual<V, S>>,
-    &mut Rows<Dual<V, S>>,
-) -> (Motion<Dual<V, S>>, Elastic<Dual<V, S>>);
+/// What a formulation does to bonds, whose rows go on, with slopes.
+type Respond<V, S> = fn(&Coefficients<Dual<V, S>>, &Pair<Dual<V, S>>, &mut Rows<Dual<V, S>>, &mut Answer<Dual<V, S>>);
 
 /// Takes what a formulation does, with slopes.
 struct TakeSloped<V, S>(PhantomData<(V, S)>);
@@ -113,7 +165,9 @@ struct TakeSloped<V, S>(PhantomData<(V, S)>);
 impl<V: Lane, S: Slopes<V>> TakeFormulation for TakeSloped<V, S> {
     type Output = Respond<V, S>;
     fn take<F: Formulation>(self) -> Self::Output {
-        |law, pair, rows| S::within(Response::<F, V, S> { law, pair, rows, formulation: PhantomData })
+        |law, pair, rows, answer| {
+            S::within(Response::<F, V, S> { law, pair, rows, answer, formulation: PhantomData });
+        }
     }
 }
 
@@ -125,20 +179,19 @@ struct Response<'a, F, V: Lane, S: Slopes<V>> {
     pair: &'a Pair<Dual<V, S>>,
     /// What they remember.
     rows: &'a mut Rows<Dual<V, S>>,
+    /// What it answers.
+    answer: &'a mut Answer<Dual<V, S>>,
     /// The formulation.
     formulation: PhantomData<F>,
 }
 
 impl<F: Formulation, V: Lane, S: Slopes<V>> Work for Response<'_, F, V, S> {
-    type Output = (Motion<Dual<V, S>>, Elastic<Dual<V, S>>);
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run(self) {
         let (motion, elastic) = F::respond(self.law, self.pair, self.rows);
         self.rows[F::FIXED_ROWS..F::ROWS].copy_from_slice(&elastic.rows[F::FIXED_ROWS..F::ROWS]);
-        (
-            motion,
-            Elastic { energy: Dual::zero(), relaxed: Dual::zero(), rows: [[Dual::zero(); 4]; MOST_ROWS], ..elastic },
-        )
+        self.answer.put(&motion, &elastic);
     }
 }
 

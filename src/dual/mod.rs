@@ -8,7 +8,7 @@
 
 mod slopes;
 
-pub use slopes::{SideBySide, Slopes};
+pub use slopes::Slopes;
 
 use crate::number::{Number, Vector};
 use std::ops::{Add, Div, Mul, Neg, Sub};

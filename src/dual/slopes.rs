@@ -2,7 +2,7 @@
 //!
 //! Nothing here makes arrays by closures: those are not always compiled in line, and then not for the features of the registers.
 
-use crate::lanes::{Lane, Work, load_all, store_all};
+use crate::lanes::{Lane, Work};
 use crate::number::Number;
 
 /// How a number, or a register of numbers `V`, changes with some inputs.
@@ -79,66 +79,5 @@ impl<V: Lane, const D: usize> Slopes<V> for [V; D] {
     #[inline(always)]
     fn within<W: Work>(work: W) -> W::Output {
         V::within(work)
-    }
-}
-
-/// Slopes of one number by as many inputs as a register `N` has numbers.
-#[derive(Clone, Copy)]
-pub struct SideBySide<N: Lane>(N);
-
-impl<N: Lane> SideBySide<N> {
-    /// These slopes.
-    #[inline(always)]
-    pub fn new<const COUNT: usize>(slopes: &[f64; COUNT]) -> Self {
-        Self(load_all(slopes))
-    }
-
-    /// Writes the slopes.
-    #[inline(always)]
-    pub fn put<const COUNT: usize>(self, slopes: &mut [f64; COUNT]) {
-        store_all(slopes, self.0);
-    }
-
-    /// Adds the slopes to others.
-    #[inline(always)]
-    pub fn add_to<const COUNT: usize>(self, slopes: &mut [f64; COUNT]) {
-        self.plus(Self::new(slopes)).put(slopes);
-    }
-}
-
-impl<N: Lane> Slopes<f64> for SideBySide<N> {
-    #[inline(always)]
-    fn none() -> Self {
-        Self(N::zero())
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-
-    #[inline(always)]
-    fn times(self, factor: f64) -> Self {
-        Self(self.0 * N::splat(factor))
-    }
-
-    #[inline(always)]
-    fn mixed(self, factor: f64, other: Self, with: f64) -> Self {
-        Self(self.0 * N::splat(factor) + other.0 * N::splat(with))
-    }
-
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        N::within(work)
     }
 }

@@ -1,9 +1,7 @@
 //! How Cundall's damping changes what loads do to particles.
 
 use super::Fields;
-use crate::dual::Slopes;
-use crate::state::Particles;
-use crate::tangent::Inputs;
+use crate::state::{Particles, Row};
 
 impl Fields {
     /// Weight and applied force on a particle, by its slot \[N\].
@@ -13,15 +11,18 @@ impl Fields {
 
     /// Damps the slopes of forces and torques on free particles, whose loads are those behind the damping: a fraction of a load
     /// that works is taken away, of one that is worked against added.
-    pub(crate) fn damp_slopes<I: Inputs>(&self, particles: &Particles, force: &mut [I::Row], torque: &mut [I::Row]) {
-        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0 && self.damps()) {
+    pub(crate) fn damp_slopes(&self, particles: &Particles, force: &mut [Row], torque: &mut [Row]) {
+        if !self.damps() {
+            return;
+        }
+        for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
             let (damped, id) = (self.damped(particles.id[slot]), particles.id[slot]);
             let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
             let (_, after) = self.split(velocity[3], id, damped);
             let keep = |fraction: f64, power: f64| if power >= 0.0 { 1.0 - fraction } else { 1.0 + fraction };
-            let damp = |row: &I::Row, factors: [f64; 3]| {
-                let [x, y, z] = [0, 1, 2].map(|axis| I::each(row, axis).times(factors[axis]));
-                I::row([x, y, z, I::Each::none()])
+            let damp = |row: &Row, factors: [f64; 3]| {
+                let [x, y, z] = [0, 1, 2].map(|axis| row[axis] * factors[axis]);
+                [x, y, z, 0.0]
             };
             let along = |axis: usize| (particles.force[slot][axis] - after[axis]) * velocity[axis];
             force[slot] = damp(&force[slot], [0, 1, 2].map(|axis| keep(damped.linear, along(axis))));

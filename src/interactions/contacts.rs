@@ -4,21 +4,22 @@
 //! done. The order in which a particle gets its loads is thus always the same.
 
 use super::ahead::{Ahead, Link};
+use super::followed::Followed;
 use super::listed::{self, Kept, Listed, Met};
+use super::pairs::Pairs;
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
 use crate::batches::SpherePair;
-use crate::batches::{BatchLaw, Batches, Bodies, ContactGeometry, Entries, FOUND, Lost, Touching};
+use crate::batches::{Along, BatchLaw, Batches, ContactGeometry, Entries, Lost};
 use crate::coefficients::{CoefficientTable, Partners};
-use crate::contact::{Contact, Law, Needs, Response};
-use crate::lanes::{Lane, Shared};
-use crate::memory::prefetch;
-use crate::number::{add, subtract};
+use crate::contact::{Contact, Law, Response};
+use crate::dual::Dual;
+use crate::lanes::Shared;
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
-use crate::state::{ContactList, Particles, Row, State, StateFault, plane_rows};
+use crate::state::{ContactList, Particles, State, StateFault};
+use crate::tangent::{FollowPass, Moving, Tangent};
 use crate::threads::Context;
-use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one contact law.
@@ -38,9 +39,19 @@ pub(crate) struct ContactPass {
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         match state.particles.plane_rows {
-            false => self.evaluate::<false>(state, context),
-            true => self.evaluate::<true>(state, context),
+            false => self.evaluate::<false>(state, context, &mut []),
+            true => self.evaluate::<true>(state, context, &mut []),
         }
+        Ok(())
+    }
+
+    fn apply_with_slopes(
+        &self,
+        state: &mut State,
+        followed: &mut [Tangent],
+        context: &Context,
+    ) -> Result<(), RunError> {
+        self.evaluate::<false>(state, context, followed);
         Ok(())
     }
 
@@ -100,10 +111,14 @@ impl Pass for ContactPass {
 }
 
 impl ContactPass {
-    /// Evaluates the law on all contacts; with PLANE, of particles in plane rows.
-    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context) {
+    /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
+    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
+        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+        let (law, step) = ((&self.law, &self.table, self.index), Dual::constant(context.step));
+        let followed = Followed::of(law, (moving, &particles.material), followed, step);
+        let along = (!followed.is_none()).then_some(&followed as &dyn Along);
         let batches = Batches {
             bodies: Pairs::<PLANE> {
                 first: &list.first,
@@ -121,6 +136,7 @@ impl ContactPass {
             uniform: self.table.uniform(),
             step: context.step,
             width: context.width,
+            along,
         };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
         let slabs = ends.len().saturating_sub(1);
@@ -196,155 +212,32 @@ impl Listed for ContactPass {
     }
 }
 
-/// Pairs of particles. PLANE: in plane rows (`state::plane_rows`).
-#[derive(Clone, Copy)]
-struct Pairs<'a, const PLANE: bool> {
-    /// First particle of each pair.
-    first: &'a [u32],
-    /// Second particle of each pair.
-    second: &'a [u32],
-    /// Positions and radii.
-    position: &'a [Row],
-    /// Velocities and masses.
-    velocity: &'a [Row],
-    /// Angular velocities.
-    angular_velocity: &'a [Row],
-    /// Materials.
-    material: &'a [u32],
-    /// Forces.
-    force: Shared<Row>,
-    /// Torques.
-    torque: Shared<Row>,
-}
-
-impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
-    type Sum = ();
-    const FOUND: usize = FOUND;
-
-    fn first(&self) -> &[u32] {
-        self.first
-    }
-
-    fn second(&self) -> &[u32] {
-        self.second
-    }
-
-    #[inline(always)]
-    unsafe fn touch<N: Lane>(
-        &self,
-        first: *const u32,
-        second: *const u32,
-        beyond: Option<N>,
-        _sum: &mut (),
-    ) -> (u32, [N; FOUND]) {
-        let positions = self.position.as_ptr();
-        // SAFETY: a list holds slots of particles, below their number.
-        let pair = unsafe { SpherePair::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
-        (N::bits(pair.overlap(beyond)), pair.to_found())
-    }
-
-    #[inline(always)]
-    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
-        SpherePair::from_found(*found).roots()
-    }
-
-    #[inline(always)]
-    unsafe fn meet<N: Lane, const TORQUE: bool>(
-        &self,
-        first: *const u32,
-        second: *const u32,
-        found: [N; FOUND],
-        roots: [N; 2],
-    ) -> ContactGeometry<N> {
-        let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
-        // SAFETY: a list holds slots of particles, below their number.
-        let (mut velocities, mut spins) = unsafe {
-            let read = TORQUE && !PLANE;
-            let spins = if read { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
-            ([N::load_rows(v, first), N::load_rows(v, second)], spins)
+impl FollowPass for ContactPass {
+    /// Looks at the contacts alone, in a copy of the list.
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        let (particles, mut list, width) = (&state.particles, state.contacts[self.index].clone(), tangent.width);
+        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
+        let (law, tangents) = ((&self.law, &self.table, self.index), std::slice::from_mut(tangent));
+        let followed = Followed::of(law, (moving, &particles.material), tangents, step).looking();
+        let batches = Batches {
+            bodies: Pairs::<false> {
+                first: &list.first,
+                second: &list.second,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                angular_velocity: &particles.angular_velocity,
+                material: &particles.material,
+                force: Shared::new(&mut []),
+                torque: Shared::new(&mut []),
+            },
+            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
+            law: &self.law,
+            table: &self.table,
+            uniform: self.table.uniform(),
+            step: 0.0,
+            width,
+            along: Some(&followed),
         };
-        if PLANE {
-            let parted = velocities.map(plane_rows::part);
-            velocities = parted.map(|[velocity, _]| velocity);
-            spins = parted.map(|[_, spin]| spin);
-        }
-        SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
-    }
-
-    fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32 {
-        table.entry(self.material[first as usize], self.material[second as usize])
-    }
-
-    fn prefetch(&self, slots: Range<usize>, needs: Needs) {
-        // A line of the cache holds two rows.
-        for slot in slots.step_by(2) {
-            prefetch(self.position.as_ptr().wrapping_add(slot));
-            prefetch(self.velocity.as_ptr().wrapping_add(slot));
-            prefetch(self.force.pointer().wrapping_add(slot));
-            if needs.torque && !PLANE {
-                prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
-                prefetch(self.torque.pointer().wrapping_add(slot));
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
-        if PLANE {
-            self.spread_in_plane(touching, needs);
-            return;
-        }
-        let Touching { first, second, force, .. } = *touching;
-        for place in 0..first.len() {
-            let (i, j) = (first[place] as usize, second[place] as usize);
-            // SAFETY: slabs worked on at the same time do not share particles.
-            unsafe {
-                add(self.force.at(i), &force[place]);
-                subtract(self.force.at(j), &force[place]);
-                if needs.torque {
-                    let [mut on_i, mut on_j] = touching.torques(place);
-                    if needs.spin {
-                        subtract(&mut on_i, &touching.rolling[place]);
-                        add(&mut on_j, &touching.rolling[place]);
-                    }
-                    add(self.torque.at(i), &on_i);
-                    add(self.torque.at(j), &on_j);
-                }
-            }
-        }
-    }
-}
-
-impl<const PLANE: bool> Pairs<'_, PLANE> {
-    /// Adds the loads of touching entries to their bodies, which are in plane rows.
-    #[inline(always)]
-    fn spread_in_plane(&self, touching: &Touching, needs: Needs) {
-        let Touching { first, second, force, couple, rolling, .. } = *touching;
-        let mut leave = plane_rows::Leave::default();
-        for place in 0..first.len() {
-            let (i, j, force) = (first[place] as usize, second[place] as usize, force[place]);
-            let [mut on_i, mut on_j] = [[0.0; 4]; 2];
-            if needs.torque {
-                [on_i, on_j] = touching.torques(place);
-                leave.look(&force, &couple[place]);
-            }
-            if needs.spin {
-                subtract(&mut on_i, &rolling[place]);
-                add(&mut on_j, &rolling[place]);
-                leave.look(&force, &rolling[place]);
-            }
-            // SAFETY: slabs worked on at the same time do not share particles.
-            unsafe {
-                add(self.force.at(i), &plane_rows::load(force, on_i));
-                add(self.force.at(j), &plane_rows::load(force.map(|part| -part), on_j));
-            }
-        }
-        if leave.is_any() {
-            for place in 0..first.len() {
-                let torque = if needs.torque { touching.torques(place)[0] } else { [0.0; 4] };
-                // SAFETY: as above.
-                plane_rows::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
-            }
-        }
+        batches.run(0, list.first.len(), 0..0);
     }
 }

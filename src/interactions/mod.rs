@@ -2,7 +2,9 @@
 
 mod ahead;
 pub(crate) mod contacts;
+mod followed;
 mod listed;
+mod pairs;
 mod pass;
 mod records;
 mod slopes;

@@ -10,7 +10,6 @@ mod table;
 mod x86;
 
 use crate::number::{Number, Row, Vector};
-use std::marker::PhantomData;
 
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Eight, Four, Two};
@@ -24,7 +23,10 @@ pub type Four = f64;
 pub type Eight = f64;
 
 pub use shared::Shared;
-pub use table::{Places, Table, columns_at, columns_from, lanes_of, rows_from, rows_of, vectors_of};
+pub use table::{
+    Places, Table, add_at, add_opposite_at, add_pairs_at, columns_at, columns_from, differences_at, lanes_of, put_at,
+    rows_from, rows_of, vectors_of,
+};
 
 /// A [`Number`] that knows how to be read from and written to rows of four.
 pub trait Lane: Number {
@@ -126,22 +128,6 @@ pub trait Lane: Number {
     }
 }
 
-/// Reads as many numbers as a register holds.
-#[inline(always)]
-pub fn load_all<N: Lane, const COUNT: usize>(numbers: &[f64; COUNT]) -> N {
-    const { assert!(COUNT == N::WIDTH) };
-    // SAFETY: there are as many.
-    unsafe { N::load(numbers.as_ptr()) }
-}
-
-/// Writes all numbers of a register.
-#[inline(always)]
-pub fn store_all<N: Lane, const COUNT: usize>(numbers: &mut [f64; COUNT], register: N) {
-    const { assert!(COUNT == N::WIDTH) };
-    // SAFETY: as above.
-    unsafe { register.store(numbers.as_mut_ptr()) };
-}
-
 /// The first three of four columns as a vector.
 #[inline(always)]
 pub fn vector<N: Number>([x, y, z, _]: [N; 4]) -> Vector<N> {
@@ -198,15 +184,6 @@ impl Width {
         Self::ALL.into_iter().rev().find(|width| width.offered()).unwrap_or(Self::Least)
     }
 
-    /// How many numbers a register has at least.
-    fn numbers(self) -> usize {
-        match self {
-            Self::Least => 1,
-            Self::Four => 4,
-            Self::Eight => 8,
-        }
-    }
-
     /// Whether this processor offers it.
     pub fn offered(self) -> bool {
         match self {
@@ -256,25 +233,6 @@ pub fn run_seldom<K: Kernel>(width: Width, kernel: K) {
         Width::Least => kernel.run::<f64>(),
         wide => run_wide(wide, kernel),
     }
-}
-
-/// Runs a kernel in registers `N` alone, which a simulation of this width may use: it is compiled for no others.
-pub fn run_in<N: Lane, K: Kernel>(width: Width, kernel: K) {
-    /// The kernel in these registers.
-    struct In<N, K>(K, PhantomData<N>);
-
-    impl<N: Lane, K: Kernel> Work for In<N, K> {
-        type Output = ();
-        #[inline(always)]
-        fn run(self) {
-            self.0.run::<N>();
-        }
-    }
-
-    debug_assert!(width.offered(), "{width:?} is not offered by this processor");
-    // A processor that offers wide registers offers narrower ones.
-    assert!(N::WIDTH <= width.numbers(), "{width:?} has no registers of {} numbers", N::WIDTH);
-    N::within(In::<N, K>(kernel, PhantomData));
 }
 
 /// Runs a kernel in registers of four or eight numbers.

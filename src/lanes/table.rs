@@ -2,7 +2,7 @@
 
 use super::Lane;
 use crate::memory::prefetch;
-use crate::number::{Row, Vector};
+use crate::number::{Row, Vector, add, subtract};
 
 /// An item. It begins at a line of the cache: what is read of items that lie all over the memory waits for lines.
 #[derive(Clone, Copy)]
@@ -101,6 +101,8 @@ impl Places {
         }
         if let Ok(all) = <[u32; 8]>::try_from(some) {
             places = all;
+        } else if let Ok(half) = <[u32; 4]>::try_from(some) {
+            places[..4].copy_from_slice(&half);
         } else {
             for (place, own) in places.iter_mut().zip(some) {
                 *place = *own;
@@ -111,6 +113,12 @@ impl Places {
             last = u32::max(last, place);
         }
         Self { places, last }
+    }
+
+    /// As many places as a register has numbers, from one on in a list that is longer; behind them the first one is repeated.
+    #[inline(always)]
+    pub fn from<N: Lane>(list: &[u32], first: usize) -> Self {
+        Self::of(&list[first..first + N::WIDTH])
     }
 
     /// So many places from one on, at least one; behind them the first one is repeated.
@@ -144,6 +152,65 @@ pub fn columns_at<N: Lane>(rows: &[Row], places: &Places) -> [N; 4] {
     assert!((places.last as usize) < rows.len(), "row {} of {}", places.last, rows.len());
     // SAFETY: the rows are there.
     unsafe { N::load_rows(rows.as_ptr(), places.places.as_ptr()) }
+}
+
+/// The rows at the first places less those at the others, as four columns.
+#[inline(always)]
+pub fn differences_at<N: Lane>(rows: &[Row], first: &Places, others: &Places) -> [N; 4] {
+    let last = u32::max(first.last, others.last);
+    assert!((last as usize) < rows.len(), "row {last} of {}", rows.len());
+    // SAFETY: the rows are there.
+    unsafe { N::load_difference(rows.as_ptr(), first.places.as_ptr(), others.places.as_ptr()) }
+}
+
+/// Writes four columns to the rows at these places; where a place is repeated, its rows are the same.
+#[inline(always)]
+pub fn put_at<N: Lane>(columns: [N; 4], rows: &mut [Row], places: &Places) {
+    assert!((places.last as usize) < rows.len(), "row {} of {}", places.last, rows.len());
+    // SAFETY: the rows are there.
+    unsafe { N::store_rows(columns, rows.as_mut_ptr(), places.places.as_ptr()) };
+}
+
+/// Adds four columns to the rows at the first so many places, one after another.
+#[inline(always)]
+pub fn add_at<N: Lane>(columns: [N; 4], rows: &mut [Row], places: &Places, count: usize) {
+    assert!((places.last as usize) < rows.len(), "row {} of {}", places.last, rows.len());
+    for (&place, part) in places.places[..count].iter().zip(&rows_of(columns)) {
+        // SAFETY: no place is behind the last one.
+        add(unsafe { rows.get_unchecked_mut(place as usize) }, part);
+    }
+}
+
+/// Adds four columns to the rows at the first places, and takes them from those at the others, pair by pair.
+#[inline(always)]
+pub fn add_opposite_at<N: Lane>(columns: [N; 4], rows: &mut [Row], first: &Places, others: &Places, count: usize) {
+    let last = u32::max(first.last, others.last);
+    assert!((last as usize) < rows.len(), "row {last} of {}", rows.len());
+    let pairs = first.places[..count].iter().zip(&others.places[..count]);
+    for ((&first, &other), part) in pairs.zip(&rows_of(columns)) {
+        // SAFETY: no place is behind the last one.
+        unsafe {
+            add(rows.get_unchecked_mut(first as usize), part);
+            subtract(rows.get_unchecked_mut(other as usize), part);
+        }
+    }
+}
+
+/// Adds four columns to the rows at the first places, and others to those at the others, pair by pair.
+#[inline(always)]
+pub fn add_pairs_at<N: Lane>(columns: [[N; 4]; 2], rows: &mut [Row], first: &Places, others: &Places, count: usize) {
+    let last = u32::max(first.last, others.last);
+    assert!((last as usize) < rows.len(), "row {last} of {}", rows.len());
+    let [to_first, to_others] = columns;
+    let (to_first, to_others) = (rows_of(to_first), rows_of(to_others));
+    let pairs = first.places[..count].iter().zip(&others.places[..count]);
+    for ((&first, &other), (part, opposite)) in pairs.zip(to_first.iter().zip(&to_others)) {
+        // SAFETY: no place is behind the last one.
+        unsafe {
+            add(rows.get_unchecked_mut(first as usize), part);
+            add(rows.get_unchecked_mut(other as usize), opposite);
+        }
+    }
 }
 
 /// Four columns as rows; those behind the last lane are zero.

@@ -1,114 +1,81 @@
 //! Directional derivatives: slopes go through the very time steps of the last communication step.
 //!
-//! The step is made again from its beginning, with the same bits, and slopes go beside it: each time step has its own
-//! contacts, stick and slip, as they were.
+//! They go along in the step itself where the host is expected to ask ([`super::habit`]). Otherwise the step is made again from its
+//! beginning, with the same bits. Each time step has its own contacts, stick and slip, as they were.
 
 use super::Simulation;
+use super::answer::{BoundaryDerivatives, NoDerivative, refuse};
+use super::habit::Input;
 use super::way_back::Given;
-use crate::bond::creation::{ContactPolicy, Due};
 use crate::boundaries::slopes;
-use crate::dual::Dual;
-use crate::interactions::Pass;
-use crate::lanes::Width;
-use crate::motion::AxisMotion;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
+use crate::run_error::RunError;
 use crate::scene::Scene;
-use crate::state::State;
-use crate::tangent::{BoundarySlopes, EightInputs, FollowPass, FourInputs, Inputs, OneInput, PASSING, Tangent};
-
-/// Up to so many inputs cost less one by one than together.
-const FEW: usize = 2;
-
-/// How a boundary changes with an input: at the end of the last communication step, per unit of the input at that end.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BoundaryDerivatives {
-    /// Of the force of the particles \[N\].
-    pub force: [f64; 3],
-    /// Of its displacement \[m\].
-    pub displacement: [f64; 3],
-    /// Of its velocity \[m/s\].
-    pub velocity: [f64; 3],
-    /// Of their moment \[N m\].
-    pub moment: [f64; 3],
-    /// Of the mean force of the communication step \[N\].
-    pub mean_force: [f64; 3],
-    /// Of the mean moment of the communication step \[N m\].
-    pub mean_moment: [f64; 3],
-}
-
-/// Why there is no derivative.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoDerivative {
-    /// Something in the scene is not followed.
-    #[error("{what}: derivatives do not follow it; {right} has them")]
-    Refused {
-        /// What it is.
-        what: String,
-        /// What would be right.
-        right: &'static str,
-    },
-    /// No communication step to follow.
-    #[error(
-        "derivatives are those of the last communication step, and there is none since the state was set or a parameter \
-         changed; a communication step before is right"
-    )]
-    NoStep,
-}
+use crate::tangent::{BoundarySlopes, PASSING, Tangent};
 
 impl Simulation {
     /// How the boundaries change with each of some inputs, axes of boundaries, at the end of the last communication step. The
-    /// state stays as it is. From the first call on the beginning of each communication step is kept; before it is found by
-    /// making up to 64 time steps again.
+    /// state stays as it is. What the step did not carry along is found by making it again, and up to 64 time steps before it.
     pub fn derivatives(
         &mut self,
         inputs: &[(BoundaryIndex, usize)],
     ) -> Result<Vec<Vec<BoundaryDerivatives>>, NoDerivative> {
         refuse(&self.scene)?;
+        if !self.way_back.has_last() {
+            return Err(NoDerivative::NoStep);
+        }
+        self.habit.ask(inputs);
+        let missing: Vec<Input> = inputs.iter().filter(|input| self.habit.by(**input).is_none()).copied().collect();
+        let mut found = if missing.is_empty() { Vec::new() } else { self.make_again(&missing) }.into_iter();
+        let mut told = |input: &Input| match self.habit.by(*input) {
+            Some(known) => known.clone(),
+            None => found.next().unwrap_or_default(),
+        };
+        Ok(inputs.iter().map(&mut told).collect())
+    }
+
+    /// Makes the last communication step again, with slopes by these inputs.
+    fn make_again(&mut self, inputs: &[Input]) -> Vec<Vec<BoundaryDerivatives>> {
         let given: Vec<Given> = self.state.boundaries.iter().map(Given::of).collect();
         let stop = self.stop.take();
         let length = self.return_to_last();
-        let mut found = Err(NoDerivative::NoStep);
-        if let Some(length) = length {
-            self.followed = self.follow_all(inputs, length);
-            self.advance(length).expect("a communication step that was made before can be made again");
-            let followed = std::mem::take(&mut self.followed);
-            found = Ok(followed.iter().flat_map(|followed| followed.told(length)).take(inputs.len()).collect());
-        }
+        self.followed = self.follow_all(inputs, length);
+        self.advance(length).expect("a communication step that was made before can be made again");
+        let found = self.told(length);
         self.state.boundaries.iter_mut().zip(given).for_each(|(boundary, given)| given.give_to(boundary));
         self.stop = stop;
         found
     }
 
-    /// What follows these inputs through a communication step of this length \[s\] that begins now: as many of them together as
-    /// registers hold, where that costs less than one after another.
-    fn follow_all(&self, mut inputs: &[(BoundaryIndex, usize)], length: f64) -> Vec<Box<dyn Followed>> {
-        let mut followed = Vec::new();
-        while !inputs.is_empty() {
-            let (count, follow): (usize, fn(&Self, &[_], f64) -> _) = match (self.width, inputs.len()) {
-                (Width::Least, _) | (_, ..=FEW) => (1, Self::follow::<OneInput>),
-                (Width::Eight, count) if count > FourInputs::COUNT => (EightInputs::COUNT, Self::follow::<EightInputs>),
-                _ => (FourInputs::COUNT, Self::follow::<FourInputs>),
-            };
-            let (these, others) = inputs.split_at(count.min(inputs.len()));
-            followed.push(follow(self, these, length));
-            inputs = others;
-        }
-        followed
+    /// What was found of the inputs that were followed through a communication step of this length \[s\]; nothing is followed any
+    /// more.
+    fn told(&mut self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
+        let followed = std::mem::take(&mut self.followed);
+        followed.iter().map(|followed| told_of(followed, length)).collect()
     }
 
-    /// What follows some inputs, at most [`Inputs::COUNT`], through a communication step of this length \[s\] that begins now.
-    fn follow<I: Inputs>(&self, inputs: &[(BoundaryIndex, usize)], length: f64) -> Box<dyn Followed>
-    where
-        Tangent<I>: Followed,
-    {
-        let mut tangent = Tangent::<I>::of(&self.state, self.width, self.turning);
-        for (direction, &(boundary, axis)) in inputs.iter().enumerate() {
+    /// Makes a communication step of this length \[s\], and carries slopes along by the inputs that the host will probably ask for.
+    pub(super) fn advance_with_slopes(&mut self, inputs: &[Input], length: f64) -> Result<(), RunError> {
+        self.followed = self.follow_all(inputs, length);
+        let result = self.advance(length);
+        let found = self.told(length);
+        if result.is_ok() {
+            self.habit.keep(inputs.iter().copied().zip(found));
+        }
+        result
+    }
+
+    /// What follows these inputs through a communication step of this length \[s\] that begins now.
+    fn follow_all(&self, inputs: &[Input], length: f64) -> Vec<Tangent> {
+        let follow = |&(boundary, axis): &Input| {
+            let mut tangent = Tangent::of(&self.state, self.width, self.turning);
             let place = boundary.index();
             let (moved, followed) = (&self.state.boundaries[place], &mut tangent.boundaries[place]);
-            slopes::begin(&self.scene.boundaries[place], moved, followed, (axis, direction), length);
-        }
-        Box::new(tangent)
+            slopes::begin(&self.scene.boundaries[place], moved, followed, axis, length);
+            tangent
+        };
+        inputs.iter().map(follow).collect()
     }
 
     /// Whether derivatives are followed in a scene.
@@ -139,87 +106,54 @@ impl Simulation {
         }
         let particles = &self.state.particles;
         slopes::sum_groups(&self.scene, &self.state, &mut tangent, |slot| self.fields.weight_of(particles, slot));
-        Ok(tangent.boundaries.iter().map(|slopes| told(slopes, 0, 1.0)).collect())
+        Ok(told_of(&tangent, 1.0))
     }
 
     /// The first half of a kick and the drift.
     pub(super) fn drift_slopes(&mut self, step: f64) {
-        self.followed.iter_mut().for_each(|followed| followed.drift(&self.state, step));
+        for tangent in &mut self.followed {
+            for boundary in &mut tangent.boundaries {
+                boundary.book(0.5 * step);
+            }
+            tangent.drift_particles(&self.state, step);
+        }
     }
 
-    /// Motion of the boundaries and the forces, before these are evaluated.
-    pub(super) fn evaluate_slopes(&mut self, progress: &Progress) {
-        let mut all = std::mem::take(&mut self.followed);
-        all.iter_mut().for_each(|followed| followed.evaluate(self, progress));
-        self.followed = all;
+    /// Motion of the boundaries, before forces are evaluated.
+    pub(super) fn lead_slopes(&mut self, progress: &Progress) {
+        let Self { scene, state, bodies, followed, .. } = self;
+        for tangent in followed {
+            tangent.follow(state);
+            slopes::advance(scene, bodies, state, tangent, progress);
+        }
     }
 
     /// The second half of a kick, after forces have been evaluated.
     pub(super) fn kick_slopes(&mut self, weighed: bool, step: f64) {
-        let mut all = std::mem::take(&mut self.followed);
-        all.iter_mut().for_each(|followed| followed.kick(self, weighed, step));
-        self.followed = all;
-    }
-}
-
-/// Slopes by some inputs that go through the time steps of a simulation.
-pub(super) trait Followed: Send + Sync {
-    /// The first half of a kick and the drift.
-    fn drift(&mut self, state: &State, step: f64);
-
-    /// Motion of the boundaries and the forces, before these are evaluated.
-    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress);
-
-    /// The second half of a kick, after forces have been evaluated.
-    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64);
-
-    /// What is told of the boundaries after a communication step of this length \[s\], input by input.
-    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>>;
-}
-
-impl<I: Inputs> Followed for Tangent<I>
-where
-    dyn Pass: FollowPass<I>,
-{
-    fn drift(&mut self, state: &State, step: f64) {
-        for boundary in &mut self.boundaries {
-            boundary.book(0.5 * step);
-        }
-        self.drift_particles(state, step);
-    }
-
-    fn evaluate(&mut self, simulation: &Simulation, progress: &Progress) {
-        let Simulation { scene, state, bodies, passes, .. } = simulation;
-        self.follow(state);
-        slopes::advance(scene, bodies, state, self, progress);
-        for pass in passes {
-            pass.add_slopes(state, self, Dual::constant(progress.step));
-        }
-    }
-
-    fn kick(&mut self, simulation: &Simulation, weighed: bool, step: f64) {
-        let Simulation { scene, state, bodies, fields, .. } = simulation;
+        let Self { scene, state, bodies, fields, followed, .. } = self;
         let weight = |slot: usize| if weighed { fields.weight_of(&state.particles, slot) } else { [0.0; 3] };
-        slopes::sum_groups(scene, state, self, weight);
-        self.follow_bonds(state);
-        fields.damp_slopes::<I>(&state.particles, &mut self.particles.force, &mut self.particles.torque);
-        self.kick_particles(state, step);
-        slopes::kick_again(bodies, state, self, step);
-        for boundary in &mut self.boundaries {
-            boundary.book(0.5 * step);
+        for tangent in followed {
+            slopes::sum_groups(scene, state, tangent, weight);
+            tangent.follow_bonds(state);
+            fields.damp_slopes(&state.particles, &mut tangent.particles.force, &mut tangent.particles.torque);
+            tangent.kick_particles(step);
+            slopes::kick_again(bodies, state, tangent, step);
+            for boundary in &mut tangent.boundaries {
+                boundary.book(0.5 * step);
+            }
         }
-    }
-
-    fn told(&self, length: f64) -> Vec<Vec<BoundaryDerivatives>> {
-        let of = |direction| self.boundaries.iter().map(|slopes| told(slopes, direction, length)).collect();
-        (0..I::COUNT).map(of).collect()
     }
 }
 
-/// What is told of a boundary, by one of the inputs, after a communication step of this length \[s\].
-fn told<I: Inputs>(slopes: &BoundarySlopes<I>, direction: usize, length: f64) -> BoundaryDerivatives {
-    let of = |slopes: &[I::Each; 3]| slopes.map(|slopes| slopes[direction]);
-    let mean = |impulse: &[I::Each; 3]| impulse.map(|impulse| impulse[direction] / length);
+/// What is told of the boundaries after a communication step of this length \[s\].
+fn told_of(tangent: &Tangent, length: f64) -> Vec<BoundaryDerivatives> {
+    tangent.boundaries.iter().map(|slopes| told(slopes, length)).collect()
+}
+
+/// What is told of a boundary after a communication step of this length \[s\].
+fn told(slopes: &BoundarySlopes, length: f64) -> BoundaryDerivatives {
+    let of = |slopes: &[[f64; 1]; 3]| slopes.map(|[slope]| slope);
+    let mean = |impulse: &[[f64; 1]; 3]| impulse.map(|[impulse]| impulse / length);
     BoundaryDerivatives {
         displacement: of(&slopes.displacement),
         velocity: of(&slopes.velocity),
@@ -230,48 +164,90 @@ fn told<I: Inputs>(slopes: &BoundarySlopes<I>, direction: usize, length: f64) ->
     }
 }
 
-/// Refuses what slopes do not follow.
-fn refuse(scene: &Scene) -> Result<(), NoDerivative> {
-    let refused = |what: String, right| Err(NoDerivative::Refused { what, right });
-    let right = "a scene whose particles stay";
-    if let Some(insertion) = scene.insertions.first() {
-        return refused(format!("[insertion.{}] particles that come", insertion.name), right);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+    use std::sync::Arc;
+
+    /// Spheres between two planes, whose upper one is driven.
+    const PRESSED: &str = r#"
+[run]
+step = 1.0e-5
+threads = 2
+[material.glass]
+density = 2500.0
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+[pair.glass.glass]
+restitution = 0.5
+friction = 0.5
+[contact.all.normal.hertz]
+[contact.all.tangential.history]
+[particles.all]
+material = "glass"
+lattice = { kind = "simple_cubic", radius = 0.005, spacing = 0.00999, counts = [12, 3, 3], origin = [0.0, 0.0, 0.0] }
+[boundary.floor]
+plane = { point = [0.0, 0.0, -0.004995], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+[boundary.top]
+plane = { point = [0.0, 0.0, 0.024975], normal = [0.0, 0.0, -1.0] }
+material = "glass"
+motion = { driven = ["x", "z"] }
+"#;
+
+    /// At time 0, on so many threads.
+    fn begin(threads: usize) -> Simulation {
+        let text = PRESSED.replace("threads = 2", &format!("threads = {threads}"));
+        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+        let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+        Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
     }
-    if let Some(outlet) = scene.outlets.first() {
-        return refused(format!("[outlet.{}] particles that go", outlet.name), right);
+
+    /// Makes a communication step in which the top goes on.
+    fn advance(simulation: &mut Simulation, number: u32) {
+        simulation.set_input(BoundaryIndex(1), 0, 2.0e-6 * f64::from(number));
+        simulation.set_input(BoundaryIndex(1), 2, -1.0e-6 * f64::from(number));
+        simulation.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
     }
-    if scene.removes() {
-        return refused("[domain] outside = \"remove\", particles that go".to_owned(), right);
-    }
-    for boundary in &scene.boundaries {
-        let name = &boundary.name;
-        if boundary.axes.iter().any(|axis| axis.servo().is_some()) {
-            return refused(format!("[boundary.{name}] moved by a servo"), "one that is driven or loaded");
-        }
-        if boundary.axes[3..].iter().any(AxisMotion::is_free) {
-            return refused(format!("[boundary.{name}] turned by forces"), "one that forces move along its axes alone");
-        }
-        let free = boundary.axes.iter().any(AxisMotion::is_free);
-        let damped = |member: &u32| scene.damping.iter().any(|set| set.linear[*member as usize] != 0.0);
-        if free && boundary.shape.members().iter().any(damped) {
-            let what = format!("[boundary.{name}] moved by forces under [damping]");
-            return refused(what, "one without global damping");
-        }
-        if boundary.shape.material().is_some() && boundary.shifting_plane().is_none() {
-            return refused(format!("[boundary.{name}] a surface of features"), "a plane, or a group of particles,");
-        }
-    }
-    for bond in &scene.bonds {
-        if bond.keys.contact != ContactPolicy::Parallel {
-            return refused(format!("[bond.{}] a bond that suppresses contacts", bond.name), "contact = \"parallel\"");
-        }
-        if bond.law.split.is_some() {
-            let what = format!("[bond.{}] damping.viscous.integration = \"split\"", bond.name);
-            return refused(what, "integration = \"scheme\"");
-        }
-        if bond.create.due() != Due::AtStart {
-            return refused(format!("[bond.{}] a bond made on the way", bond.name), "one made before the first step");
+
+    #[test]
+    fn slopes_that_go_along_are_those_of_the_step_made_again_and_change_nothing() {
+        let across = (BoundaryIndex(1), 0);
+        let inputs = [across, (BoundaryIndex(1), 2)];
+        for threads in [1, 2] {
+            let (mut asked, mut plain) = (begin(threads), begin(1));
+            for number in 1..=6 {
+                advance(&mut asked, number);
+                advance(&mut plain, number);
+                assert!(asked.state() == plain.state());
+                assert_eq!(asked.habit.by(across).is_some(), number > 3);
+                assert!(plain.habit.by(across).is_none());
+                let found = asked.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}"));
+                if number == 6 {
+                    assert!(found[0] != found[1]);
+                    assert!(found == plain.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+                }
+            }
+            // What does not go along is found beside what does.
+            advance(&mut asked, 7);
+            advance(&mut plain, 7);
+            let other = [(BoundaryIndex(1), 1), across];
+            let both = [&mut asked, &mut plain].map(|it| it.derivatives(&other));
+            assert!(both[0].is_ok() && both[0] == both[1]);
+            assert!(asked.state() == plain.state());
         }
     }
-    Ok(())
+
+    #[test]
+    fn slopes_of_a_state_that_was_left_are_forgotten() {
+        let mut simulation = begin(1);
+        for number in 1..=5 {
+            advance(&mut simulation, number);
+            simulation.derivatives(&[(BoundaryIndex(1), 2)]).unwrap_or_else(|refusal| panic!("{refusal}"));
+        }
+        let state = simulation.state().clone();
+        simulation.return_to(&state);
+        assert_eq!(simulation.derivatives(&[(BoundaryIndex(1), 2)]), Err(NoDerivative::NoStep));
+    }
 }

@@ -1,10 +1,12 @@
 //! One time step: the passes, in their order, over the state.
 
+mod answer;
 mod assemble;
 mod coefficients;
 mod depth;
 mod derivatives;
 mod exchange;
+mod habit;
 mod limits;
 mod losses;
 mod observe;
@@ -22,9 +24,9 @@ mod way_back;
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
+pub use answer::{BoundaryDerivatives, NoDerivative};
 pub use coefficients::TuneError;
-use derivatives::Followed;
-pub use derivatives::{BoundaryDerivatives, NoDerivative};
+use habit::Habit;
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -46,6 +48,7 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{BoundaryState, Foresight, State, StateFault};
+use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -92,7 +95,9 @@ pub struct Simulation {
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
     /// How the state changes with some inputs, while that is followed.
-    followed: Vec<Box<dyn Followed>>,
+    followed: Vec<Tangent>,
+    /// When and for which derivatives the host asks.
+    habit: Habit,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -165,6 +170,7 @@ impl Simulation {
             room: Room::default(),
             way_back: WayBack::default(),
             followed: Vec::new(),
+            habit: Habit::default(),
             stop: None,
             watch: None,
         };
@@ -472,7 +478,7 @@ impl Simulation {
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone().filter(|_| !self.books_after_sweeps());
-        self.evaluate_slopes(&progress);
+        self.lead_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
@@ -508,7 +514,10 @@ impl Simulation {
         self.room.between.begin();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(pass.apply(&mut self.state, context));
+            result = result.and(match self.followed.is_empty() {
+                true => pass.apply(&mut self.state, context),
+                false => pass.apply_with_slopes(&mut self.state, &mut self.followed, context),
+            });
             let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
             if next != Some(source) {
                 self.room.between.note(&mut self.state, &self.bodies, source, next);

@@ -1,42 +1,42 @@
 //! Slopes of a boundary.
 
-use super::Inputs;
 use crate::dual::Slopes;
+use crate::state::Row;
 
 /// How a boundary changes.
-pub(crate) struct BoundarySlopes<I: Inputs> {
+pub(crate) struct BoundarySlopes {
     /// Of where it is to be at the end of the communication step, along and about x, y, z; of the force that is given, where
     /// forces move it.
-    pub end: [I::Each; 6],
+    pub end: [[f64; 1]; 6],
     /// Of the rotation vector of the communication step.
-    pub turn: [I::Each; 3],
+    pub turn: [[f64; 1]; 3],
     /// Of its orientation.
-    pub orientation: I::Row,
+    pub orientation: Row,
     /// Of its angular velocity.
-    pub angular_velocity: [I::Each; 3],
+    pub angular_velocity: [[f64; 1]; 3],
     /// Of the whole load that moves it.
-    pub load: [I::Each; 3],
+    pub load: [[f64; 1]; 3],
     /// Of its displacement.
-    pub displacement: [I::Each; 3],
+    pub displacement: [[f64; 1]; 3],
     /// Of its velocity.
-    pub velocity: [I::Each; 3],
+    pub velocity: [[f64; 1]; 3],
     /// Of the force on it.
-    pub force: [I::Each; 3],
+    pub force: [[f64; 1]; 3],
     /// Of the moment on it.
-    pub moment: [I::Each; 3],
+    pub moment: [[f64; 1]; 3],
     /// Of the impulse of the communication step.
-    pub impulse: [I::Each; 3],
+    pub impulse: [[f64; 1]; 3],
     /// Of its angular impulse.
-    pub angular_impulse: [I::Each; 3],
+    pub angular_impulse: [[f64; 1]; 3],
 }
 
-impl<I: Inputs> Default for BoundarySlopes<I> {
+impl Default for BoundarySlopes {
     fn default() -> Self {
-        let none = [I::Each::none(); 3];
+        let none = [[0.0]; 3];
         Self {
-            end: [I::Each::none(); 6],
+            end: [[0.0]; 6],
             turn: none,
-            orientation: I::NONE,
+            orientation: [0.0; 4],
             angular_velocity: none,
             load: none,
             displacement: none,
@@ -49,10 +49,10 @@ impl<I: Inputs> Default for BoundarySlopes<I> {
     }
 }
 
-impl<I: Inputs> BoundarySlopes<I> {
+impl BoundarySlopes {
     /// Whether an input moves it.
     pub(crate) fn is_moved(&self) -> bool {
-        let moved = |slopes: &[I::Each; 3]| slopes.iter().any(|each| (0..I::COUNT).any(|d| each[d] != 0.0));
+        let moved = |slopes: &[[f64; 1]; 3]| slopes.iter().any(|each| each[0] != 0.0);
         moved(&self.displacement) || moved(&self.velocity) || moved(&self.turn)
     }
 
@@ -66,7 +66,7 @@ impl<I: Inputs> BoundarySlopes<I> {
     }
 
     /// Adds to the slopes of the load on it.
-    pub(crate) fn add_load(&mut self, force: [I::Each; 3], moment: [I::Each; 3]) {
+    pub(crate) fn add_load(&mut self, force: [[f64; 1]; 3], moment: [[f64; 1]; 3]) {
         for (sums, parts) in [(&mut self.force, force), (&mut self.moment, moment)] {
             for (sum, part) in sums.iter_mut().zip(parts) {
                 *sum = sum.plus(part);

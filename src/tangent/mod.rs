@@ -4,17 +4,17 @@
 
 mod boundary;
 mod group;
-mod inputs;
 mod list;
+mod motion;
 mod particles;
 pub(crate) mod rotation;
+mod rows;
 
 pub(crate) use boundary::BoundarySlopes;
 pub(crate) use group::{Group, Waiting};
-pub(crate) use inputs::{Alone, EightInputs, FourInputs, InLanes, Inputs, OneInput};
-pub(crate) use inputs::{alone, row_of, rows_at, slopes_of, spread, vector_of};
 pub(crate) use list::ListSlopes;
-pub(crate) use particles::ParticleSlopes;
+pub(crate) use particles::{Moving, ParticleSlopes};
+pub(crate) use rows::{alone, row_of, rows_at, slopes_of, spread, sum, vector_of, vector_slopes, with_slopes};
 
 use crate::dual::Dual;
 use crate::geometry::Quaternion;
@@ -23,17 +23,17 @@ use crate::number::Vector;
 use crate::state::State;
 
 /// How everything that changes does so with some inputs.
-pub(crate) struct Tangent<I: Inputs> {
+pub(crate) struct Tangent {
     /// Of particles.
-    pub particles: ParticleSlopes<I>,
+    pub particles: ParticleSlopes,
     /// Of what contacts between particles remember, a list for each law.
-    pub contacts: Vec<ListSlopes<I>>,
+    pub contacts: Vec<ListSlopes>,
     /// Of what contacts with surfaces remember, a list for each surface and law.
-    pub walls: Vec<ListSlopes<I>>,
+    pub walls: Vec<ListSlopes>,
     /// Of the rows of bonds, a list for each law.
-    pub bonds: Vec<ListSlopes<I>>,
+    pub bonds: Vec<ListSlopes>,
     /// Of boundaries.
-    pub boundaries: Vec<BoundarySlopes<I>>,
+    pub boundaries: Vec<BoundarySlopes>,
     /// Registers that slopes are worked on in.
     pub width: Width,
     /// The time step in which the lists had been made whose order this follows.
@@ -41,25 +41,25 @@ pub(crate) struct Tangent<I: Inputs> {
 }
 
 /// A pass of a time step that slopes by some inputs go through.
-pub(crate) trait FollowPass<I: Inputs> {
+pub(crate) trait FollowPass {
     /// Adds the slopes of its forces and torques to those of the particles and boundaries, as the pass is about to find them
     /// after a time step of this length \[s\], and brings those of what it remembers to the present.
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent<I>, step: Alone<I>);
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual);
 }
 
 /// A pass whose slopes are added to those of the particles and boundaries: the work of a kernel.
-pub(crate) struct AddSlopes<'a, P, I: Inputs> {
+pub(crate) struct AddSlopes<'a, P> {
     /// The pass.
     pub pass: P,
     /// The state.
     pub state: &'a State,
     /// How it changes.
-    pub tangent: &'a mut Tangent<I>,
+    pub tangent: &'a mut Tangent,
     /// The time step, or time itself.
-    pub step: Alone<I>,
+    pub step: Dual,
 }
 
-impl<I: Inputs> Tangent<I> {
+impl Tangent {
     /// Nothing changes yet. `turning` says whether torques turn the particles.
     pub(crate) fn of(state: &State, width: Width, turning: bool) -> Self {
         let mut tangent = Self {
@@ -107,7 +107,7 @@ impl<I: Inputs> Tangent<I> {
     }
 }
 
-impl Tangent<OneInput> {
+impl Tangent {
     /// Everything goes on in time: time itself is what is followed.
     pub(crate) fn go_on(&mut self, state: &State) {
         let (slopes, particles) = (&mut self.particles, &state.particles);
@@ -123,7 +123,7 @@ impl Tangent<OneInput> {
             if let Some(row) = slopes.orientation.get_mut(slot) {
                 let orientation = Quaternion::from_row(particles.orientation[slot].map(Dual::constant));
                 let turned = orientation.turned(Vector::of_row(spin.map(Dual::constant)), PASSING);
-                *row = row_of::<OneInput>(turned.to_row());
+                *row = row_of(turned.to_row());
             }
         }
         slopes.is_reached.fill(true);

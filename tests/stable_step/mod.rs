@@ -166,7 +166,7 @@ fn of_split_bond_dashpots_is_that_without_dashpots() {
     for (name, spheres) in bonded_networks() {
         let text = |more: &str| block(&spheres, |sphere| *sphere == spheres[0], &bonds(more));
         let bare = scene(&text(""));
-        let undamped = linearised::stable_step(&bare, stated(&bare));
+        let undamped = linearised::stable_step(&text(""), stated(&bare));
         for ratio in [0.3, 1.0, 3.0] {
             let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(ratio))));
             assert_eq!(stated(&split), stated(&bare), "{name}, ratio {ratio}");

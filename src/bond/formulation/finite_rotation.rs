@@ -174,14 +174,14 @@ impl<N: Number> Ends<N> {
     /// Both ends, and the tangent of half the twist where it is small.
     #[inline(always)]
     fn divided(&self, distance: N) -> ([End<N>; 2], N) {
-        let [sum_i, sum_j] = self.ahead.map(|ahead| distance + ahead);
+        let [sum_i, sum_j] = [distance + self.ahead[0], distance + self.ahead[1]];
         let flat = is_flat(self.along, self.across);
         let per_sums = N::select(flat, self.along, N::splat(1.0)) * self.shared;
-        let end = |body: usize, per_sum: N| {
-            End::of(self.carried[body], self.ahead[body], self.beside[body], distance, per_sum)
-        };
-        let tangent = self.across * (sum_i * sum_j * self.shared);
-        ([end(0, sum_j * per_sums), end(1, sum_i * per_sums)], tangent)
+        let ([carried_i, carried_j], [ahead_i, ahead_j], [beside_i, beside_j]) =
+            (self.carried, self.ahead, self.beside);
+        let end_i = End::of(carried_i, ahead_i, beside_i, distance, sum_j * per_sums);
+        let end_j = End::of(carried_j, ahead_j, beside_j, distance, sum_i * per_sums);
+        ([end_i, end_j], self.across * (sum_i * sum_j * self.shared))
     }
 
     /// One number behind the other.

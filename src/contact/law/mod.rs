@@ -337,9 +337,23 @@ impl Law {
         history: &mut [[N; 4]],
         step: N,
     ) -> Reaction<N> {
-        let (carry, normal) = self.press(row, contact, history, step);
-        let (force, couple, sliding) = self.friction(row, contact, &normal, normal.force, history, (step, carry));
-        let rolling = self.roll(row, contact, &normal, history, (step, carry));
+        self.react_by(&N::acting(self), row, contact, history, step)
+    }
+
+    /// The same, by what its sub-models do in this kind of number: for many contacts that is asked for once.
+    #[inline(always)]
+    pub(crate) fn react_by<N: Evaluated>(
+        &self,
+        acting: &Acting<N>,
+        row: &[N::Coefficient],
+        contact: &mut Contact<N>,
+        history: &mut [[N; 4]],
+        step: N,
+    ) -> Reaction<N> {
+        let (carry, normal) = self.press(acting, row, contact, history, step);
+        let along = (&normal, normal.force);
+        let (force, couple, sliding) = self.friction(acting, row, contact, along, history, (step, carry));
+        let rolling = self.roll(acting, row, contact, &normal, history, (step, carry));
         Reaction { force, couple, rolling, sliding }
     }
 
@@ -347,6 +361,7 @@ impl Law {
     #[inline(always)]
     pub(crate) fn press<N: Evaluated>(
         &self,
+        acting: &Acting<N>,
         row: &[N::Coefficient],
         contact: &mut Contact<N>,
         history: &mut [[N; 4]],
@@ -356,7 +371,7 @@ impl Law {
             *contact = contact.with_undeformed_arms();
         }
         let (carry, weight) = self.carry(contact, history, step);
-        let (acting, mut none) = (N::acting(self), [N::zero(); 4]);
+        let mut none = [N::zero(); 4];
         let remembered = match self.history_places.normal {
             Some(place) => &mut history[place],
             None => &mut none,
@@ -394,10 +409,14 @@ impl Law {
             (self.cohesion.add)(row, pull, &mut normal);
         }
         let along = if offset.acts { normal.force } else { 0.0 };
-        let (force, couple, sliding) = self.friction(row, contact, &normal, along, history, (step, carry));
+        let acting = f64::acting(self);
+        let (force, couple, sliding) = self.friction(&acting, row, contact, (&normal, along), history, (step, carry));
         let pressed = Contact { overlap: offset.pressing, ..*contact };
-        let rolling =
-            if offset.acts { self.roll(row, &pressed, &normal, history, (step, carry)) } else { Vector::zero() };
+        let rolling = if offset.acts {
+            self.roll(&acting, row, &pressed, &normal, history, (step, carry))
+        } else {
+            Vector::zero()
+        };
         Reaction { force, couple, rolling, sliding }
     }
 
@@ -431,10 +450,10 @@ impl Law {
     #[inline(always)]
     fn friction<N: Evaluated>(
         &self,
+        acting: &Acting<N>,
         row: &[N::Coefficient],
         contact: &Contact<N>,
-        normal: &NormalForce<N>,
-        along: N,
+        (normal, along): (&NormalForce<N>, N),
         history: &mut [[N; 4]],
         (mut step, carry): (N, Option<Carry<N>>),
     ) -> (Vector<N>, Vector<N>, N::Mask) {
@@ -447,7 +466,7 @@ impl Law {
         if let Some(carry) = carry.filter(|_| self.tangential.has_spring) {
             (before, step) = (carry.spring(contact.normal, before), N::zero());
         }
-        let friction = (N::acting(self).tangential)(&row[self.places.tangential..], contact, normal, before, step);
+        let friction = (acting.tangential)(&row[self.places.tangential..], contact, normal, before, step);
         if let Some(place) = place {
             history[place] = friction.history;
         }
@@ -458,6 +477,7 @@ impl Law {
     #[inline(always)]
     fn roll<N: Evaluated>(
         &self,
+        acting: &Acting<N>,
         row: &[N::Coefficient],
         contact: &Contact<N>,
         normal: &NormalForce<N>,
@@ -475,8 +495,7 @@ impl Law {
             before = carry.torque(contact.normal, before);
             (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
         }
-        let (torque, mut after) =
-            (N::acting(self).rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
+        let (torque, mut after) = (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
         if carry.is_some() {
             after[3] = normal.response.normal_stiffness;
         }

@@ -35,18 +35,19 @@ impl NormalForm for Hertzian {
     /// a and √(a m*).
     #[inline(always)]
     fn roots<N: Number>(overlap: N, radius: N, mass: N) -> Roots<N> {
-        let contact_radius = (radius * overlap).sqrt();
-        [contact_radius, (contact_radius * mass).sqrt()]
+        let contact_radius = overlap.scaled(radius).sqrt();
+        [contact_radius, contact_radius.scaled(mass).sqrt()]
     }
 
     #[inline(always)]
     fn response_at<N: Number>(law: Hertzian<N>, contact: &Contact<N>, [contact_radius, root]: Roots<N>) -> Response<N> {
-        let loaded_mass = contact_radius * contact.mass;
+        let loaded_mass = contact_radius.scaled(contact.mass);
         Response {
-            normal_stiffness: law.normal_stiffness * contact_radius,
-            normal_damping: law.normal_root_damping * root + law.normal_mass_damping * loaded_mass,
-            tangential_stiffness: law.tangential_stiffness * contact_radius,
-            tangential_damping: law.tangential_root_damping * root + law.tangential_mass_damping * loaded_mass,
+            normal_stiffness: contact_radius.scaled(law.normal_stiffness),
+            normal_damping: root.scaled(law.normal_root_damping) + loaded_mass.scaled(law.normal_mass_damping),
+            tangential_stiffness: contact_radius.scaled(law.tangential_stiffness),
+            tangential_damping: root.scaled(law.tangential_root_damping)
+                + loaded_mass.scaled(law.tangential_mass_damping),
         }
     }
 

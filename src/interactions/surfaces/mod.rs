@@ -181,6 +181,7 @@ impl AtSurface {
             uniform: self.table.uniform_with(self.material),
             step: context.step,
             width: context.width,
+            along: None,
         }
     }
 

@@ -22,7 +22,14 @@ impl<N: Number> SphereAt<N> {
     /// Arm at the particle: to half an overlap behind the surface, where the loads act \[m\].
     #[inline(always)]
     pub(super) fn arm(&self) -> N {
-        self.radius - N::splat(0.5) * (self.radius - self.distance)
+        self.radius - (self.radius - self.distance).scaled(N::splat(0.5))
+    }
+
+    /// Area of the circle in which the sphere stands in the surface \[m²\].
+    #[inline(always)]
+    pub(super) fn section(&self) -> N {
+        let overlap = self.radius - self.distance;
+        N::splat(PI) * overlap * (self.radius + self.radius - overlap)
     }
 
     /// Geometry and relative motion, where the surface has this velocity \[m/s\] at the point of contact, and the sphere turns
@@ -45,7 +52,7 @@ impl<N: Number> SphereAt<N> {
             overlap,
             radius,
             mass: velocity[3],
-            section_area: N::splat(PI) * overlap * (radius + radius - overlap),
+            section_area: self.section(),
             section_radius: radius,
             normal,
             normal_velocity,

@@ -1,0 +1,163 @@
+//! Pairs of particles, whose loads go to both.
+
+use crate::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
+use crate::coefficients::CoefficientTable;
+use crate::contact::Needs;
+use crate::lanes::{Lane, Shared};
+use crate::memory::prefetch;
+use crate::number::{add, subtract};
+use crate::state::{Row, plane_rows};
+use std::ops::Range;
+
+/// Pairs of particles. PLANE: in plane rows (`state::plane_rows`).
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<'a, const PLANE: bool> {
+    /// First particle of each pair.
+    pub first: &'a [u32],
+    /// Second particle of each pair.
+    pub second: &'a [u32],
+    /// Positions and radii.
+    pub position: &'a [Row],
+    /// Velocities and masses.
+    pub velocity: &'a [Row],
+    /// Angular velocities.
+    pub angular_velocity: &'a [Row],
+    /// Materials.
+    pub material: &'a [u32],
+    /// Forces.
+    pub force: Shared<Row>,
+    /// Torques.
+    pub torque: Shared<Row>,
+}
+
+impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
+    type Sum = ();
+    const FOUND: usize = FOUND;
+
+    fn first(&self) -> &[u32] {
+        self.first
+    }
+
+    fn second(&self) -> &[u32] {
+        self.second
+    }
+
+    #[inline(always)]
+    unsafe fn touch<N: Lane>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        beyond: Option<N>,
+        _sum: &mut (),
+    ) -> (u32, [N; FOUND]) {
+        let positions = self.position.as_ptr();
+        // SAFETY: a list holds slots of particles, below their number.
+        let pair = unsafe { SpherePair::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
+        (N::bits(pair.overlap(beyond)), pair.to_found())
+    }
+
+    #[inline(always)]
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
+        SpherePair::from_found(*found).roots()
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> ContactGeometry<N> {
+        let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
+        // SAFETY: a list holds slots of particles, below their number.
+        let (mut velocities, mut spins) = unsafe {
+            let read = TORQUE && !PLANE;
+            let spins = if read { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+            ([N::load_rows(v, first), N::load_rows(v, second)], spins)
+        };
+        if PLANE {
+            let parted = velocities.map(plane_rows::part);
+            velocities = parted.map(|[velocity, _]| velocity);
+            spins = parted.map(|[_, spin]| spin);
+        }
+        SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
+    }
+
+    fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32 {
+        table.entry(self.material[first as usize], self.material[second as usize])
+    }
+
+    fn prefetch(&self, slots: Range<usize>, needs: Needs) {
+        // A line of the cache holds two rows.
+        for slot in slots.step_by(2) {
+            prefetch(self.position.as_ptr().wrapping_add(slot));
+            prefetch(self.velocity.as_ptr().wrapping_add(slot));
+            prefetch(self.force.pointer().wrapping_add(slot));
+            if needs.torque && !PLANE {
+                prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+                prefetch(self.torque.pointer().wrapping_add(slot));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
+        if PLANE {
+            self.spread_in_plane(touching, needs);
+            return;
+        }
+        let Touching { first, second, force, .. } = *touching;
+        for place in 0..first.len() {
+            let (i, j) = (first[place] as usize, second[place] as usize);
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                add(self.force.at(i), &force[place]);
+                subtract(self.force.at(j), &force[place]);
+                if needs.torque {
+                    let [mut on_i, mut on_j] = touching.torques(place);
+                    if needs.spin {
+                        subtract(&mut on_i, &touching.rolling[place]);
+                        add(&mut on_j, &touching.rolling[place]);
+                    }
+                    add(self.torque.at(i), &on_i);
+                    add(self.torque.at(j), &on_j);
+                }
+            }
+        }
+    }
+}
+
+impl<const PLANE: bool> Pairs<'_, PLANE> {
+    /// Adds the loads of touching entries to their bodies, which are in plane rows.
+    #[inline(always)]
+    fn spread_in_plane(&self, touching: &Touching, needs: Needs) {
+        let Touching { first, second, force, couple, rolling, .. } = *touching;
+        let mut leave = plane_rows::Leave::default();
+        for place in 0..first.len() {
+            let (i, j, force) = (first[place] as usize, second[place] as usize, force[place]);
+            let [mut on_i, mut on_j] = [[0.0; 4]; 2];
+            if needs.torque {
+                [on_i, on_j] = touching.torques(place);
+                leave.look(&force, &couple[place]);
+            }
+            if needs.spin {
+                subtract(&mut on_i, &rolling[place]);
+                add(&mut on_j, &rolling[place]);
+                leave.look(&force, &rolling[place]);
+            }
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                add(self.force.at(i), &plane_rows::load(force, on_i));
+                add(self.force.at(j), &plane_rows::load(force.map(|part| -part), on_j));
+            }
+        }
+        if leave.is_any() {
+            for place in 0..first.len() {
+                let torque = if needs.torque { touching.torques(place)[0] } else { [0.0; 4] };
+                // SAFETY: as above.
+                plane_rows::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
+            }
+        }
+    }
+}
