@@ -135,7 +135,7 @@ const UNSAFE: [(&str, usize); 11] = [
     ("memory", 9),
     ("threads", 5),
     ("neighbours", 14),
-    ("integration", 6),
+    ("integration", 8),
     ("batches", 75),
     ("coefficients", 1),
     ("interactions", 20),

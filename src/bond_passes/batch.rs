@@ -15,6 +15,7 @@
 use super::after::{After, Bonds};
 use super::book::{Broken, Done};
 use super::pipeline_buffer::{PipelineBuffer, start_of};
+use crate::batches::plane_velocities;
 use crate::bond::damping::{DampingLoad, LastDamping};
 use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
@@ -488,7 +489,7 @@ unsafe fn load_body<F: Formulation, N: Lane>(work: &Work, slots: *const u32) -> 
         let velocity = N::load_rows(work.velocity.as_ptr(), slots);
         let spin = N::load_rows(work.angular_velocity.as_ptr(), slots);
         let (velocity, spin) = if work.plane_rows {
-            let [moving, turning] = plane_rows::part(velocity);
+            let [moving, turning] = plane_velocities(velocity);
             (moving, [turning[0], turning[1], turning[2], spin[3]])
         } else {
             (velocity, spin)

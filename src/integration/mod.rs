@@ -273,15 +273,23 @@ impl<'a> Rows<'a> {
         }
     }
 
+    /// Hands out the particles of one piece, and whether each moves by the forces on it. Each piece is for one thread only.
+    #[inline(always)]
+    pub(crate) fn each(&self, piece: usize, mut hand: impl FnMut(ParticleRows, bool)) {
+        for slot in self.slots(piece) {
+            // SAFETY: pieces do not overlap, and each is worked on by one thread.
+            hand(unsafe { self.body(slot) }, self.owner[slot] == 0);
+        }
+    }
+
     /// Hands out the particles of one piece that move by the forces on them. Each piece is for one thread only.
     #[inline(always)]
     pub(crate) fn each_free(&self, piece: usize, mut hand: impl FnMut(ParticleRows)) {
-        for slot in self.slots(piece) {
-            if self.owner[slot] == 0 {
-                // SAFETY: pieces do not overlap, and each is worked on by one thread.
-                hand(unsafe { self.body(slot) });
+        self.each(piece, |body, free| {
+            if free {
+                hand(body);
             }
-        }
+        });
     }
 }
 

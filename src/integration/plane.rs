@@ -10,18 +10,16 @@ pub(crate) fn to_plane(particles: &mut Particles, context: &Context) {
     particles.plane_rows = true;
     let rows = Rows::of(particles);
     context.each(rows.pieces(), |piece| {
-        for slot in rows.slots(piece) {
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            let body = unsafe { rows.body(slot) };
+        rows.each(piece, |body, free| {
             body.velocity[1] = body.spin[1];
             (body.force[1], body.force[3]) = (body.torque[1], body.spin[3]);
             *body.torque = [0.0; 4];
-            if rows.owner[slot] == 0 {
+            if free {
                 // Zeros that are negative become positive, as in the first step of three dimensions.
                 body.position[1] += 0.0;
                 (body.spin[0], body.spin[2]) = (0.0, 0.0);
             }
-        }
+        });
     });
 }
 
@@ -30,13 +28,11 @@ pub(crate) fn to_space(particles: &mut Particles, context: &Context) {
     particles.plane_rows = false;
     let rows = Rows::of(particles);
     context.each(rows.pieces(), |piece| {
-        for slot in rows.slots(piece) {
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            let body = unsafe { rows.body(slot) };
+        rows.each(piece, |body, _| {
             let [force, torque] = plane_rows::loads(*body.force, *body.torque);
             (*body.force, *body.torque) = (force, torque);
             (body.spin[1], body.velocity[1]) = (body.velocity[1], 0.0);
-        }
+        });
     });
 }
 

@@ -1,6 +1,6 @@
 //! Pairs of particles, whose loads go to both.
 
-use crate::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
+use crate::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching, plane_velocities};
 use crate::coefficients::CoefficientTable;
 use crate::contact::Needs;
 use crate::lanes::{Lane, Shared};
@@ -77,7 +77,7 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
         if PLANE {
-            let parted = velocities.map(plane_rows::part);
+            let parted = velocities.map(plane_velocities);
             velocities = parted.map(|[velocity, _]| velocity);
             spins = parted.map(|[_, spin]| spin);
         }

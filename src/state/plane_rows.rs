@@ -7,7 +7,6 @@
 //! always those of three dimensions.
 
 use super::{Particles, Row};
-use crate::lanes::Lane;
 
 /// Motion and loads of a particle in three dimensions.
 #[derive(Clone, Copy, Debug)]
@@ -67,13 +66,6 @@ pub(crate) fn motion(velocity: Row, spin: Row) -> [Row; 2] {
 #[inline(always)]
 pub(crate) fn loads(force: Row, marked: Row) -> [Row; 2] {
     [[force[0], marked[1], force[2], 0.0], [marked[0], force[1], marked[2], 0.0]]
-}
-
-/// Velocity and angular velocity in lanes, from plane rows of velocity.
-#[inline(always)]
-pub(crate) fn part<N: Lane>([u, w, v, mass]: [N; 4]) -> [[N; 4]; 2] {
-    let zero = N::zero();
-    [[u, zero, v, mass], [zero, w, zero, zero]]
 }
 
 /// A force and a torque as they are added to a plane row of force.

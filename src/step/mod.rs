@@ -1,12 +1,10 @@
 //! One time step: the passes, in their order, over the state.
 
-mod answer;
 mod assemble;
 mod coefficients;
 mod depth;
 mod derivatives;
 mod exchange;
-mod habit;
 mod limits;
 mod losses;
 mod observe;
@@ -24,9 +22,9 @@ mod way_back;
 pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
-pub use answer::{BoundaryDerivatives, NoDerivative};
 pub use coefficients::TuneError;
-use habit::Habit;
+use derivatives::Habit;
+pub use derivatives::{BoundaryDerivatives, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};

@@ -63,7 +63,7 @@ fn check_tells_of_a_third_dimension_that_nothing_uses() {
     assert!(said.contains(line), "{line} is missing in:\n{said}");
     // Neither where the word is there already, nor where a wall takes the particles out of the plane.
     for (before, after) in
-        [("step = 1e-5", "step = 1e-5\nplane = \"xz\""), ("normal = [1.0, 0.0, 0.0]", "normal = [1.0, 0.1, 0.0]")]
+        [("step = 1e-5", "step = 1e-5\nplane = \"xz\""), ("normal = [0.0, 0.0, 1.0]", "normal = [0.0, -0.001, 1.0]")]
     {
         assert!(flat.contains(before));
         fs::write(&scene, flat.replace(before, after)).unwrap();

@@ -1,6 +1,6 @@
 //! A sphere at a surface: geometry of the contact, and what it does to both.
 
-use crate::batches::{ContactGeometry, Lost};
+use crate::batches::{ContactGeometry, Lost, plane_velocities};
 use crate::contact::{Contact, Needs};
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
@@ -122,7 +122,7 @@ impl<'a> Loaded<'a> {
     pub(super) unsafe fn motion<N: Lane, const TORQUE: bool>(&self, slots: *const u32) -> [[N; 4]; 2] {
         if self.plane_rows {
             // SAFETY: the caller's promise.
-            return plane_rows::part(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
+            return plane_velocities(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
         }
         // SAFETY: the caller's promise.
         unsafe {

@@ -1,11 +1,15 @@
 //! Directional derivatives: slopes go through the very time steps of the last communication step.
 //!
-//! They go along in the step itself where the host is expected to ask ([`super::habit`]). Otherwise the step is made again from its
+//! They go along in the step itself where the host is expected to ask ([`habit`]). Otherwise the step is made again from its
 //! beginning, with the same bits. Each time step has its own contacts, stick and slip, as they were.
 
+mod answer;
+mod habit;
+
+pub use answer::{BoundaryDerivatives, NoDerivative};
+pub(super) use habit::Habit;
+
 use super::Simulation;
-use super::answer::{BoundaryDerivatives, NoDerivative, refuse};
-use super::habit::Input;
 use super::way_back::Given;
 use crate::boundaries::slopes;
 use crate::motion::Progress;
@@ -13,6 +17,8 @@ use crate::quantity::BoundaryIndex;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::tangent::{BoundarySlopes, PASSING, Tangent};
+use answer::refuse;
+use habit::Input;
 
 impl Simulation {
     /// How the boundaries change with each of some inputs, axes of boundaries, at the end of the last communication step. The

@@ -9,14 +9,14 @@ use super::answer::BoundaryDerivatives;
 use crate::quantity::BoundaryIndex;
 
 /// An axis of a boundary that derivatives are taken by.
-pub(super) type Input = (BoundaryIndex, usize);
+pub(in crate::step) type Input = (BoundaryIndex, usize);
 
 /// How the boundaries change with an input.
 type Found = (Input, Vec<BoundaryDerivatives>);
 
 /// When and for what a host asks, and what it finds already there.
 #[derive(Debug, Default)]
-pub(super) struct Habit {
+pub(in crate::step) struct Habit {
     /// Inputs that it asked for after the last communication step of which it asked for any.
     inputs: Vec<Input>,
     /// Whether it has asked since the last communication step.
@@ -31,7 +31,7 @@ pub(super) struct Habit {
 
 impl Habit {
     /// A communication step begins. Returns the inputs by which slopes are to go along, none where nobody is expected to ask.
-    pub(super) fn expect(&mut self) -> Vec<Input> {
+    pub(in crate::step) fn expect(&mut self) -> Vec<Input> {
         self.found.clear();
         let asks = std::mem::take(&mut self.asks);
         self.asked[self.situation] = asks;
@@ -40,7 +40,7 @@ impl Habit {
     }
 
     /// The host asks for the derivatives by these inputs.
-    pub(super) fn ask(&mut self, inputs: &[Input]) {
+    pub(in crate::step) fn ask(&mut self, inputs: &[Input]) {
         if !std::mem::replace(&mut self.asks, true) {
             self.inputs.clear();
         }
@@ -49,12 +49,12 @@ impl Habit {
     }
 
     /// What the last communication step carried along.
-    pub(super) fn keep(&mut self, found: impl Iterator<Item = Found>) {
+    pub(in crate::step) fn keep(&mut self, found: impl Iterator<Item = Found>) {
         self.found.extend(found);
     }
 
     /// How the boundaries change with an input, if that was carried along.
-    pub(super) fn by(&self, input: Input) -> Option<&Vec<BoundaryDerivatives>> {
+    pub(in crate::step) fn by(&self, input: Input) -> Option<&Vec<BoundaryDerivatives>> {
         self.found.iter().find(|(known, _)| *known == input).map(|(_, found)| found)
     }
 }
