@@ -138,7 +138,7 @@ const UNSAFE: [(&str, usize); 11] = [
     ("integration", 8),
     ("batches", 75),
     ("coefficients", 1),
-    ("interactions", 20),
+    ("interactions", 22),
     ("bond_passes", 33),
     ("stability", 2),
     ("fmu", 37),

@@ -39,7 +39,7 @@ pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};
-pub(crate) use sphere_geometry::{SpherePair, plane_velocities};
+pub(crate) use sphere_geometry::SpherePair;
 use stage::Stage;
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use super::{ContactGeometry, FOUND};
 use crate::contact::Contact;
-use crate::lanes::{Lane, vector};
+use crate::lanes::vector;
 use crate::number::{Number, Vector};
 
 /// How two spheres i and j lie to each other.
@@ -124,11 +124,4 @@ impl<N: Number> SpherePair<N> {
     pub(crate) fn from_found([x, y, z, radius_i, radius_j]: [N; FOUND]) -> Self {
         Self { apart: Vector::new(x, y, z), radius_i, radius_j }
     }
-}
-
-/// Velocity and angular velocity in lanes, from plane rows of velocity ([`crate::state::plane_rows`]).
-#[inline(always)]
-pub(crate) fn plane_velocities<N: Lane>([u, w, v, mass]: [N; 4]) -> [[N; 4]; 2] {
-    let zero = N::zero();
-    [[u, zero, v, mass], [zero, w, zero, zero]]
 }

@@ -15,12 +15,12 @@
 use super::after::{After, Bonds};
 use super::book::{Broken, Done};
 use super::pipeline_buffer::{PipelineBuffer, start_of};
-use crate::batches::plane_velocities;
 use crate::bond::damping::{DampingLoad, LastDamping};
 use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
     Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
 };
+use crate::interactions::plane_velocities;
 use crate::lanes::{self, Kernel, Lane, Shared, Width, vector};
 use crate::memory::prefetch;
 use crate::number::{add, subtract};

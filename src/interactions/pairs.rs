@@ -1,6 +1,6 @@
 //! Pairs of particles, whose loads go to both.
 
-use crate::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching, plane_velocities};
+use crate::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
 use crate::coefficients::CoefficientTable;
 use crate::contact::Needs;
 use crate::lanes::{Lane, Shared};
@@ -160,4 +160,11 @@ impl<const PLANE: bool> Pairs<'_, PLANE> {
             }
         }
     }
+}
+
+/// Velocity and angular velocity in lanes, from plane rows of velocity ([`crate::state::plane_rows`]).
+#[inline(always)]
+pub(crate) fn plane_velocities<N: Lane>([u, w, v, mass]: [N; 4]) -> [[N; 4]; 2] {
+    let zero = N::zero();
+    [[u, zero, v, mass], [zero, w, zero, zero]]
 }

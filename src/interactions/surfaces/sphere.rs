@@ -1,7 +1,8 @@
 //! A sphere at a surface: geometry of the contact, and what it does to both.
 
-use crate::batches::{ContactGeometry, Lost, plane_velocities};
+use crate::batches::{ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
+use crate::interactions::pairs::plane_velocities;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
 use crate::state::{Particles, Row, plane_rows};
