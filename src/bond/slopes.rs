@@ -64,21 +64,7 @@ impl<N: Number> Answer<N> {
             turn: Turn::none(),
             section: Section { radius: zero, area: zero, polar: zero, axial: zero },
         };
-        let elastic = Elastic {
-            compression: zero,
-            normal: zero,
-            shear: none,
-            torsion: zero,
-            bending: none,
-            force: none,
-            torque_i: none,
-            torque_j: none,
-            energy: zero,
-            relaxed: zero,
-            overbent: zero.greater(zero),
-            rows: [[zero; 4]; MOST_ROWS],
-        };
-        Self { motion, elastic }
+        Self { motion, elastic: Elastic::none() }
     }
 
     /// This answer, without energies and new rows.
