@@ -211,8 +211,10 @@ fn every_sub_model_has_the_derivatives_of_its_differences() {
         let keys = match normal {
             "hooke" | "hooke_viscous" => "characteristic_velocity = 1.0",
             "eepa" => "overlap_exponent = 1.5\nadhesion_exponent = 2",
+            "jkr" | "dmt" if scheme.ends_with("arms") => "engine_exact = true",
             _ => "",
         };
+        let scheme = scheme.trim_end_matches(" with its arms");
         let text = format!(
             "[contact.touch.normal.{normal}]\n{keys}\n[contact.touch.tangential.{tangential}]\n\
              [contact.touch.rolling.{rolling}]\n[contact.touch.cohesion.{cohesion}]"
@@ -221,6 +223,9 @@ fn every_sub_model_has_the_derivatives_of_its_differences() {
     };
     for &normal in NormalChoice::NAMES {
         laws.push(law([normal, "history", "none", "none"], "engine"));
+    }
+    for normal in ["jkr", "dmt"] {
+        laws.push(law([normal, "history", "none", "none"], "engine with its arms"));
     }
     for &tangential in TangentialChoice::NAMES {
         laws.push(law(["hertz", tangential, "none", "none"], "engine"));

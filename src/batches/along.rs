@@ -7,7 +7,8 @@ use crate::state::contacts::SLIDING;
 
 /// Goes along with the evaluation of a list.
 pub(crate) trait Along: Sync {
-    /// Looks at the touching entries of a batch before the law is evaluated. Returns what is left to be done.
+    /// Looks at the touching entries of a batch before the law is evaluated, and at those whose bodies have parted. Returns what is
+    /// left to be done.
     fn follow(&self, batch: &mut Batch) -> Left;
 }
 

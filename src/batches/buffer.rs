@@ -102,6 +102,8 @@ pub(crate) struct Buffer {
     pub(crate) second: [u32; ROOM],
     /// Their rows of the table, where they differ.
     pub(crate) row: [u32; ROOM],
+    /// Entries whose bodies have parted since the last batch, where something goes along.
+    pub(crate) parted: Vec<u32>,
     /// What is lost.
     pub(super) losses: Sums,
     /// How many were found.
@@ -127,6 +129,7 @@ impl Buffer {
         }
         ROOM.with_borrow_mut(|buffer| {
             buffer.count = 0;
+            buffer.parted.clear();
             work(buffer)
         })
     }
@@ -146,6 +149,7 @@ impl Buffer {
             first: slots,
             second: slots,
             row: slots,
+            parted: Vec::new(),
             losses: Sums::default(),
             count: 0,
             ready: 0,

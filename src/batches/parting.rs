@@ -5,40 +5,40 @@ use super::{Batches, Bodies, FOUND};
 use crate::contact::{Contact, parting};
 use crate::state::Row;
 
-/// Bodies that part, and the book of what is lost with their contacts.
+/// Bodies that part: who is told of it.
 pub(super) struct Parting<'a, 'b, B> {
     /// The list.
     pub(super) work: &'a Batches<'b, B>,
-    /// The book.
+    /// The book of what is lost with their contacts.
     pub(super) losses: &'a mut Sums,
+    /// Their entries, where something goes along.
+    pub(super) parted: &'a mut Vec<u32>,
 }
 
 impl<B: Bodies> Parting<'_, '_, B> {
-    /// Whether losses are booked.
-    #[inline(always)]
-    pub(super) fn books(&self) -> bool {
-        self.work.law.law.is_booked()
-    }
-
-    /// Books what is lost with an entry that touches no more: the last loads have acted for another half step, and what the
-    /// tangential spring still held is gone. This stands apart, so that it takes no registers from the search for touching
-    /// entries.
+    /// Tells of an entry that touches no more: the last loads have acted for another half step, and what the tangential spring still
+    /// held is gone. This stands apart, so that it takes no registers from the search for touching entries.
     ///
     /// # Safety
     /// The entry belongs to this piece of the list.
     #[cold]
     #[inline(never)]
-    pub(super) unsafe fn book(&mut self, entry: usize) {
-        // SAFETY: the caller's promise.
-        let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
-        let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
-        self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
+    pub(super) unsafe fn tell(&mut self, entry: usize) {
+        if self.work.along.is_some() {
+            self.parted.push(entry as u32);
+        }
+        if self.work.law.law.is_booked() {
+            // SAFETY: the caller's promise.
+            let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
+            let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
+            self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
+        }
     }
 
     /// The contact of an entry where its bodies are, and its rows: spring, and what the book remembers.
     ///
     /// # Safety
-    /// As for [`Parting::book`].
+    /// As for [`Parting::tell`].
     unsafe fn ended(&self, entry: usize) -> (Contact, [Row; 3]) {
         let Batches { bodies, entries, law, .. } = self.work;
         let (first, second) = (&bodies.first()[entry], &bodies.second()[entry]);

@@ -69,7 +69,7 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                 let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
                 let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
                 let bits = touching & wanted & ((1 << here) - 1);
-                let parting = Parting { work, losses: &mut buffer.losses };
+                let parting = Parting { work, losses: &mut buffer.losses, parted: &mut buffer.parted };
                 if CHOSEN {
                     end_chosen(parting, entry, here, [wanted, bits]);
                 } else if here == N::WIDTH {
@@ -161,9 +161,7 @@ unsafe fn end_chosen<B: Bodies>(mut parting: Parting<B>, entry: usize, count: us
         let lane = ended.trailing_zeros() as usize / 8;
         // SAFETY: the caller's promise; there is a row for each entry.
         unsafe {
-            if parting.books() {
-                parting.book(entry + lane);
-            }
+            parting.tell(entry + lane);
             end_one(entries, entry + lane);
         }
         ended &= ended - 1;
@@ -208,10 +206,8 @@ unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bi
     let mut ended = u64::from_le_bytes(before) & (u64::from(TOUCHING) * ONES) & !now;
     while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
-        if parting.books() {
-            // SAFETY: the caller's promise.
-            unsafe { parting.book(entry + lane) };
-        }
+        // SAFETY: the caller's promise.
+        unsafe { parting.tell(entry + lane) };
         for history in entries.history() {
             // SAFETY: the caller's promise; there is a row for each entry.
             unsafe { *history.at(entry + lane) = [0.0; 4] };

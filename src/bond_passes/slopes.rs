@@ -219,7 +219,7 @@ impl Kernel for AddSlopes<'_, &WallBondPass> {
             let pair = Pair::at_wall(&bodies::<N>(moved, particles, &slots), &foot);
             let bonds = (Bonds { list, first, count }, &mut *slopes);
             let found = react::<N>(&pass.law, &coefficients, &pair, bonds, (&mut room, fixed));
-            moved.press(&slots, count, found.force);
+            moved.press(&slots, (count, (1 << count) - 1), found.force);
             moved.twist(&slots, count, found.torque_i);
             let arm = |lane: usize| Vector::from(list.foot[entries.at(lane)]) - pass.reference;
             let moment = found.torque_j - moving::<N>(vectors_of(arm), [[0.0]; 3]).cross(found.force);

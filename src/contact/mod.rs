@@ -75,6 +75,29 @@ pub struct Contact<N = f64> {
 }
 
 impl<N: Number> Contact<N> {
+    /// One of nothing.
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        let (zero, none) = (N::zero(), Vector::zero());
+        Self {
+            overlap: zero,
+            radius: zero,
+            mass: zero,
+            section_area: zero,
+            section_radius: zero,
+            normal: none,
+            normal_velocity: zero,
+            slip: none,
+            relative_spin: none,
+            spin_sum: none,
+            turning: none,
+            per_distance: zero,
+            per_reach: zero,
+            rolling_inertia: zero,
+            pair_constant: zero,
+        }
+    }
+
     /// The contact with the slip that arms R instead of R − δ/2 give.
     #[inline(always)]
     pub fn with_undeformed_arms(&self) -> Self {

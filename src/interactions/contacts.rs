@@ -6,6 +6,7 @@
 use super::ahead::{Ahead, Link};
 use super::followed::Followed;
 use super::listed::{self, Kept, Listed, Met};
+use super::pair_slopes::PairSlopes;
 use super::pairs::Pairs;
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
@@ -111,14 +112,34 @@ impl Pass for ContactPass {
 }
 
 impl ContactPass {
+    /// What is followed, made ready for its list.
+    fn tangents<'a>(&self, followed: &'a mut [Tangent]) -> Mutex<&'a mut [Tangent]> {
+        for tangent in &mut *followed {
+            tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
+        }
+        Mutex::new(followed)
+    }
+
+    /// How slopes go along with its contacts, between particles that move like this and have these materials.
+    fn followed<'a, 'b>(
+        &'a self,
+        (moving, material): (Moving<'a>, &'a [u32]),
+        tangents: &'a Mutex<&'b mut [Tangent]>,
+        step: Dual,
+    ) -> Followed<'a, 'b, PairSlopes<'a>> {
+        let (sides, uniform) = (PairSlopes { index: self.index, moving, material }, self.table.uniform());
+        Followed { sides, law: &self.law, table: &self.table, uniform, tangents, step, looks: false }
+    }
+
     /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
     fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-        let (law, step) = ((&self.law, &self.table, self.index), Dual::constant(context.step));
-        let followed = Followed::of(law, (moving, &particles.material), followed, step);
-        let along = (!followed.is_none()).then_some(&followed as &dyn Along);
+        let along = !followed.is_empty();
+        let tangents = self.tangents(followed);
+        let followed = self.followed((moving, &particles.material), &tangents, Dual::constant(context.step));
+        let along = along.then_some(&followed as &dyn Along);
         let batches = Batches {
             bodies: Pairs::<PLANE> {
                 first: &list.first,
@@ -217,8 +238,9 @@ impl FollowPass for ContactPass {
     fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
         let (particles, mut list, width) = (&state.particles, state.contacts[self.index].clone(), tangent.width);
         let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-        let (law, tangents) = ((&self.law, &self.table, self.index), std::slice::from_mut(tangent));
-        let followed = Followed::of(law, (moving, &particles.material), tangents, step).looking();
+        let tangents = self.tangents(std::slice::from_mut(tangent));
+        let followed = self.followed((moving, &particles.material), &tangents, step);
+        let followed = Followed { looks: true, ..followed };
         let batches = Batches {
             bodies: Pairs::<false> {
                 first: &list.first,

@@ -1,72 +1,93 @@
-//! Slopes of contacts between particles, batch by batch of the time step. The values that come beside them are those of the law, to
-//! the bit, so the law is not evaluated beside.
+//! Slopes of contacts, batch by batch of the time step: the law over numbers with slopes, on a register's worth of touching entries at a
+//! time. The values that come beside them are those of the law, to the bit, so the law is not evaluated beside.
 
-use super::slopes::{materials, needed, react_by};
-use crate::batches::{Along, Batch, BatchLaw, Buffer, Left, SpherePair};
+use crate::batches::{Along, Batch, BatchLaw, Buffer, ContactGeometry, FOUND, Left};
 use crate::coefficients::{CoefficientTable, in_lanes};
-use crate::contact::{Evaluated, MOST_HISTORY, Needs, Reaction};
+use crate::contact::{Acting, Contact, Evaluated, Law, MOST_HISTORY, Needs, Reaction};
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{self, Kernel, Lane, Places, columns, rows_from};
 use crate::number::{Number, Vector};
-use crate::tangent::{Moving, Tangent, slopes_of, spread, with_slopes};
+use crate::tangent::{ListSlopes, Tangent, slopes_of, spread, with_slopes};
 use std::sync::{Mutex, PoisonError};
 
-/// Contacts between particles whose slopes are followed.
-pub(super) struct Followed<'a> {
+/// A register's worth of contacts.
+pub(super) struct Register<N> {
+    /// Their bodies (slots), first and second ones; where the second body is always the same, anything.
+    pub(super) slots: [Places; 2],
+    /// How many of them count.
+    pub(super) count: usize,
+    /// What was found of their places.
+    pub(super) found: [N; FOUND],
+    /// What takes long, found from that.
+    pub(super) roots: [N; 2],
+    /// Pair constants.
+    pub(super) constant: N,
+}
+
+/// The bodies of the contacts of a list, as slopes see them.
+pub(super) trait Sides: Send + Sync {
+    /// Whether the second body is a boundary: its moment has the arm of the particle, whatever the law.
+    const AT_BOUNDARY: bool;
+
+    /// The slopes of what the list remembers.
+    fn list<'a>(&self, tangent: &'a mut Tangent) -> &'a mut ListSlopes;
+
+    /// Whether an input has reached any contact of a batch.
+    fn reaches(&self, tangent: &Tangent, buffer: &Buffer) -> bool;
+
+    /// Which of the first so many contacts an input has reached, a bit for each.
+    fn reached(&self, tangent: &Tangent, slots: &[Places; 2], count: usize) -> u32;
+
+    /// Computes ahead what takes the processor long and follows from the places alone.
+    fn roots<N: Lane>(&self, found: &[N; FOUND]) -> [N; 2];
+
+    /// Geometry and relative motion. Of the area of the section the slopes are there if the law needs them.
+    fn meet<N: Lane, const TURNING: bool>(
+        &self,
+        tangent: &Tangent,
+        contacts: &Register<N>,
+        needs: Needs,
+    ) -> ContactGeometry<Dual<N>>;
+
+    /// The materials of both bodies.
+    fn materials(&self, slots: &[Places; 2]) -> [[u32; 8]; 2];
+
+    /// Adds the slopes of what the law does to the bodies of those contacts that count; those whose bit is set are reached then.
+    fn load<N: Lane, const TURNING: bool>(
+        &self,
+        tangent: &mut Tangent,
+        contacts: (&Register<N>, u32),
+        geometry: &ContactGeometry<Dual<N>>,
+        reaction: &Reaction<Dual<N>>,
+    );
+}
+
+/// A list of contacts whose slopes are followed.
+pub(super) struct Followed<'a, 'b, S> {
+    /// Their bodies.
+    pub(super) sides: S,
     /// Their law.
-    law: &'a BatchLaw,
+    pub(super) law: &'a BatchLaw,
     /// Its coefficients.
-    table: &'a CoefficientTable,
-    /// Which list of the state is theirs.
-    index: usize,
-    /// How the particles move.
-    moving: Moving<'a>,
-    /// Their materials.
-    material: &'a [u32],
-    /// What is followed; slabs wait for each other.
-    tangents: Mutex<&'a mut [Tangent]>,
-    /// Whether nothing is.
-    none: bool,
+    pub(super) table: &'a CoefficientTable,
+    /// The coefficients of all entries, if they are the same.
+    pub(super) uniform: Option<&'a [f64]>,
+    /// What is followed; pieces of the list wait for each other.
+    pub(super) tangents: &'a Mutex<&'b mut [Tangent]>,
     /// The time step, or time itself.
-    step: Dual,
+    pub(super) step: Dual,
     /// Whether the list is looked at alone.
-    looks: bool,
+    pub(super) looks: bool,
 }
 
-impl<'a> Followed<'a> {
-    /// Those of a list, under a law with these coefficients, over a time step.
-    pub(super) fn of(
-        (law, table, index): (&'a BatchLaw, &'a CoefficientTable, usize),
-        (moving, material): (Moving<'a>, &'a [u32]),
-        tangents: &'a mut [Tangent],
-        step: Dual,
-    ) -> Self {
-        for tangent in &mut *tangents {
-            let slopes = &mut tangent.contacts[index];
-            slopes.set_odd(law.law.history().iter().map(|row| row.odd));
-            slopes.go_on();
-        }
-        let (none, tangents) = (tangents.is_empty(), Mutex::new(tangents));
-        Self { law, table, index, moving, material, none, tangents, step, looks: false }
-    }
-
-    /// The same, of a list that is looked at alone.
-    pub(super) fn looking(self) -> Self {
-        Self { looks: true, ..self }
-    }
-
-    /// Whether nothing is followed.
-    pub(super) fn is_none(&self) -> bool {
-        self.none
-    }
-}
-
-impl Along for Followed<'_> {
+impl<S: Sides> Along for Followed<'_, '_, S> {
     fn follow(&self, batch: &mut Batch) -> Left {
         let mut tangents = self.tangents.lock().unwrap_or_else(PoisonError::into_inner);
-        let slots = [&batch.buffer.first[..batch.buffer.ready], &batch.buffer.second[..batch.buffer.ready]];
-        let reaches = |tangent: &Tangent| slots.iter().any(|slots| tangent.particles.reaches(slots));
-        let Some(last) = tangents.iter().rposition(reaches) else {
+        if !batch.buffer.parted.is_empty() {
+            tangents.iter_mut().for_each(|tangent| self.sides.list(tangent).end(&batch.buffer.parted));
+            batch.buffer.parted.clear();
+        }
+        let Some(last) = tangents.iter().rposition(|tangent| self.sides.reaches(tangent, batch.buffer)) else {
             return if self.looks { Left::Nothing } else { Left::All };
         };
         // The last one evaluates the law, too: history goes on then.
@@ -74,9 +95,9 @@ impl Along for Followed<'_> {
         for (place, tangent) in tangents[..=last].iter_mut().enumerate() {
             let (width, writes) = (tangent.width, writes && place == last);
             if self.law.needs.torque {
-                lanes::run_seldom(width, Follow::<true> { contacts: self, tangent, batch, writes });
+                lanes::run_seldom(width, Follow::<S, true> { contacts: self, tangent, batch, writes });
             } else {
-                lanes::run_seldom(width, Follow::<false> { contacts: self, tangent, batch, writes });
+                lanes::run_seldom(width, Follow::<S, false> { contacts: self, tangent, batch, writes });
             }
         }
         match (self.looks, writes) {
@@ -88,9 +109,9 @@ impl Along for Followed<'_> {
 }
 
 /// Contacts of a batch with the slopes by an input. TURNING: they turn their bodies; otherwise nothing is looked at but the force.
-struct Follow<'a, 'b, 'c, const TURNING: bool> {
+struct Follow<'a, 'b, 'c, 'd, S, const TURNING: bool> {
     /// The contacts.
-    contacts: &'a Followed<'c>,
+    contacts: &'a Followed<'c, 'd, S>,
     /// What is followed.
     tangent: &'a mut Tangent,
     /// The batch.
@@ -99,89 +120,130 @@ struct Follow<'a, 'b, 'c, const TURNING: bool> {
     writes: bool,
 }
 
-impl<const TURNING: bool> Kernel for Follow<'_, '_, '_, TURNING> {
+impl<S: Sides, const TURNING: bool> Kernel for Follow<'_, '_, '_, '_, S, TURNING> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { contacts: Followed { law, table, index, moving, material, step, .. }, tangent, batch, writes } =
-            self;
+        let Self { contacts: Followed { sides, law, table, uniform, step, .. }, tangent, batch, writes } = self;
         let (law, needs) = (&law.law, law.needs);
-        let (moved, slopes) = (&mut tangent.particles, &mut tangent.contacts[*index]);
         let (step, remembered) = (spread::<N>(*step), law.history().len());
-        let uniform = table.uniform().map(in_lanes::<N>);
+        let uniform = uniform.map(in_lanes::<N>);
         let acting = Evaluated::acting(law);
         let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
+        // What the law looks at stays where it is from one register to the next: slopes that are none are written once.
+        let mut contact = Contact::zero();
+        let mut roots = sides.roots(&batch.found::<N>(0));
         for at in (0..batch.buffer.ready).step_by(N::WIDTH) {
+            let here = roots;
+            roots = sides.roots(&batch.found::<N>(at + N::WIDTH));
             let Buffer { first, second, entry, ready, .. } = &*batch.buffer;
-            let (i, j, entries) =
-                (Places::from::<N>(first, at), Places::from::<N>(second, at), Places::from::<N>(entry, at));
+            let (slots, entries) =
+                ([Places::from::<N>(first, at), Places::from::<N>(second, at)], Places::from::<N>(entry, at));
             let count = usize::min(ready - at, N::WIDTH);
-            let reached = moved.reached(i.first(count)) | moved.reached(j.first(count));
+            let reached = sides.reached(tangent, &slots, count);
             if reached == 0 && !writes {
                 continue;
             }
-            let found = batch.found::<N>(at);
-            let spheres = moved.pair(found, &i, &j);
-            let velocities = moved.velocities::<N>(moving, &i, &j);
-            let mut spins = [[Dual::zero(); 4]; 2];
-            if TURNING {
-                spins = [moved.spins(moving, &i), moved.spins(moving, &j)];
+            let (found, constant) = (batch.found::<N>(at), batch.constants::<N>(at));
+            let contacts = Register { slots, count, found, roots: here, constant };
+            let mut geometry = sides.meet::<N, TURNING>(tangent, &contacts, needs);
+            if S::AT_BOUNDARY && TURNING && law.undeformed_arms() {
+                geometry.first_arm = geometry.contact.radius;
             }
-            let constant = batch.constants::<N>(at);
-            let spheres = SpherePair::from_found(spheres);
-            let geometry = spheres.meet(velocities, spins, Dual::constant(constant));
-            let [velocity_i, velocity_j] = velocities;
-            let known = [Dual::values_of(velocity_i), Dual::values_of(velocity_j)];
-            let values = SpherePair::from_found(found).meet(known, [[Number::zero(); 4]; 2], constant).contact;
-            let mut geometry = needed::<N, TURNING>(geometry, &values, needs);
-            if needs.section {
-                geometry.contact.section_area = spheres.section(spheres.roots(), geometry.contact.overlap);
-            }
+            fill::<N, TURNING>(&mut contact, &geometry.contact, needs);
             let gathered;
             let row = match &uniform {
                 Some(row) => row,
                 None => {
-                    gathered = table.lanes(materials(material, &i), materials(material, &j));
+                    let [first, second] = sides.materials(&contacts.slots);
+                    gathered = table.lanes(first, second);
                     &gathered
                 }
             };
+            let list = sides.list(tangent);
             for (place, row) in rows[..remembered].iter_mut().enumerate() {
-                let slopes = slopes.begin::<N>(place, &entries, count);
-                *row = with_slopes::<N>(batch.remembered(place, at), slopes);
+                *row = with_slopes::<N>(batch.remembered(place, at), list.read::<N>(place, &entries));
             }
-            let reaction =
-                react_by::<N, TURNING>(law, &acting, row, &mut geometry.contact, &mut rows[..remembered], step);
+            let reaction = react::<N, TURNING>(law, &acting, row, &mut contact, &mut rows[..remembered], step);
             if writes {
                 for (place, row) in rows[..remembered].iter().enumerate() {
                     batch.remember(place, at, Dual::values_of(*row));
                 }
                 let arms = [geometry.first_arm.value, geometry.second_arm.value];
-                put(batch, at, &values_of(&reaction), (arms, needs));
+                put::<S, N>(batch, at, &values_of(&reaction), (arms, needs));
             }
             if reached == 0 {
                 continue;
             }
             for (place, row) in rows[..remembered].iter().enumerate() {
-                slopes.put::<N>(place, &entries, slopes_of::<N>(*row));
+                list.put::<N>(place, &entries, slopes_of::<N>(*row));
             }
-            let Reaction { force, couple, rolling, .. } = reaction;
-            moved.press_pairs([&i, &j], (count, reached), force);
-            if TURNING {
-                let on_i = -(couple * geometry.first_arm) - rolling;
-                moved.twist_pairs([&i, &j], count, [on_i, rolling - couple * geometry.second_arm]);
-            }
+            sides.load::<N, TURNING>(tangent, (&contacts, reached), &geometry, &reaction);
         }
+    }
+}
+
+/// What contacts do, with slopes: of laws that turn their bodies, or do not.
+#[inline(always)]
+fn react<N: Lane, const TURNING: bool>(
+    law: &Law,
+    acting: &Acting<Dual<N>>,
+    row: &[N],
+    contact: &mut Contact<Dual<N>>,
+    rows: &mut [[Dual<N>; 4]],
+    step: Dual<N>,
+) -> Reaction<Dual<N>> {
+    if TURNING {
+        return law.react_by(acting, row, contact, rows, step);
+    }
+    let (_, weight) = law.carry(contact, rows, step);
+    let normal = law.press(acting, row, contact, rows, (step, weight));
+    let (force, zero) = (contact.normal * normal.force, N::zero());
+    Reaction { force, couple: Vector::zero(), rolling: Vector::zero(), sliding: zero.greater(zero) }
+}
+
+/// Writes what the law looks at of contacts. What follows from radii and masses does not change: of it the values are written alone.
+#[inline(always)]
+fn fill<N: Lane, const TURNING: bool>(contact: &mut Contact<Dual<N>>, found: &Contact<Dual<N>>, needs: Needs) {
+    contact.overlap = found.overlap;
+    contact.normal = found.normal;
+    contact.normal_velocity = found.normal_velocity;
+    contact.radius.value = found.radius.value;
+    contact.mass.value = found.mass.value;
+    contact.pair_constant.value = found.pair_constant.value;
+    if needs.section {
+        contact.section_area = found.section_area;
+        contact.section_radius.value = found.section_radius.value;
+    }
+    if needs.bodies {
+        contact.per_reach.value = found.per_reach.value;
+        contact.rolling_inertia.value = found.rolling_inertia.value;
+    }
+    if TURNING || needs.carry {
+        contact.slip = found.slip;
+    }
+    if TURNING && needs.spin {
+        contact.relative_spin = found.relative_spin;
+    }
+    if TURNING && (needs.spin_sum || needs.carry) {
+        contact.spin_sum = found.spin_sum;
+        contact.turning = found.turning;
+    }
+    if needs.carry {
+        contact.per_distance = found.per_distance;
     }
 }
 
 /// Writes what the law does to a register's worth of contacts, and the arms of the bodies \[m\]; the last contact of the batch is repeated.
 #[inline(always)]
-fn put<N: Lane>(batch: &mut Batch, at: usize, reaction: &Reaction<N>, (arms, needs): ([N; 2], Needs)) {
+fn put<S: Sides, N: Lane>(batch: &mut Batch, at: usize, reaction: &Reaction<N>, (arms, needs): ([N; 2], Needs)) {
     rows_from(columns(reaction.force), &mut batch.buffer.force, at);
+    if S::AT_BOUNDARY || needs.torque {
+        batch.buffer.put_arms(at, arms);
+    }
     if !needs.torque {
         return;
     }
     rows_from(columns(reaction.couple), &mut batch.buffer.couple, at);
-    batch.buffer.put_arms(at, arms);
     if needs.spin {
         rows_from(columns(reaction.rolling), &mut batch.buffer.rolling, at);
     }

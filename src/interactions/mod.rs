@@ -4,10 +4,10 @@ mod ahead;
 pub(crate) mod contacts;
 mod followed;
 mod listed;
+mod pair_slopes;
 mod pairs;
 mod pass;
 mod records;
-mod slopes;
 pub(crate) mod suppression;
 pub(crate) mod surfaces;
 

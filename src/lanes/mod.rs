@@ -24,8 +24,8 @@ pub type Eight = f64;
 
 pub use shared::Shared;
 pub use table::{
-    Places, Table, add_at, add_opposite_at, add_pairs_at, columns_at, columns_from, differences_at, lanes_of, put_at,
-    rows_from, rows_of, vectors_of,
+    Places, Table, add_at, add_opposite_at, add_pairs_at, columns_at, columns_from, differences_at, lanes_of,
+    numbers_at, put_at, rows_from, rows_of, vectors_of,
 };
 
 /// A [`Number`] that knows how to be read from and written to rows of four.

@@ -146,6 +146,16 @@ impl Places {
     }
 }
 
+/// The numbers at these places.
+#[inline(always)]
+pub fn numbers_at(numbers: &[u32], places: &Places) -> [u32; 8] {
+    let mut found = [0; 8];
+    for (lane, found) in found.iter_mut().enumerate() {
+        *found = numbers[places.at(lane)];
+    }
+    found
+}
+
 /// The rows at these places, as four columns.
 #[inline(always)]
 pub fn columns_at<N: Lane>(rows: &[Row], places: &Places) -> [N; 4] {

@@ -166,21 +166,16 @@ impl Blocks<'_> {
         }
     }
 
-    /// D(K) + μ D(C) of a body.
-    fn combined(&self, mover: usize, root: f64) -> [f64; 21] {
-        let mut sum = self.stiffness[mover].map(f64::from);
-        if let Some(damping) = self.damping.get(mover) {
-            for (sum, part) in sum.iter_mut().zip(damping) {
-                *sum += root * f64::from(*part);
-            }
-        }
-        sum
+    /// D(K) and D(C) of a body.
+    fn block(&self, mover: usize) -> Block {
+        let double = |triangle: &Triangle| triangle.map(f64::from);
+        Block { stiffness: double(&self.stiffness[mover]), damping: self.damping.get(mover).map(double) }
     }
 
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
     fn is_below(&self, mover: usize, root: f64) -> bool {
         let square = root * root;
-        let combined = self.combined(mover, root);
+        let combined = self.block(mover).combined(root);
         // No eigenvalue is above the norm of all entries: most bodies need no more.
         if squares(&combined) < square * square {
             return true;
@@ -194,28 +189,17 @@ impl Blocks<'_> {
 
     /// About the root of a body, from below: that of the motion that iteration comes to.
     fn estimate(&self, vector: &mut [f64; 6], mover: usize, guess: f64, iterations: usize) -> f64 {
-        let mut root = guess;
+        let (mut root, block) = (guess, self.block(mover));
         for _ in 0..iterations {
-            let block = self.combined(mover, root);
-            let next = times(&block, vector);
+            let next = times(&block.combined(root), vector);
             let length = next.iter().map(|part| part * part).sum::<f64>().sqrt();
             if length <= 0.0 {
                 return 0.0;
             }
             *vector = next.map(|part| part / length);
-            root = self.root_of_motion(mover, vector);
+            root = block.root_of_motion(vector);
         }
         root
-    }
-
-    /// The root of one motion of a body.
-    fn root_of_motion(&self, mover: usize, vector: &[f64; 6]) -> f64 {
-        let form = |block: &Triangle| {
-            let image = times(&block.map(f64::from), vector);
-            image.iter().zip(vector).map(|(a, b)| a * b).sum::<f64>()
-        };
-        let (k, c) = (form(&self.stiffness[mover]), self.damping.get(mover).map_or(0.0, form));
-        0.5 * (c + (c * c + 4.0 * k).max(0.0).sqrt())
     }
 
     /// The largest root of these bodies that is above `floor`, from the safe side, and the body that has it.
@@ -238,5 +222,35 @@ impl Blocks<'_> {
             at = Some(mover);
         }
         (most, at)
+    }
+}
+
+/// D(K) \[1/s²\] and, where anything is damped, D(C) \[1/s\] of a body.
+struct Block {
+    /// D(K).
+    stiffness: [f64; 21],
+    /// D(C).
+    damping: Option<[f64; 21]>,
+}
+
+impl Block {
+    /// D(K) + μ D(C).
+    #[inline(always)]
+    fn combined(&self, root: f64) -> [f64; 21] {
+        let mut sum = self.stiffness;
+        if let Some(damping) = &self.damping {
+            for (sum, part) in sum.iter_mut().zip(damping) {
+                *sum += root * part;
+            }
+        }
+        sum
+    }
+
+    /// The root of one motion.
+    #[inline(always)]
+    fn root_of_motion(&self, vector: &[f64; 6]) -> f64 {
+        let form = |block: &[f64; 21]| times(block, vector).iter().zip(vector).map(|(a, b)| a * b).sum::<f64>();
+        let (k, c) = (form(&self.stiffness), self.damping.as_ref().map_or(0.0, form));
+        0.5 * (c + (c * c + 4.0 * k).max(0.0).sqrt())
     }
 }

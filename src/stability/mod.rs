@@ -81,7 +81,7 @@ impl System<'_> {
         } else {
             cluster::largest_root(&network, guess, context)
         };
-        Found { network: root, body, impacts: self.impact(speed, ahead).map_or(0.0, |(root, _)| root) }
+        Found { network: root, body, impacts: self.impact(speed, ahead.acceleration).unwrap_or(0.0) }
     }
 
     /// Whether there are bonds, or are about to be.
@@ -105,7 +105,7 @@ impl System<'_> {
         context: &Context,
     ) -> Option<Limiter> {
         if found.impacts > found.network {
-            let (_, meeting) = self.impact(speed, ahead)?;
+            let (_, meeting) = self.hardest_impact(speed, ahead.acceleration)?;
             let mode = if meeting.across { Mode::Tangential } else { Mode::Normal };
             return Some(Limiter {
                 kind: LimiterKind::Impact,
@@ -157,9 +157,14 @@ impl System<'_> {
         })
     }
 
-    /// The root of impacts still to come between bodies that are in no list: the two smallest particles meeting at twice the
-    /// speed \[m/s\], with what falling over a radius adds; likewise of each group that forces move.
-    fn impact(&self, speed: f64, ahead: &Ahead) -> Option<(f64, Meeting)> {
+    /// The root of impacts still to come between bodies that are in no list \[1/s\], if anything can touch.
+    pub(crate) fn impact(&self, speed: f64, acceleration: f64) -> Option<f64> {
+        self.hardest_impact(speed, acceleration).map(|(root, _)| root)
+    }
+
+    /// That root, and what meets: the two smallest particles at twice the speed \[m/s\], with what falling over a radius adds at this
+    /// acceleration \[m/s²\]; likewise each group that forces move.
+    fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, Meeting)> {
         let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
             let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let turn = answer(&body.mobility(moved), body.farthest + body.largest);
@@ -168,7 +173,7 @@ impl System<'_> {
         let mut limit: Option<(f64, Meeting)> = None;
         let coming = self.scene.insertions.iter().map(smallest_to_come);
         for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(coming).chain(groups) {
-            let closing = 2.0 * speed + (2.0 * ahead.acceleration * meeting.radius).sqrt();
+            let closing = 2.0 * speed + (2.0 * acceleration * meeting.radius).sqrt();
             let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
             for pass in self.passes {
                 pass.impacts(radius, mass, closing, &mut |response| {

@@ -107,6 +107,7 @@ pub(super) fn squares(triangle: &[f64; 21]) -> f64 {
 }
 
 /// The product of a matrix, given by its triangle, with a vector.
+#[inline]
 pub(super) fn times(triangle: &[f64; 21], vector: &[f64; 6]) -> [f64; 6] {
     let mut image = [0.0; 6];
     let mut place = 0;

@@ -4,13 +4,18 @@ use super::{RunError, Simulation};
 use crate::bond::creation::{Creation, Due, Window};
 use crate::boundaries::{RigidBody, course};
 use crate::interactions::{Ahead, FASTER};
-use crate::scene::{Scene, Step};
+use crate::scene::Step;
 use crate::stability::{self, Limit, System};
 use crate::state::State;
 use crate::threads::Context;
 
-/// Time steps in which the motion of a flow uses up what was foreseen, about.
+/// Time steps for which bonds to come and the slow motion of a bed are foreseen, about.
 const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
+
+/// Time steps in which a dense flow uses up the way that was foreseen, about. A look takes as long as fifty to ninety steps. In a flow
+/// all near pairs count as contacts to come, up to the closing energy of each, so a longer way changes hardly more than the number
+/// of looks. It would where impacts of bodies that are in no list limit the step: there the flow is not dense.
+const STEPS_OF_DENSE_FLOW: f64 = 6000.0;
 
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
@@ -50,14 +55,11 @@ struct Sight {
     speed: f64,
     /// The largest speed of anything \[m/s\].
     fastest: f64,
+    /// Time steps in which its motion uses up the way, about.
+    steps: f64,
 }
 
 impl Simulation {
-    /// Mean overlap of the contacts that touch \[m\], if any do.
-    pub fn mean_overlap(&self) -> Option<f64> {
-        mean_overlap(&self.state, &self.scene)
-    }
-
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
         let (mut counter, context) = (self.state.foresight.counter, self.standing());
@@ -72,21 +74,24 @@ impl Simulation {
         System { scene, state, bodies, fields, passes }
     }
 
-    /// What is to be foreseen at time steps of about this length \[s\], until something is `faster` times as fast as now.
-    fn sight(&self, step: f64, faster: f64) -> Sight {
+    /// What is to be foreseen at time steps of about this length \[s\], until something is `faster` times as fast as now, where the
+    /// network had this root at the last look \[1/s\] (0 if there was none).
+    fn sight(&self, step: f64, faster: f64, root: f64) -> Sight {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);
         let acceleration = self.fields.acceleration(&self.state.particles);
         let least = self.search.smallest_radius().min(f64::MAX);
-        let margin = match mean_overlap(&self.state, &self.scene) {
+        let margin = match self.mean_overlap() {
             Some(mean) => (CERTAIN * mean).max(LEAST[0] * least),
             None => LEAST[1] * least,
         };
-        let way = margin.max(2.0 * fastest.max(driven) * faster / FASTER * STEPS_BETWEEN_LOOKS * step);
         let rest = if step > 0.0 { 0.5 * margin / (STEPS_BETWEEN_LOOKS * step) } else { 0.0 };
         let falling = fastest + acceleration * STEPS_OF_FALL * step;
         let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
+        let is_dense = self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
+        let steps = if is_dense && !self.has_implicit() { STEPS_OF_DENSE_FLOW } else { STEPS_BETWEEN_LOOKS };
+        let way = margin.max(2.0 * fastest.max(driven) * faster / FASTER * steps * step);
         let clock = &self.state.clock;
         let window = Window {
             after: clock.steps,
@@ -96,7 +101,7 @@ impl Simulation {
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
         let ahead = Ahead { margin, way, acceleration, faster, boundaries, window };
-        Sight { ahead, speed, fastest: fastest.max(driven) }
+        Sight { ahead, speed, fastest: fastest.max(driven), steps }
     }
 
     /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer.
@@ -110,7 +115,7 @@ impl Simulation {
     ) -> (Sight, stability::Found) {
         let (mut step, mut tries) = (step, 0);
         loop {
-            let sight = self.sight(step, faster);
+            let sight = self.sight(step, faster, guess);
             let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
             // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
             if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
@@ -129,7 +134,7 @@ impl Simulation {
     /// follows from the network alone.
     fn may_strangers_meet(&self, sight: &Sight, found: &stability::Found, step: f64) -> bool {
         let step = self.automatic_step(2.0 / found.network).unwrap_or(step).max(step);
-        let way = sight.ahead.way.max(2.0 * sight.fastest * STEPS_BETWEEN_LOOKS * step);
+        let way = sight.ahead.way.max(2.0 * sight.fastest * sight.steps * step);
         !self.search.holds_all_within(&self.state, way)
     }
 
@@ -141,12 +146,17 @@ impl Simulation {
         }
     }
 
+    /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.
+    fn has_implicit(&self) -> bool {
+        self.bodies.iter().flatten().any(RigidBody::is_implicit)
+    }
+
     /// How much faster anything may become before the next look. The farther a given step is below the stable one, the more
     /// speed is foreseen, and the fewer looks a bed takes that begins to move; not so where that would add to inertia.
     fn foreseen_growth(&self) -> f64 {
         let far_below = |step: f64| self.state.foresight.looks > 0 && self.state.clock.stable > FAR_BELOW * step;
         match self.scene.run.step {
-            Step::Given(step) if far_below(step) && !self.bodies.iter().flatten().any(RigidBody::is_implicit) => {
+            Step::Given(step) if far_below(step) && !self.has_implicit() => {
                 (FASTER * (self.state.clock.stable / step).powi(2)).min(MOST_FORESEEN)
             }
             _ => FASTER,
@@ -191,7 +201,7 @@ impl Simulation {
         let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
         let mut light = (0..self.bodies.len()).filter(light);
         if light.any(|index| stability::has_more_contacts(&self.state, index)) {
-            let sight = self.sight(step, FASTER);
+            let sight = self.sight(step, FASTER, self.state.foresight.root);
             let blocks = self.system().blocks(&sight.ahead);
             stability::put_blocks(&mut self.state, blocks);
         }
@@ -283,14 +293,4 @@ impl Simulation {
 /// Bonds made and bonds broken so far.
 fn bonds_so_far(state: &State) -> [u64; 2] {
     state.bonds.iter().fold([0; 2], |[made, broken], list| [made + list.made, broken + list.broken])
-}
-
-/// Mean overlap of the contacts that touch \[m\], if any do.
-fn mean_overlap(state: &State, scene: &Scene) -> Option<f64> {
-    let (mut sum, mut count) = (0.0, 0_usize);
-    super::observe::each_overlap(state, scene, &mut |overlap, _| {
-        sum += overlap;
-        count += 1;
-    });
-    (count > 0).then(|| sum / count as f64)
 }

@@ -79,6 +79,16 @@ impl Simulation {
         self.passes.iter().fold(largest, |most, pass| most.max(pass.largest_overlap(&self.state)))
     }
 
+    /// Mean overlap of the contacts that touch \[m\], if any do.
+    pub fn mean_overlap(&self) -> Option<f64> {
+        let (mut sum, mut count) = (0.0, 0_usize);
+        each_overlap(&self.state, &self.scene, &mut |overlap, _| {
+            sum += overlap;
+            count += 1;
+        });
+        (count > 0).then(|| sum / count as f64)
+    }
+
     /// Elastic energy of contacts and bonds \[J\]: of contacts that of normal force and tangential spring, not the
     /// potential of an attraction.
     pub fn elastic_energy(&self) -> f64 {

@@ -11,22 +11,12 @@ pub(crate) struct ListSlopes {
     pub rows: Vec<Vec<Row>>,
     /// Which numbers of each row change their sign where the bodies change places.
     odd: Vec<[bool; 4]>,
-    /// Evaluation in which each entry had its slopes last, where that is kept: those of what began anew since then are none.
-    last: Vec<u32>,
-    /// The present evaluation.
-    evaluation: u32,
 }
 
 impl ListSlopes {
     /// An empty list of so many rows.
     pub(super) fn of(rows: usize) -> Self {
-        Self {
-            bodies: Vec::new(),
-            rows: vec![Vec::new(); rows],
-            odd: vec![[false; 4]; rows],
-            last: Vec::new(),
-            evaluation: 0,
-        }
+        Self { bodies: Vec::new(), rows: vec![Vec::new(); rows], odd: vec![[false; 4]; rows] }
     }
 
     /// Says which numbers of the first rows change their sign where the bodies change places.
@@ -36,26 +26,17 @@ impl ListSlopes {
         }
     }
 
-    /// The next evaluation begins.
-    pub(crate) fn go_on(&mut self) {
-        self.evaluation += 1;
-        self.last.resize(self.bodies.len(), 0);
+    /// Slopes of a row of some entries, as many as there are lanes.
+    #[inline(always)]
+    pub(crate) fn read<N: Lane>(&self, row: usize, entries: &Places) -> [N; 4] {
+        columns_at(&self.rows[row], entries)
     }
 
-    /// Slopes of a row of some entries, as many as there are lanes of which the first so many count; of those that were not there in
-    /// the last evaluation none are left.
-    #[inline(always)]
-    pub(crate) fn begin<N: Lane>(&mut self, row: usize, entries: &Places, count: usize) -> [N; 4] {
-        let Self { rows, last, evaluation, .. } = self;
-        if row == 0 {
-            for &entry in entries.first(count) {
-                let entry = entry as usize;
-                if std::mem::replace(&mut last[entry], *evaluation) + 1 != *evaluation {
-                    rows.iter_mut().for_each(|rows| rows[entry] = [0.0; 4]);
-                }
-            }
+    /// Nothing is remembered of some entries any more.
+    pub(crate) fn end(&mut self, entries: &[u32]) {
+        for rows in &mut self.rows {
+            entries.iter().for_each(|&entry| rows[entry as usize] = [0.0; 4]);
         }
-        columns_at(&rows[row], entries)
     }
 
     /// Writes slopes of a row.
@@ -72,7 +53,6 @@ impl ListSlopes {
         }
         if self.bodies.is_empty() {
             self.rows.iter_mut().for_each(|rows| *rows = vec![[0.0; 4]; bodies.len()]);
-            self.last = vec![0; if self.last.is_empty() { 0 } else { bodies.len() }];
             self.bodies = bodies;
             return;
         }
@@ -93,10 +73,6 @@ impl ListSlopes {
                 None => [0.0; 4],
             });
             *rows = moved.collect();
-        }
-        if !self.last.is_empty() {
-            let last = |entry: &Option<usize>| entry.map_or(0, |entry| self.last[entry]);
-            self.last = before.iter().map(last).collect();
         }
         self.bodies = bodies;
     }

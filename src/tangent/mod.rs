@@ -11,7 +11,7 @@ pub(crate) mod rotation;
 mod rows;
 
 pub(crate) use boundary::BoundarySlopes;
-pub(crate) use group::{Group, Waiting};
+pub(crate) use group::Group;
 pub(crate) use list::ListSlopes;
 pub(crate) use particles::{Moving, ParticleSlopes};
 pub(crate) use rows::{alone, row_of, rows_at, slopes_of, spread, sum, vector_of, vector_slopes, with_slopes};

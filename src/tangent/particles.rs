@@ -156,12 +156,19 @@ impl ParticleSlopes {
         bits
     }
 
-    /// Adds to the slopes of the forces on the first so many of some particles, which are reached then.
+    /// Adds to the slopes of the forces on the first so many of some particles. Those are reached then whose bit is set; of others there
+    /// are no slopes.
     #[inline(always)]
-    pub(crate) fn press<N: Lane>(&mut self, slots: &Places, count: usize, force: Vector<Dual<N>>) {
+    pub(crate) fn press<N: Lane>(
+        &mut self,
+        slots: &Places,
+        (count, mut reached): (usize, u32),
+        force: Vector<Dual<N>>,
+    ) {
         add_at(vector_slopes(force), &mut self.force, slots, count);
-        for &slot in slots.first(count) {
-            self.is_reached[slot as usize] = true;
+        while reached != 0 && !self.all_reached {
+            self.is_reached[slots.at(reached.trailing_zeros() as usize)] = true;
+            reached &= reached - 1;
         }
     }
 

@@ -1,29 +1,25 @@
 //! Each sub-model as functions of a row of coefficients: what a law keeps of it.
 
-use super::number::LawNumber;
+use super::number::{CoefficientRow, LawNumber, numbers};
 use crate::contact::{
-    Adhesion, Coefficients, Cohesion, CohesionForm, Contact, Friction, HistoryRow, Needs, Normal, NormalForce,
-    NormalForm, Onset, Response, Rolling, RollingStiffness, Switches, Tangential, cohesion::TakeCohesion,
-    normal::TakeNormal, rolling::TakeRolling, tangential::TakeTangential,
+    Adhesion, Cohesion, CohesionForm, Contact, HistoryRow, Needs, Normal, NormalForce, NormalForm, Onset, Response,
+    Rolling, RollingStiffness, Switches, Tangential, cohesion::TakeCohesion, normal::TakeNormal, rolling::TakeRolling,
+    tangential::TakeTangential,
 };
-use crate::number::{Row, Vector};
-
-/// Coefficients that a sub-model has at most.
-const MOST: usize = 16;
+use crate::number::{Number, Row, Vector};
 
 /// Normal force of coefficients, contact, history and step; the history goes on, where there is one.
-pub(super) type NormalFunction<N> = fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
+pub(super) type NormalFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
 
-/// Friction of coefficients, contact, normal force, history and step.
+/// Friction of coefficients, contact, normal force, history and step, and whether it is at its limit; the history goes on.
 pub(super) type TangentialFunction<N> =
-    fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &NormalForce<N>, [N; 4], N) -> Friction<N>;
+    fn(&CoefficientRow<N>, &Contact<N>, &NormalForce<N>, &mut [N; 4], N) -> (Vector<N>, <N as Number>::Mask);
 
-/// Rolling torque of coefficients, contact, normal force, history and step, and what is to be remembered.
-pub(super) type RollingFunction<N> =
-    fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &NormalForce<N>, [N; 4], N) -> (Vector<N>, [N; 4]);
+/// Rolling torque of coefficients, contact, normal force, history and step; the history goes on.
+pub(super) type RollingFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &NormalForce<N>, &mut [N; 4], N) -> Vector<N>;
 
 /// Adds the attraction of coefficients and contact to a normal force.
-pub(super) type CohesionFunction<N> = fn(&[<N as LawNumber>::Coefficient], &Contact<N>, &mut NormalForce<N>);
+pub(super) type CohesionFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &mut NormalForce<N>);
 
 /// What the sub-models of a law do to the contacts of a call, in one kind of number.
 #[derive(Clone, Copy)]
@@ -38,21 +34,10 @@ pub struct Acting<N: LawNumber> {
     pub(super) cohesion: CohesionFunction<N>,
 }
 
-/// The coefficients that stand first in a row, in this kind of number.
-#[inline(always)]
-pub(super) fn numbers<A: Coefficients, N: LawNumber>(row: &[N::Coefficient]) -> A::Lanes<N> {
-    const { assert!(A::COUNT <= MOST) };
-    let mut numbers = [N::zero(); MOST];
-    for (number, value) in numbers[..A::COUNT].iter_mut().zip(&row[..A::COUNT]) {
-        *number = N::of(*value);
-    }
-    A::lanes(&numbers)
-}
-
 /// [`NormalForm::force`] of one contact.
 #[inline(always)]
 pub(super) fn normal<A: NormalForm, N: LawNumber>(
-    row: &[N::Coefficient],
+    row: &CoefficientRow<N>,
     contact: &Contact<N>,
     history: &mut [N; 4],
     step: N,
@@ -70,31 +55,35 @@ pub(super) fn normal<A: NormalForm, N: LawNumber>(
 /// [`Tangential::force`] of one contact.
 #[inline(always)]
 pub(super) fn tangential<B: Tangential, N: LawNumber>(
-    row: &[N::Coefficient],
+    row: &CoefficientRow<N>,
     contact: &Contact<N>,
     normal: &NormalForce<N>,
-    history: [N; 4],
+    history: &mut [N; 4],
     step: N,
-) -> Friction<N> {
-    B::force(numbers::<B, N>(row), contact, normal, history, step)
+) -> (Vector<N>, N::Mask) {
+    let friction = B::force(numbers::<B, N>(row), contact, normal, *history, step);
+    *history = friction.history;
+    (friction.force, friction.sliding)
 }
 
 /// [`Rolling::torque`] of one contact.
 #[inline(always)]
 pub(super) fn rolling<C: Rolling, N: LawNumber>(
-    row: &[N::Coefficient],
+    row: &CoefficientRow<N>,
     contact: &Contact<N>,
     normal: &NormalForce<N>,
-    history: [N; 4],
+    history: &mut [N; 4],
     step: N,
-) -> (Vector<N>, [N; 4]) {
-    C::torque(numbers::<C, N>(row), contact, normal, history, step)
+) -> Vector<N> {
+    let (torque, after) = C::torque(numbers::<C, N>(row), contact, normal, *history, step);
+    *history = after;
+    torque
 }
 
 /// [`CohesionForm::force`] of one contact, added.
 #[inline(always)]
 pub(super) fn cohesion<D: CohesionForm, N: LawNumber>(
-    row: &[N::Coefficient],
+    row: &CoefficientRow<N>,
     contact: &Contact<N>,
     normal: &mut NormalForce<N>,
 ) {

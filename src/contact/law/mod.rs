@@ -350,27 +350,24 @@ impl Law {
         history: &mut [[N; 4]],
         step: N,
     ) -> Reaction<N> {
-        let (carry, normal) = self.press(acting, row, contact, history, step);
+        let (carry, weight) = self.carry(contact, history, step);
+        let normal = self.press(acting, row, contact, history, (step, weight));
         let along = (&normal, normal.force);
-        let (force, couple, sliding) = self.friction(acting, row, contact, along, history, (step, carry));
-        let rolling = self.roll(acting, row, contact, &normal, history, (step, carry));
+        let (force, couple, sliding) = self.friction(acting, row, contact, along, history, (step, &carry));
+        let rolling = self.roll(acting, row, contact, &normal, history, (step, &carry));
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// How one contact was carried, and its normal force: all of [`Law::react`] where bodies feel no torque.
+    /// The normal force of one contact that was carried, with this weight of γ_t.
     #[inline(always)]
     pub(crate) fn press<N: Evaluated>(
         &self,
         acting: &Acting<N>,
         row: &[N::Coefficient],
-        contact: &mut Contact<N>,
+        contact: &Contact<N>,
         history: &mut [[N; 4]],
-        step: N,
-    ) -> (Option<Carry<N>>, NormalForce<N>) {
-        if self.undeformed_arms() {
-            *contact = contact.with_undeformed_arms();
-        }
-        let (carry, weight) = self.carry(contact, history, step);
+        (step, weight): (N, N),
+    ) -> NormalForce<N> {
         let mut none = [N::zero(); 4];
         let remembered = match self.history_places.normal {
             Some(place) => &mut history[place],
@@ -381,7 +378,7 @@ impl Law {
         if self.cohesion.active {
             (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
         }
-        (carry, normal)
+        normal
     }
 
     /// The same of a contact that a bond suppresses, or has suppressed. The elastic force is taken from the overlap beyond the
@@ -410,19 +407,28 @@ impl Law {
         }
         let along = if offset.acts { normal.force } else { 0.0 };
         let acting = f64::acting(self);
-        let (force, couple, sliding) = self.friction(&acting, row, contact, (&normal, along), history, (step, carry));
+        let (force, couple, sliding) = self.friction(&acting, row, contact, (&normal, along), history, (step, &carry));
         let pressed = Contact { overlap: offset.pressing, ..*contact };
         let rolling = if offset.acts {
-            self.roll(&acting, row, &pressed, &normal, history, (step, carry))
+            self.roll(&acting, row, &pressed, &normal, history, (step, &carry))
         } else {
             Vector::zero()
         };
         Reaction { force, couple, rolling, sliding }
     }
 
-    /// How a contact was carried, where the scheme asks for it, and a weight of γ_t; it gets the velocities that dashpots see.
+    /// How a contact was carried, where the scheme asks for it, and a weight of γ_t; it gets the velocities that dashpots see, and the
+    /// slip of undeformed bodies where the law takes that.
     #[inline(always)]
-    fn carry<N: Evaluated>(&self, contact: &mut Contact<N>, history: &mut [[N; 4]], step: N) -> (Option<Carry<N>>, N) {
+    pub(crate) fn carry<N: Evaluated>(
+        &self,
+        contact: &mut Contact<N>,
+        history: &mut [[N; 4]],
+        step: N,
+    ) -> (Option<Carry<N>>, N) {
+        if self.undeformed_arms() {
+            *contact = contact.with_undeformed_arms();
+        }
         let one = N::splat(1.0);
         if let Some(place) = self.history_places.normal_velocity {
             let foreseen = foresee_normal(contact, history[place][3], self.normal.onset, step);
@@ -455,22 +461,23 @@ impl Law {
         contact: &Contact<N>,
         (normal, along): (&NormalForce<N>, N),
         history: &mut [[N; 4]],
-        (mut step, carry): (N, Option<Carry<N>>),
+        (mut step, carry): (N, &Option<Carry<N>>),
     ) -> (Vector<N>, Vector<N>, N::Mask) {
         let force = contact.normal * along;
         if !self.tangential.active {
             return (force, Vector::zero(), N::zero().greater(N::zero()));
         }
-        let place = self.history_places.tangential;
-        let mut before = place.map_or([N::zero(); 4], |place| history[place]);
-        if let Some(carry) = carry.filter(|_| self.tangential.has_spring) {
-            (before, step) = (carry.spring(contact.normal, before), N::zero());
+        let mut none = [N::zero(); 4];
+        let remembered = match self.history_places.tangential {
+            Some(place) => &mut history[place],
+            None => &mut none,
+        };
+        if let Some(carry) = carry.as_ref().filter(|_| self.tangential.has_spring) {
+            (*remembered, step) = (carry.spring(contact.normal, *remembered), N::zero());
         }
-        let friction = (acting.tangential)(&row[self.places.tangential..], contact, normal, before, step);
-        if let Some(place) = place {
-            history[place] = friction.history;
-        }
-        (force + friction.force, contact.normal.cross(friction.force), friction.sliding)
+        let row = &row[self.places.tangential..];
+        let (friction, sliding) = (acting.tangential)(row, contact, normal, remembered, step);
+        (force + friction, contact.normal.cross(friction), sliding)
     }
 
     /// Rolling torque from i to j.
@@ -482,25 +489,27 @@ impl Law {
         contact: &Contact<N>,
         normal: &NormalForce<N>,
         history: &mut [[N; 4]],
-        (mut step, carry): (N, Option<Carry<N>>),
+        (mut step, carry): (N, &Option<Carry<N>>),
     ) -> Vector<N> {
         if !self.rolling.active {
             return Vector::zero();
         }
         let place = self.history_places.rolling;
-        let (mut before, mut contact) = (place.map_or([N::zero(); 4], |place| history[place]), *contact);
-        let (mut pressed, carry) = (*normal, carry.filter(|_| place.is_some()));
+        let mut none = [N::zero(); 4];
+        let remembered = match place {
+            Some(place) => &mut history[place],
+            None => &mut none,
+        };
+        let (mut contact, mut pressed) = (*contact, *normal);
+        let carry = carry.as_ref().filter(|_| place.is_some());
         if let Some(carry) = carry {
-            pressed = carry.mean_stiffness(normal, before[3]);
-            before = carry.torque(contact.normal, before);
+            pressed = carry.mean_stiffness(normal, remembered[3]);
+            *remembered = carry.torque(contact.normal, *remembered);
             (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
         }
-        let (torque, mut after) = (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, before, step);
+        let torque = (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, remembered, step);
         if carry.is_some() {
-            after[3] = normal.response.normal_stiffness;
-        }
-        if let Some(place) = place {
-            history[place] = after;
+            remembered[3] = normal.response.normal_stiffness;
         }
         torque
     }

@@ -1,5 +1,6 @@
 //! Numbers that sub-models compute with, and their coefficients.
 
+use crate::contact::Coefficients;
 use crate::dual::{Dual, Slopes};
 use crate::number::Number;
 
@@ -29,4 +30,21 @@ impl<V: Number, S: Slopes<V>> LawNumber for Dual<V, S> {
     fn of(coefficient: V) -> Self {
         Self::constant(coefficient)
     }
+}
+
+/// Coefficients that a sub-model has at most.
+const MOST: usize = 16;
+
+/// Coefficients of a sub-model, or of all from it on.
+pub(super) type CoefficientRow<N> = [<N as LawNumber>::Coefficient];
+
+/// The coefficients that stand first in a row, in this kind of number.
+#[inline(always)]
+pub(super) fn numbers<A: Coefficients, N: LawNumber>(row: &CoefficientRow<N>) -> A::Lanes<N> {
+    const { assert!(A::COUNT <= MOST) };
+    let mut numbers = [N::zero(); MOST];
+    for (number, value) in numbers[..A::COUNT].iter_mut().zip(&row[..A::COUNT]) {
+        *number = N::of(*value);
+    }
+    A::lanes(&numbers)
 }

@@ -9,7 +9,7 @@ use crate::contact::normal::TakeNormal;
 use crate::contact::rolling::TakeRolling;
 use crate::contact::tangential::TakeTangential;
 use crate::contact::{
-    Cohesion, CohesionForm, Contact, Friction, LawChoice, Normal, NormalForce, NormalForm, Rolling, Tangential,
+    Cohesion, CohesionForm, Contact, LawChoice, Normal, NormalForce, NormalForm, Rolling, Tangential,
 };
 use crate::dual::{Dual, Slopes};
 use crate::lanes::Work;
@@ -23,7 +23,7 @@ struct Given<'a, M, V: Number, S: Slopes<V>> {
     /// The contacts.
     contact: &'a Contact<Dual<V, S>>,
     /// What it remembers of them.
-    history: [Dual<V, S>; 4],
+    history: &'a mut [Dual<V, S>; 4],
     /// The time step.
     step: Dual<V, S>,
     /// The sub-model.
@@ -51,7 +51,7 @@ impl<M: NormalForm, V: Number, S: Slopes<V>> Work for Press<'_, M, V, S> {
 struct Rub<'a, M, V: Number, S: Slopes<V>>(Given<'a, M, V, S>, &'a NormalForce<Dual<V, S>>);
 
 impl<M: Tangential, V: Number, S: Slopes<V>> Work for Rub<'_, M, V, S> {
-    type Output = Friction<Dual<V, S>>;
+    type Output = (Vector<Dual<V, S>>, V::Mask);
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Given { row, contact, history, step, .. } = self.0;
@@ -63,7 +63,7 @@ impl<M: Tangential, V: Number, S: Slopes<V>> Work for Rub<'_, M, V, S> {
 struct Roll<'a, M, V: Number, S: Slopes<V>>(Given<'a, M, V, S>, &'a NormalForce<Dual<V, S>>);
 
 impl<M: Rolling, V: Number, S: Slopes<V>> Work for Roll<'_, M, V, S> {
-    type Output = (Vector<Dual<V, S>>, [Dual<V, S>; 4]);
+    type Output = Vector<Dual<V, S>>;
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Given { row, contact, history, step, .. } = self.0;

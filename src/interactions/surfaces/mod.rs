@@ -15,19 +15,22 @@ use super::ahead::{Ahead, Link};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
-use crate::batches::{BatchLaw, Batches, Bodies, Entries};
+use crate::batches::{Along, BatchLaw, Batches, Bodies, Entries};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::Response;
-use crate::lanes::Shared;
+use crate::dual::Dual;
+use crate::lanes::{Shared, Width};
 use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
 use crate::scene::{Boundary, Scene, Shape};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
 use crate::surface::{self, Deforming};
+use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use features::{FeatureContacts, Spare};
 use plane::{AtPlane, Plane, PlaneList};
+use slopes::PlaneSlopes;
 use sphere::{Load, Loaded};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError, RwLock};
@@ -102,6 +105,8 @@ struct Work<'a> {
     particles: Loaded<'a>,
     /// The threads.
     context: &'a Context<'a>,
+    /// What is followed.
+    tangents: Option<&'a Mutex<&'a mut [Tangent]>>,
 }
 
 impl AtSurface {
@@ -145,20 +150,34 @@ impl AtSurface {
     /// Loads of the particles in a range of slots on it. Ranges that are evaluated at the same time do not overlap.
     fn piece(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let list = &work.walls[self.index];
-        let boundary = &work.boundaries[list.boundary as usize];
         match &self.touched {
             Touched::Plane(plane) => {
-                let pivot = self.reference + boundary.displacement.into();
-                let (particle, material) = (&list.particle[..], self.material);
-                let plane = plane.at(boundary);
-                let bodies = AtPlane { plane, pivot, particle, material, particles: work.particles };
+                let bodies = self.at_plane(plane, (list, work.boundaries), work.particles);
                 let [from, to] =
-                    [slots.start, slots.end].map(|end| particle.partition_point(|&slot| (slot as usize) < end));
-                let load = self.run(&self.batches(bodies, work.entries[self.index], work.context), from..to);
-                Load { conveying_power: -plane.conveying.dot(load.force.into()), ..load }
+                    [slots.start, slots.end].map(|end| bodies.particle.partition_point(|&slot| (slot as usize) < end));
+                let step = work.context.step;
+                let followed = work.tangents.map(|tangents| {
+                    self.followed(PlaneSlopes::of(self, &bodies, list.boundary), tangents, Dual::constant(step))
+                });
+                let batches = self.batches(bodies, work.entries[self.index], (step, work.context.width));
+                let along = followed.as_ref().map(|followed| followed as &dyn Along);
+                let load = self.run(&Batches { along, ..batches }, from..to);
+                Load { conveying_power: -bodies.plane.conveying.dot(load.force.into()), ..load }
             }
             Touched::Features(_) | Touched::Nodes(_) => self.piece_at_features(work, slots, contacts),
         }
+    }
+
+    /// The particles of its list at this plane, where it stands.
+    fn at_plane<'a>(
+        &self,
+        plane: &Plane,
+        (list, boundaries): (&'a WallContacts, &[BoundaryState]),
+        particles: Loaded<'a>,
+    ) -> AtPlane<'a> {
+        let boundary = &boundaries[list.boundary as usize];
+        let (plane, pivot) = (plane.at(boundary), self.reference + boundary.displacement.into());
+        AtPlane { plane, pivot, particle: &list.particle, material: self.material, particles }
     }
 
     /// Evaluates a piece of a list.
@@ -171,16 +190,16 @@ impl AtSurface {
         batches.run(start, end, 0..0)
     }
 
-    /// A list that is evaluated in batches.
-    fn batches<B>(&self, bodies: B, entries: Entries, context: &Context) -> Batches<'_, B> {
+    /// A list that is evaluated in batches, after this time \[s\], in registers of this width.
+    fn batches<B>(&self, bodies: B, entries: Entries, (step, width): (f64, Width)) -> Batches<'_, B> {
         Batches {
             bodies,
             entries,
             law: &self.law,
             table: &self.table,
             uniform: self.table.uniform_with(self.material),
-            step: context.step,
-            width: context.width,
+            step,
+            width,
             along: None,
         }
     }
@@ -223,8 +242,10 @@ impl SurfacePass {
     }
 }
 
-impl Pass for SurfacePass {
-    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+impl SurfacePass {
+    /// Evaluates the laws on all contacts, with their slopes.
+    fn evaluate(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) -> Result<(), RunError> {
+        let (follows, followed) = (!followed.is_empty(), Mutex::new(followed));
         self.surfaces.iter().try_for_each(|surface| surface.follow(state))?;
         let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
         let (room, count) = (&mut *room, self.surfaces.len());
@@ -244,15 +265,22 @@ impl Pass for SurfacePass {
             nodes: &state.nodes,
             particles: Loaded::of(&mut state.particles),
             context,
+            tangents: follows.then_some(&followed),
         };
         let (loads, contacts) = (Shared::new(&mut room.loads), Shared::new(&mut room.contacts));
-        context.each(pieces, |piece| {
+        let evaluate = |piece: usize| {
             let slots = piece * PIECE..((piece + 1) * PIECE).min(particles);
             for (place, surface) in (piece * count..).zip(&self.surfaces) {
                 // SAFETY: each piece is done once, and has places of its own.
                 unsafe { *loads.at(place) = surface.piece(&work, slots.clone(), contacts.at(place)) };
             }
-        });
+        };
+        // Slopes of the loads on a boundary are summed as they are found.
+        if work.tangents.is_some() {
+            (0..pieces).for_each(evaluate);
+        } else {
+            context.each(pieces, evaluate);
+        }
         let mut result = Ok(());
         for (place, surface) in self.surfaces.iter().enumerate() {
             if surface.has_features() {
@@ -264,6 +292,21 @@ impl Pass for SurfacePass {
             result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
         }
         result
+    }
+}
+
+impl Pass for SurfacePass {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
+        self.evaluate(state, context, &mut [])
+    }
+
+    fn apply_with_slopes(
+        &self,
+        state: &mut State,
+        followed: &mut [Tangent],
+        context: &Context,
+    ) -> Result<(), RunError> {
+        self.evaluate(state, context, followed)
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {

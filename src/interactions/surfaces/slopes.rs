@@ -1,16 +1,45 @@
-//! How contacts with surfaces change with a few inputs.
+//! Contacts with planes, with slopes.
 
-use super::plane::Plane;
-use super::sphere::{SphereAt, lanes};
+use super::plane::{AtPlane, Plane};
+use super::sphere::{Loaded, SphereAt, lanes};
 use super::{AtSurface, SurfacePass, Touched};
-use crate::coefficients::in_lanes;
-use crate::contact::{Evaluated, MOST_HISTORY, Reaction};
+use crate::batches::{Batches, Buffer, ContactGeometry, Entries, FOUND};
+use crate::contact::{Needs, Reaction};
 use crate::dual::Dual;
-use crate::interactions::slopes::{Touching, beyond, constants, materials, needed, part, react};
-use crate::lanes::{Kernel, Lane, columns_at, run_seldom};
+use crate::interactions::followed::{Followed, Register, Sides};
+use crate::lanes::{Lane, Places, columns_at, numbers_at};
 use crate::number::{Number, Vector};
 use crate::state::State;
-use crate::tangent::{AddSlopes, FollowPass, Group, Moving, Tangent, Waiting, spread, sum, vector_slopes};
+use crate::tangent::{FollowPass, ListSlopes, Moving, Tangent, spread, sum, vector_slopes};
+use std::sync::Mutex;
+
+/// Particles at a plane whose slopes are followed.
+#[derive(Clone, Copy)]
+pub(super) struct PlaneSlopes<'a> {
+    /// Which list of the state is theirs.
+    index: usize,
+    /// Whose plane it is.
+    boundary: usize,
+    /// The plane where it stands.
+    plane: Plane,
+    /// The moved reference point.
+    pivot: Vector,
+    /// The plane's material.
+    material: u32,
+    /// How the particles move.
+    moving: Moving<'a>,
+    /// Their materials.
+    materials: &'a [u32],
+}
+
+impl<'a> PlaneSlopes<'a> {
+    /// Those at a plane of this boundary.
+    pub(super) fn of(surface: &AtSurface, bodies: &AtPlane<'a>, boundary: u32) -> Self {
+        let AtPlane { plane, pivot, material, particles, .. } = *bodies;
+        let (index, boundary) = (surface.index, boundary as usize);
+        Self { index, boundary, plane, pivot, material, moving: particles.moving(), materials: particles.material }
+    }
+}
 
 /// Rows of particles as a boundary sees them whose own part has these slopes.
 #[inline(always)]
@@ -21,102 +50,112 @@ fn seen<N: Lane>(mut row: [Dual<N>; 4], own: &[[f64; 1]; 3]) -> [Dual<N>; 4] {
     row
 }
 
-impl FollowPass for SurfacePass {
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        for surface in &self.surfaces {
-            match &surface.touched {
-                Touched::Plane(plane) => {
-                    let plane = plane.at(&state.boundaries[surface.list(state).boundary as usize]);
-                    let pass = (surface, plane);
-                    if surface.law.needs.torque {
-                        run_seldom(tangent.width, AddSlopes { pass: Touching::<_, true>(pass), state, tangent, step });
-                    } else {
-                        run_seldom(tangent.width, AddSlopes { pass: Touching::<_, false>(pass), state, tangent, step });
-                    }
-                }
-                // Scenes with others are refused before.
-                Touched::Features(_) | Touched::Nodes(_) => {}
-            }
+impl Sides for PlaneSlopes<'_> {
+    const AT_BOUNDARY: bool = true;
+
+    #[inline(always)]
+    fn list<'a>(&self, tangent: &'a mut Tangent) -> &'a mut ListSlopes {
+        &mut tangent.walls[self.index]
+    }
+
+    fn reaches(&self, tangent: &Tangent, buffer: &Buffer) -> bool {
+        let slots = &buffer.first[..buffer.ready];
+        !slots.is_empty() && (tangent.boundaries[self.boundary].is_moved() || tangent.particles.reaches(slots))
+    }
+
+    #[inline(always)]
+    fn reached(&self, tangent: &Tangent, [slots, _]: &[Places; 2], count: usize) -> u32 {
+        if tangent.boundaries[self.boundary].is_moved() {
+            return (1 << count) - 1;
         }
+        tangent.particles.reached(slots.first(count))
+    }
+
+    #[inline(always)]
+    fn roots<N: Lane>(&self, _found: &[N; FOUND]) -> [N; 2] {
+        [N::zero(); 2]
+    }
+
+    #[inline(always)]
+    fn meet<N: Lane, const TURNING: bool>(
+        &self,
+        tangent: &Tangent,
+        contacts: &Register<N>,
+        needs: Needs,
+    ) -> ContactGeometry<Dual<N>> {
+        let (particles, boundary) = (&tangent.particles, &tangent.boundaries[self.boundary]);
+        let Register { slots: [slots, _], found, constant, .. } = contacts;
+        let [position, velocity] = particles.bodies::<N>(&self.moving, slots);
+        let spin = if TURNING { particles.spins(&self.moving, slots) } else { [Dual::zero(); 4] };
+        let (position, velocity) =
+            (seen::<N>(position, &boundary.displacement), seen::<N>(velocity, &boundary.velocity));
+        let distance = Dual { value: found[0], ..self.plane.distance(position) };
+        let mut geometry = self.plane.meet([distance, position[3]], [velocity, spin], Dual::constant(*constant));
+        if needs.section {
+            let sphere = SphereAt { normal: geometry.contact.normal, distance, radius: position[3] };
+            geometry.contact.section_area = sphere.section();
+        }
+        geometry
+    }
+
+    fn materials(&self, [slots, _]: &[Places; 2]) -> [[u32; 8]; 2] {
+        [numbers_at(self.materials, slots), [self.material; 8]]
+    }
+
+    #[inline(always)]
+    fn load<N: Lane, const TURNING: bool>(
+        &self,
+        tangent: &mut Tangent,
+        (contacts, reached): (&Register<N>, u32),
+        geometry: &ContactGeometry<Dual<N>>,
+        reaction: &Reaction<Dual<N>>,
+    ) {
+        let Register { slots: [slots, _], count, .. } = contacts;
+        let Reaction { force, couple, rolling, .. } = *reaction;
+        let (particles, boundary) = (&mut tangent.particles, &mut tangent.boundaries[self.boundary]);
+        particles.press(slots, (*count, reached), force);
+        if TURNING {
+            particles.twist(slots, *count, -(couple * geometry.first_arm) - rolling);
+        }
+        let place = Vector::of_row(columns_at::<N>(self.moving.position, slots)) - lanes(self.pivot);
+        let [dx, dy, dz, _] = columns_at::<N>(&particles.position, slots);
+        let [own_x, own_y, own_z] = boundary.displacement.map(|[own]| N::splat(own));
+        let away = Dual::vector(place, [[dx - own_x], [dy - own_y], [dz - own_z]]);
+        let moment = (away - geometry.contact.normal * geometry.first_arm).cross(force) - rolling;
+        sum(vector_slopes(-force), &mut boundary.force, *count);
+        sum(vector_slopes(-moment), &mut boundary.moment, *count);
     }
 }
 
-/// A plane where it stands.
-impl<const TURNING: bool> Kernel for AddSlopes<'_, Touching<(&AtSurface, Plane), TURNING>> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { pass: Touching((surface, plane)), state, tangent, step } = self;
-        let (list, particles, law) = (surface.list(state), &state.particles, &surface.law.law);
-        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-        let (step, table) = (spread::<N>(step), &surface.table);
-        let uniform = table.uniform_with(surface.material).map(in_lanes::<N>);
-        let Tangent { particles: moved, walls, boundaries, .. } = tangent;
-        let (slopes, boundary) = (&mut walls[surface.index], &mut boundaries[list.boundary as usize]);
-        let pivot = surface.reference + state.boundaries[list.boundary as usize].displacement.into();
-        let (moves, mut waiting) = (boundary.is_moved(), Waiting::of([&list.particle]));
-        let acting = Evaluated::acting(law);
-        let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
-        while let Some(mut group) = waiting.look::<N>() {
-            let Group { entries, bodies: [slots], count } = group;
-            let wanted = if moves { (1 << count) - 1 } else { moved.reached(slots.first(count)) };
-            let mut touching = 0;
-            if wanted != 0 {
-                let position = columns_at::<N>(&particles.position, &slots);
-                let mut reach = position[3];
-                if let Some(beyond) = beyond(law, &list.flags, &list.pair_constant, &entries) {
-                    reach = reach + beyond;
-                }
-                touching = wanted & !N::bits(plane.distance(position).greater(reach));
-                part(slopes, &entries, wanted & !touching);
-            }
-            if N::WIDTH > 1 {
-                waiting.wait(&group, touching);
-                let Some(filled) = waiting.take::<N>() else { continue };
-                group = filled;
-            } else if touching == 0 {
-                continue;
-            }
-            let Group { entries, bodies: [slots], count } = group;
-            let [position, velocity] = moved.bodies::<N>(&moving, &slots);
-            let spin = if TURNING { moved.spins(&moving, &slots) } else { [Dual::zero(); 4] };
-            let (place, speed) = (Dual::values_of(position), Dual::values_of(velocity));
-            let (position, velocity) =
-                (seen::<N>(position, &boundary.displacement), seen::<N>(velocity, &boundary.velocity));
-            let constant = constants::<N>(&list.pair_constant, &entries);
-            let at = [plane.distance(position), position[3]];
-            let geometry = plane.meet(at, [velocity, spin], Dual::constant(constant));
-            let values = plane.meet([plane.distance(place), place[3]], [speed, [Number::zero(); 4]], constant).contact;
-            let mut geometry = needed::<N, TURNING>(geometry, &values, surface.law.needs);
-            if surface.law.needs.section {
-                let [distance, radius] = at;
-                geometry.contact.section_area =
-                    SphereAt { normal: geometry.contact.normal, distance, radius }.section();
-            }
-            let gathered;
-            let row = match &uniform {
-                Some(row) => row,
-                None => {
-                    gathered = table.lanes(materials(&particles.material, &slots), [surface.material; 8]);
-                    &gathered
-                }
-            };
-            let (law, remembered) = ((law, &acting, &row[..]), (&*list.history, &mut *slopes, &entries));
-            let Reaction { force, couple, rolling, .. } =
-                react::<N, TURNING>(law, &mut geometry.contact, remembered, (&mut rows, step));
-            moved.press(&slots, count, force);
-            if TURNING {
-                moved.twist(&slots, count, -(couple * geometry.first_arm) - rolling);
-            }
-            let away = Vector::of_row(place) - lanes(pivot);
-            let [x, y, z, _] = position;
-            let away = Vector {
-                x: Dual { value: away.x, ..x },
-                y: Dual { value: away.y, ..y },
-                z: Dual { value: away.z, ..z },
-            };
-            let moment = (away - geometry.contact.normal * geometry.first_arm).cross(force) - rolling;
-            sum(vector_slopes(-force), &mut boundary.force, count);
-            sum(vector_slopes(-moment), &mut boundary.moment, count);
+impl AtSurface {
+    /// How slopes go along with the contacts of this plane, where it stands.
+    pub(super) fn followed<'a, 'b>(
+        &'a self,
+        sides: PlaneSlopes<'a>,
+        tangents: &'a Mutex<&'b mut [Tangent]>,
+        step: Dual,
+    ) -> Followed<'a, 'b, PlaneSlopes<'a>> {
+        let (law, table, uniform) = (&self.law, &self.table, self.table.uniform_with(self.material));
+        Followed { sides, law, table, uniform, tangents, step, looks: false }
+    }
+}
+
+impl FollowPass for SurfacePass {
+    /// Looks at the contacts alone, in copies of the lists.
+    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
+        let width = tangent.width;
+        let tangents = Mutex::new(std::slice::from_mut(tangent));
+        for surface in &self.surfaces {
+            // Scenes with others are refused before.
+            let Touched::Plane(plane) = &surface.touched else { continue };
+            let (list, mut kept) = (surface.list(state), surface.list(state).clone());
+            let particles = Loaded::looking(&state.particles);
+            let bodies = surface.at_plane(plane, (list, &state.boundaries), particles);
+            let sides = PlaneSlopes::of(surface, &bodies, list.boundary);
+            let followed = Followed { looks: true, ..surface.followed(sides, &tangents, step) };
+            let entries = Entries::of(&mut kept.flags, &mut kept.history, &mut kept.pair_constant);
+            let batches = surface.batches(bodies, entries, (0.0, width));
+            Batches { along: Some(&followed), ..batches }.run(0, bodies.particle.len(), 0..0);
         }
     }
 }

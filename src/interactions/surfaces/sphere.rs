@@ -6,6 +6,7 @@ use crate::interactions::pairs::plane_velocities;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
 use crate::state::{Particles, Row, plane_rows};
+use crate::tangent::Moving;
 use std::f64::consts::PI;
 
 /// A sphere that touches a surface.
@@ -113,6 +114,24 @@ impl<'a> Loaded<'a> {
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
         }
+    }
+
+    /// The particles of a state that is looked at alone: nothing is added to them.
+    pub(super) fn looking(particles: &'a Particles) -> Self {
+        Self {
+            plane_rows: particles.plane_rows,
+            position: &particles.position,
+            velocity: &particles.velocity,
+            angular_velocity: &particles.angular_velocity,
+            material: &particles.material,
+            force: Shared::new(&mut []),
+            torque: Shared::new(&mut []),
+        }
+    }
+
+    /// How they move.
+    pub(super) fn moving(&self) -> Moving<'a> {
+        Moving::of(self.position, self.velocity, self.angular_velocity)
     }
 
     /// Velocities and, where there is torque, angular velocities of some particles.
