@@ -181,7 +181,7 @@ pub enum Adhesion {
 pub type Roots<N> = [N; 2];
 
 /// Stiffnesses and damping coefficients of a contact, by its normal model.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response<N = f64> {
     /// k_n in the normal force k_n δ − γ_n v_n \[N/m\].
     pub normal_stiffness: N,

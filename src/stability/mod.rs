@@ -187,6 +187,20 @@ impl System<'_> {
         limit
     }
 
+    /// Whether any contact of the smallest particle with its like, or with a surface, gets stiffer where it is so much `faster` than this
+    /// \[m/s\].
+    pub(crate) fn stiffens(&self, speed: f64, faster: f64) -> bool {
+        let Some(meeting) = smallest_particle(&self.state.particles) else { return true };
+        let responses = |speed: f64| {
+            let mut all = Vec::new();
+            for pass in self.passes {
+                pass.impacts(meeting.radius, meeting.mass, speed, &mut |response| all.push(response));
+            }
+            all
+        };
+        responses(speed) != responses(faster * speed)
+    }
+
     /// Largest speed of a particle, of those to come as they come \[m/s\].
     pub(crate) fn fastest(&self) -> f64 {
         let squares = self.state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

@@ -1,24 +1,14 @@
 //! The stable time step: when it is found again, and what follows from it.
 
+use super::sight::Sight;
 use super::{RunError, Simulation};
 use crate::bond::creation::{Creation, Due, Window};
 use crate::boundaries::{RigidBody, course};
-use crate::interactions::{Ahead, FASTER};
+use crate::interactions::FASTER;
 use crate::scene::Step;
 use crate::stability::{self, Limit, System};
 use crate::state::State;
 use crate::threads::Context;
-
-/// Time steps for which bonds to come and the slow motion of a bed are foreseen, about.
-const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
-
-/// Time steps in which a dense flow uses up the way that was foreseen, about. A look takes as long as fifty to ninety steps. In a flow
-/// all near pairs count as contacts to come, up to the closing energy of each, so a longer way changes hardly more than the number
-/// of looks. It would where impacts of bodies that are in no list limit the step: there the flow is not dense.
-const STEPS_OF_DENSE_FLOW: f64 = 6000.0;
-
-/// Time steps in which free fall may use up the speed that was foreseen.
-const STEPS_OF_FALL: f64 = 50.0;
 
 /// Stable time steps over a given one from which more is foreseen.
 const FAR_BELOW: f64 = 1.5;
@@ -28,12 +18,6 @@ const MOST_FORESEEN: f64 = 10.0;
 
 /// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
 const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
-
-/// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
-const CERTAIN: f64 = 0.005;
-
-/// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
-const LEAST: [f64; 2] = [2e-6, 2e-3];
 
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
@@ -47,18 +31,6 @@ const MOST_TRIES: usize = 4;
 /// The automatic time step of a scene in which nothing is stiff \[s\].
 pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 
-/// What is foreseen.
-struct Sight {
-    /// How far.
-    ahead: Ahead,
-    /// Half of the speed at which bodies may meet \[m/s\].
-    speed: f64,
-    /// The largest speed of anything \[m/s\].
-    fastest: f64,
-    /// Time steps in which its motion uses up the way, about.
-    steps: f64,
-}
-
 impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
@@ -69,39 +41,9 @@ impl Simulation {
     }
 
     /// What the stable time step is found from.
-    fn system(&self) -> System<'_> {
+    pub(super) fn system(&self) -> System<'_> {
         let Self { scene, state, bodies, fields, passes, .. } = self;
         System { scene, state, bodies, fields, passes }
-    }
-
-    /// What is to be foreseen at time steps of about this length \[s\], until something is `faster` times as fast as now, where the
-    /// network had this root at the last look \[1/s\] (0 if there was none).
-    fn sight(&self, step: f64, faster: f64, root: f64) -> Sight {
-        let fastest = self.system().fastest();
-        let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
-        let driven = boundaries.iter().copied().fold(0.0, f64::max);
-        let acceleration = self.fields.acceleration(&self.state.particles);
-        let least = self.search.smallest_radius().min(f64::MAX);
-        let margin = match self.mean_overlap() {
-            Some(mean) => (CERTAIN * mean).max(LEAST[0] * least),
-            None => LEAST[1] * least,
-        };
-        let rest = if step > 0.0 { 0.5 * margin / (STEPS_BETWEEN_LOOKS * step) } else { 0.0 };
-        let falling = fastest + acceleration * STEPS_OF_FALL * step;
-        let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
-        let is_dense = self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
-        let steps = if is_dense && !self.has_implicit() { STEPS_OF_DENSE_FLOW } else { STEPS_BETWEEN_LOOKS };
-        let way = margin.max(2.0 * fastest.max(driven) * faster / FASTER * steps * step);
-        let clock = &self.state.clock;
-        let window = Window {
-            after: clock.steps,
-            until: clock.steps + STEPS_BETWEEN_LOOKS as u64,
-            from: clock.time,
-            to: clock.time + STEPS_BETWEEN_LOOKS * step,
-        };
-        let window = (!self.scene.bonds.is_empty()).then_some(window);
-        let ahead = Ahead { margin, way, acceleration, faster, boundaries, window };
-        Sight { ahead, speed, fastest: fastest.max(driven), steps }
     }
 
     /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer.
@@ -134,7 +76,7 @@ impl Simulation {
     /// follows from the network alone.
     fn may_strangers_meet(&self, sight: &Sight, found: &stability::Found, step: f64) -> bool {
         let step = self.automatic_step(2.0 / found.network).unwrap_or(step).max(step);
-        let way = sight.ahead.way.max(2.0 * sight.fastest * sight.steps * step);
+        let way = sight.ahead.way.max(sight.way(step));
         !self.search.holds_all_within(&self.state, way)
     }
 
@@ -144,11 +86,6 @@ impl Simulation {
             Step::Given(_) => None,
             Step::Automatic { safety } => Some((safety * stable).min(LONGEST_AUTOMATIC_STEP)),
         }
-    }
-
-    /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.
-    fn has_implicit(&self) -> bool {
-        self.bodies.iter().flatten().any(RigidBody::is_implicit)
     }
 
     /// How much faster anything may become before the next look. The farther a given step is below the stable one, the more
@@ -173,13 +110,16 @@ impl Simulation {
         }
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();
+        // Where speed makes nothing stiffer, the way alone tells when to look again.
+        let follows_speed = !sight.is_dense || self.system().stiffens(sight.speed, MOST_FORESEEN);
+        let growth = if follows_speed { 1.0 } else { MOST_FORESEEN };
         self.state.foresight = crate::state::Foresight {
             root: found.network,
             counter,
             looks,
             travel: 0.0,
             reach: 0.5 * sight.ahead.way,
-            speed: sight.speed,
+            speed: growth * sight.speed,
             bonds,
             until: window.map_or(0, |window| window.until),
             to: window.map_or(0.0, |window| window.to),

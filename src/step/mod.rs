@@ -13,6 +13,7 @@ mod plane;
 mod probe;
 mod room;
 mod run_checks;
+mod sight;
 mod start;
 mod state_check;
 mod sweeps;
