@@ -23,6 +23,20 @@ const CERTAIN: f64 = 0.005;
 /// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
 const LEAST: [f64; 2] = [2e-6, 2e-3];
 
+/// How far is to be foreseen.
+#[derive(Clone, Copy)]
+pub(super) struct Range {
+    /// How much faster than now anything may become.
+    pub(super) faster: f64,
+    /// Whether time steps are far below the stable one: then a bound that is a little lower costs nothing.
+    pub(super) is_far: bool,
+}
+
+impl Range {
+    /// No further than it has to be.
+    pub(super) const NEAR: Self = Self { faster: FASTER, is_far: false };
+}
+
 /// What is foreseen.
 pub(super) struct Sight {
     /// How far.
@@ -31,7 +45,8 @@ pub(super) struct Sight {
     pub(super) speed: f64,
     /// The largest speed of anything \[m/s\].
     pub(super) fastest: f64,
-    /// Whether impacts of bodies that are in no list do not limit the time step.
+    /// Whether it is a dense flow: impacts of bodies that are in no list do not limit the time step. Never where that is near the
+    /// stable one.
     pub(super) is_dense: bool,
 }
 
@@ -49,9 +64,9 @@ fn way(is_dense: bool, fastest: f64, step: f64) -> f64 {
 }
 
 impl Simulation {
-    /// What is to be foreseen at time steps of about this length \[s\], until something is `faster` times as fast as now, where the
-    /// network had this root at the last look \[1/s\] (0 if there was none).
-    pub(super) fn sight(&self, step: f64, faster: f64, root: f64) -> Sight {
+    /// What is to be foreseen at time steps of about this length \[s\], so far, where the network had this root at the last look \[1/s\]
+    /// (0 if there was none).
+    pub(super) fn sight(&self, step: f64, Range { faster, is_far }: Range, root: f64) -> Sight {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);
@@ -64,9 +79,9 @@ impl Simulation {
         let rest = if step > 0.0 { 0.5 * margin / (STEPS_BETWEEN_LOOKS * step) } else { 0.0 };
         let falling = fastest + acceleration * STEPS_OF_FALL * step;
         let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
-        let bears = |impacts: f64| impacts <= root && !self.has_implicit();
-        let is_dense = self.system().impact(speed, acceleration).is_none_or(bears);
-        let way = margin.max(way(is_dense, fastest.max(driven) * faster / FASTER, step));
+        let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
+        let fastest = fastest.max(driven);
+        let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step));
         let clock = &self.state.clock;
         let window = Window {
             after: clock.steps,
@@ -76,7 +91,7 @@ impl Simulation {
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
         let ahead = Ahead { margin, way, acceleration, faster, boundaries, window };
-        Sight { ahead, speed, fastest: fastest.max(driven), is_dense }
+        Sight { ahead, speed, fastest, is_dense }
     }
 
     /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.
