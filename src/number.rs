@@ -75,7 +75,9 @@ pub trait Number:
     #[inline(always)]
     fn polynomial<const COUNT: usize>(self, coefficients: &[f64; COUNT]) -> Self {
         let mut sum = Self::splat(coefficients[COUNT - 1]);
-        for index in (0..COUNT - 1).rev() {
+        let mut index = COUNT - 1;
+        while index > 0 {
+            index -= 1;
             sum = sum * self + Self::splat(coefficients[index]);
         }
         sum

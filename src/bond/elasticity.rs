@@ -50,6 +50,11 @@ impl Elasticity {
         [normal * section.area, self.shear * section.area, self.torsion * section.polar, self.bending * section.axial]
     }
 
+    /// Whether any part relaxes.
+    pub fn relaxes(&self) -> bool {
+        self.relaxation_rate != [0.0; 4]
+    }
+
     /// The same in every lane, for a time step of this length \[s\], which may be 0.
     #[inline(always)]
     pub fn at_step<N: Number>(&self, step: f64) -> Coefficients<N> {
@@ -66,6 +71,7 @@ impl Elasticity {
                 relaxation_rate: self.relaxation_rate.map(N::splat),
             },
             relaxed: self.relaxation_rate.map(|rate| N::splat((step * rate).min(1.0))),
+            relaxes: self.relaxes(),
         }
     }
 }
@@ -79,6 +85,8 @@ pub struct Coefficients<N: Number = f64> {
     pub elastic: Elasticity<N>,
     /// min(Δt/τ, 1) of each part.
     pub relaxed: Parts<N>,
+    /// Whether any of them is not 0 at every step.
+    pub relaxes: bool,
 }
 
 impl<N: Number> Coefficients<N> {

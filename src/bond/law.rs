@@ -115,13 +115,12 @@ impl TakeFormulation for TakeRemembered {
 
 /// How many rows of state a bond of this formulation has.
 pub fn rows(formulation: FormulationChoice) -> usize {
-    formulation.visit(Asked { relaxation: true, rates: true }, TakeFunctions).rows
+    formulation.visit_whole(TakeFunctions).rows
 }
 
 /// What each formulation of the program remembers of a bond, as text.
 pub fn remembered() -> String {
-    let asked = Asked { relaxation: true, rates: true };
-    let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(asked, TakeRemembered));
+    let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit_whole(TakeRemembered));
     FormulationChoice::ALL.iter().map(line).collect()
 }
 
@@ -201,7 +200,7 @@ impl Law {
 
     /// What it asks of its formulation.
     pub fn asked(&self) -> Asked {
-        Asked { relaxation: self.elasticity.relaxation_rate != [0.0; 4], rates: self.damping.is_some() }
+        Asked { relaxation: self.elasticity.relaxes(), rates: self.damping.is_some() }
     }
 
     /// Whether a living bond loses energy.

@@ -3,7 +3,7 @@
 use super::breakage::{Breakage, Loaded, TakeRule};
 use super::damping::{Damping, DampingLoad, TakeDamping};
 use super::formulation::{Formulation, TakeFormulation};
-use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, RateRows, Rows, Section, motion::Turn};
+use super::{Coefficients, Elastic, Law, MOST_ROWS, Motion, Pair, RateRows, Rates, Rows, Section, motion::Turn};
 use crate::dual::{Dual, Slopes};
 use crate::lanes::{Lane, Work};
 use crate::number::{Number, Vector};
@@ -90,9 +90,12 @@ impl Law {
         remembered: &mut Remembered<Dual<V, S>>,
         answer: &mut Answer<Dual<V, S>>,
     ) -> Sloped<V, S> {
-        let respond = self.formulation.visit(self.asked(), TakeSloped(PhantomData));
+        // One type of a formulation for all laws, which gives each the same bits as its own: the slopes of each type take
+        // seconds to be compiled.
+        let respond = self.formulation.visit_whole(TakeSloped(PhantomData));
+        let seen = self.one_bond().rates;
         let Remembered { rows, rates } = remembered;
-        respond(law, pair, rows, answer);
+        respond(law, pair, seen, rows, answer);
         let Answer { motion, elastic } = answer;
         let mut found =
             Sloped { force: elastic.force, torque_i: elastic.torque_i, torque_j: elastic.torque_j, broken: 0 };
@@ -143,7 +146,8 @@ impl<B: Breakage, V: Lane, S: Slopes<V>> Work for Judged<'_, B, V, S> {
 }
 
 /// What a formulation does to bonds, whose rows go on, with slopes.
-type Respond<V, S> = fn(&Coefficients<Dual<V, S>>, &Pair<Dual<V, S>>, &mut Rows<Dual<V, S>>, &mut Answer<Dual<V, S>>);
+type Respond<V, S> =
+    fn(&Coefficients<Dual<V, S>>, &Pair<Dual<V, S>>, Rates, &mut Rows<Dual<V, S>>, &mut Answer<Dual<V, S>>);
 
 /// Takes what a formulation does, with slopes.
 struct TakeSloped<V, S>(PhantomData<(V, S)>);
@@ -151,8 +155,8 @@ struct TakeSloped<V, S>(PhantomData<(V, S)>);
 impl<V: Lane, S: Slopes<V>> TakeFormulation for TakeSloped<V, S> {
     type Output = Respond<V, S>;
     fn take<F: Formulation>(self) -> Self::Output {
-        |law, pair, rows, answer| {
-            S::within(Response::<F, V, S> { law, pair, rows, answer, formulation: PhantomData });
+        |law, pair, seen, rows, answer| {
+            S::within(Response::<F, V, S> { law, pair, seen, rows, answer, formulation: PhantomData });
         }
     }
 }
@@ -163,6 +167,8 @@ struct Response<'a, F, V: Lane, S: Slopes<V>> {
     law: &'a Coefficients<Dual<V, S>>,
     /// Their bodies.
     pair: &'a Pair<Dual<V, S>>,
+    /// The rates that the law looks at: those of the formulation, or none.
+    seen: Rates,
     /// What they remember.
     rows: &'a mut Rows<Dual<V, S>>,
     /// What it answers.
@@ -175,7 +181,12 @@ impl<F: Formulation, V: Lane, S: Slopes<V>> Work for Response<'_, F, V, S> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let (motion, elastic) = F::respond(self.law, self.pair, self.rows);
+        let Self { law, pair, seen, .. } = self;
+        let motion = match seen {
+            Rates::Unseen => Motion::of(Rates::Unseen, law, pair),
+            _ => Motion::of(F::RATES, law, pair),
+        };
+        let elastic = F::finish(law, pair, &motion, &F::halfway(pair, motion.distance, self.rows), self.rows);
         self.rows[F::FIXED_ROWS..F::ROWS].copy_from_slice(&elastic.rows[F::FIXED_ROWS..F::ROWS]);
         self.answer.put(&motion, &elastic);
     }

@@ -1,7 +1,7 @@
 //! From what the readers of TOML and of single values say to messages in the scene's own words.
 
 use super::mistake::Mistake;
-use super::value::Error;
+use super::single::Error;
 
 /// What people look for under these names and this program does not have.
 const ABSENT: [(&[&str], &str, &str); 5] = [

@@ -1,5 +1,6 @@
 //! The text of a scene as tables whose lines are known, and from tables to typed values.
 
+mod attempt;
 mod error;
 mod faults;
 mod foreign;
@@ -8,6 +9,7 @@ mod mistake;
 mod nearest;
 mod phrases;
 mod setting;
+mod single;
 mod value;
 
 pub use error::{SceneError, SceneErrors};
@@ -16,15 +18,12 @@ pub use mistake::Mistake;
 pub(crate) use setting::apply;
 pub use setting::{Setting, SettingError};
 
+use attempt::Attempt;
 use foreign::looks_like;
 use serde::de::DeserializeOwned;
-use std::ops::Range;
+use single::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use value::Error;
-
-/// How often one table is read again at most, so that a text full of different mistakes costs no quadratic time.
-const READINGS: usize = 100;
 
 /// A scene's text, parsed.
 pub(crate) struct Document<'a> {
@@ -149,43 +148,12 @@ impl<'a> Document<'a> {
 
     /// Reads the value of a key of a table into a type.
     pub(crate) fn read_key<T: DeserializeOwned>(&self, table: &str, key: &str, faults: &mut Faults) -> Option<T> {
-        let empty = || Spanned::new(0..0, DeValue::Table(DeTable::new()));
-        let mut value = self.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
-        let before = faults.count();
-        let mut wrong: Vec<String> = Vec::new();
-        let mut readings = 0;
+        let mut attempt = Attempt::of(self, table, key, faults);
         loop {
-            let error = match value::read(&value) {
-                Ok(read) => return (faults.count() == before).then_some(read),
-                Err(error) => error,
-            };
-            let mut path = error.span().map(|span| path_to(&value, &span)).unwrap_or_default();
-            // A table that only its sub-tables name lies in their headers; the unknown key is where the way ends.
-            if let Some(end) =
-                messages::unknown_field(&error).and_then(|field| path.iter().position(|key| key == field))
-            {
-                path.truncate(end + 1);
-            }
-            let mistake = messages::mistake(&error, path.last().map_or("", String::as_str));
-            let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
-            // What was taken out as wrong is not missing, nor is the sub-model that it was.
-            let missing = messages::missing_field(&error);
-            if !wrong.is_empty() && path.is_empty() && missing.is_none_or(|field| wrong.iter().any(|key| key == field))
-            {
-                return None;
-            }
-            let ways = if unknown { alike(&value, &path) } else { vec![path.clone()] };
-            let mut taken = false;
-            for way in ways {
-                let whole = segments(key).map(str::to_owned).chain(way.iter().cloned()).collect();
-                self.report(table, whole, &error, mistake.clone(), faults);
-                let out = if unknown { &way[..] } else { way.get(..1).unwrap_or_default() };
-                wrong.extend(out.first().filter(|first| wrong.last() != Some(*first)).cloned());
-                taken = take_out(&mut value, out);
-            }
-            readings += 1;
-            if !taken || readings == READINGS {
-                return None;
+            match value::read(&attempt.value) {
+                Ok(read) => return (faults.count() == attempt.before).then_some(read),
+                Err(error) if attempt.goes_on_without(&error, faults) => {}
+                Err(_) => return None,
             }
         }
     }
@@ -234,58 +202,5 @@ fn child<'v, 'a>(value: &'v Spanned<DeValue<'a>>, segment: &str) -> Option<(usiz
             Some((value.span().start, value))
         }
         _ => None,
-    }
-}
-
-/// The way from a value down to the key or entry at a place of the text.
-fn path_to(value: &Spanned<DeValue>, place: &Range<usize>) -> Vec<String> {
-    let holds = |span: Range<usize>| span.start <= place.start && place.end <= span.end;
-    let nested = |name: String, spans: bool, below: &Spanned<DeValue>| {
-        let rest = path_to(below, place);
-        (spans || !rest.is_empty()).then(|| [vec![name], rest].concat())
-    };
-    let path = match value.get_ref() {
-        DeValue::Table(table) => table.iter().find_map(|(key, value)| {
-            nested(key.get_ref().to_string(), holds(key.span()) || holds(value.span()), value)
-        }),
-        DeValue::Array(list) => {
-            let entry = list.iter().position(|value| holds(value.span()));
-            entry.and_then(|entry| nested((entry + 1).to_string(), true, &list[entry]))
-        }
-        _ => None,
-    };
-    path.unwrap_or_default()
-}
-
-/// The ways to a key of an entry of a list, and to the same key of the list's other entries.
-fn alike(value: &Spanned<DeValue>, path: &[String]) -> Vec<Vec<String>> {
-    let mut below = value;
-    for (depth, name) in path.iter().enumerate() {
-        if let (DeValue::Array(list), [key]) = (below.get_ref(), &path[depth + 1..]) {
-            let has = |entry: &Spanned<DeValue>| child(entry, key).is_some();
-            let entries = (1..).zip(list.iter()).filter(|(_, entry)| has(entry));
-            return entries.map(|(entry, _)| [&path[..depth], &[entry.to_string(), key.clone()]].concat()).collect();
-        }
-        match child(below, name) {
-            Some((_, next)) => below = next,
-            None => break,
-        }
-    }
-    vec![path.to_vec()]
-}
-
-/// Removes the key at the path; whether it was there.
-fn take_out(value: &mut Spanned<DeValue>, path: &[String]) -> bool {
-    match (value.get_mut(), path) {
-        (DeValue::Table(table), [key]) => table.remove(key.as_str()).is_some(),
-        (DeValue::Table(table), [key, rest @ ..]) => {
-            table.get_mut(key.as_str()).is_some_and(|value| take_out(value, rest))
-        }
-        (DeValue::Array(list), [entry, rest @ ..]) => entry
-            .parse::<usize>()
-            .ok()
-            .and_then(|entry| list.get_mut(entry.checked_sub(1)?))
-            .is_some_and(|value| take_out(value, rest)),
-        _ => false,
     }
 }

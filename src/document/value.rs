@@ -3,56 +3,13 @@
 //! Values are read by reference. The `toml` crate's own reader takes them apart, and what the compiler makes of that for each
 //! type costs a tenth of the time in which the program is built.
 
+use super::single::{Error, Number, number, of_another_type};
 use serde::de::{
     self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
     Unexpected, VariantAccess, Visitor,
 };
-use std::fmt;
-use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
-
-/// Why a value is not of the type that is wanted.
-#[derive(Debug)]
-pub(crate) struct Error {
-    /// What serde says of it.
-    message: String,
-    /// Where it stands in the text \[bytes\].
-    span: Option<Range<usize>>,
-}
-
-impl Error {
-    /// What serde says of it.
-    pub(super) fn message(&self) -> &str {
-        &self.message
-    }
-
-    /// Where it stands in the text \[bytes\].
-    pub(super) fn span(&self) -> Option<Range<usize>> {
-        self.span.clone()
-    }
-
-    /// The same at this place, unless its place is known already: the innermost counts.
-    #[cold]
-    fn at(mut self, span: Range<usize>) -> Self {
-        self.span.get_or_insert(span);
-        self
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl de::Error for Error {
-    fn custom<T: fmt::Display>(message: T) -> Self {
-        Self { message: message.to_string(), span: None }
-    }
-}
 
 /// Reads a value into a type.
 pub(super) fn read<T: DeserializeOwned>(value: &Spanned<DeValue>) -> Result<T, Error> {
@@ -60,44 +17,11 @@ pub(super) fn read<T: DeserializeOwned>(value: &Spanned<DeValue>) -> Result<T, E
 }
 
 /// A value and its place.
+///
+/// What is asked for a table, a list or a text gives nothing else: were each of them to take whatever is there, the code of
+/// every type would be made for all of these, most of which it refuses.
 #[derive(Clone, Copy)]
 struct Value<'de>(&'de Spanned<DeValue<'de>>);
-
-impl<'de> Value<'de> {
-    /// The number that stands there.
-    fn number(self) -> Result<Number, Error> {
-        let overflow = |kind: &str| de::Error::custom(format!("{kind} number overflowed"));
-        match self.0.get_ref() {
-            DeValue::Integer(digits) => {
-                let whole = i128::from_str_radix(digits.as_str(), digits.radix()).map_err(|_| overflow("integer"))?;
-                let large = |_| u64::try_from(whole).map_or(Number::Huge(whole), Number::Large);
-                Ok(i64::try_from(whole).map_or_else(large, Number::Integer))
-            }
-            DeValue::Float(digits) => {
-                let number = digits.as_str().parse().unwrap_or(f64::INFINITY);
-                let is_named = digits.as_str().ends_with("inf");
-                if f64::is_infinite(number) && !is_named {
-                    Err(overflow("floating-point"))
-                } else {
-                    Ok(Number::Real(number))
-                }
-            }
-            _ => Err(de::Error::custom("wanted a number")),
-        }
-    }
-}
-
-/// A number of the text.
-enum Number {
-    /// A whole one.
-    Integer(i64),
-    /// A whole one above the largest signed one.
-    Large(u64),
-    /// A whole one beyond 64 bits: no key takes it.
-    Huge(i128),
-    /// Any other.
-    Real(f64),
-}
 
 impl<'de> Deserializer<'de> for Value<'de> {
     type Error = Error;
@@ -105,7 +29,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let read = match self.0.get_ref() {
             DeValue::String(text) => visitor.visit_str(text),
-            DeValue::Integer(_) | DeValue::Float(_) => self.number().and_then(|number| match number {
+            DeValue::Integer(_) | DeValue::Float(_) => number(self.0.get_ref()).and_then(|number| match number {
                 Number::Integer(number) => visitor.visit_i64(number),
                 Number::Large(number) => visitor.visit_u64(number),
                 Number::Huge(number) => visitor.visit_i128(number),
@@ -117,6 +41,47 @@ impl<'de> Deserializer<'de> for Value<'de> {
             DeValue::Table(table) => visitor.visit_map(Table { rest: table.iter(), value: None }),
         };
         read.map_err(|error| error.at(self.0.span()))
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.0.get_ref() {
+            DeValue::Table(table) => visitor.visit_map(Table { rest: table.iter(), value: None }),
+            _ => Err(of_another_type(self.0.get_ref(), &visitor)),
+        }
+        .map_err(|error| error.at(self.0.span()))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.deserialize_map(visitor)
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.0.get_ref() {
+            DeValue::Array(list) => visitor.visit_seq(List(list.iter())),
+            _ => Err(of_another_type(self.0.get_ref(), &visitor)),
+        }
+        .map_err(|error| error.at(self.0.span()))
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_seq(visitor)
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.0.get_ref() {
+            DeValue::String(text) => visitor.visit_str(text),
+            _ => Err(of_another_type(self.0.get_ref(), &visitor)),
+        }
+        .map_err(|error| error.at(self.0.span()))
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
@@ -147,8 +112,8 @@ impl<'de> Deserializer<'de> for Value<'de> {
     }
 
     serde::forward_to_deserialize_any! {
-        bool u8 u16 u32 u64 u128 i8 i16 i32 i64 i128 f32 f64 char str string seq bytes byte_buf map unit struct ignored_any
-        unit_struct tuple_struct tuple identifier
+        bool u8 u16 u32 u64 u128 i8 i16 i32 i64 i128 f32 f64 char bytes byte_buf unit ignored_any unit_struct tuple_struct
+        identifier
     }
 }
 
@@ -236,10 +201,10 @@ impl<'de> VariantAccess<'de> for Value<'de> {
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
-        self.deserialize_any(visitor)
+        self.deserialize_seq(visitor)
     }
 
     fn struct_variant<V: Visitor<'de>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value, Error> {
-        self.deserialize_any(visitor)
+        self.deserialize_map(visitor)
     }
 }

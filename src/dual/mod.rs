@@ -181,7 +181,9 @@ impl<V: Number, S: Slopes<V>> Number for Dual<V, S> {
     #[inline(always)]
     fn polynomial<const COUNT: usize>(self, coefficients: &[f64; COUNT]) -> Self {
         let (mut value, mut derivative) = (V::splat(coefficients[COUNT - 1]), V::zero());
-        for index in (0..COUNT - 1).rev() {
+        let mut index = COUNT - 1;
+        while index > 0 {
+            index -= 1;
             derivative = derivative * self.value + value;
             value = value * self.value + V::splat(coefficients[index]);
         }

@@ -29,55 +29,56 @@ pub trait Slopes<V: Number>: Copy + Send + Sync + 'static {
     fn within<W: Work>(work: W) -> W::Output;
 }
 
-/// A number for each input.
-impl<V: Lane, const D: usize> Slopes<V> for [V; D] {
-    #[inline(always)]
-    fn none() -> Self {
-        [V::zero(); D]
-    }
+/// A number for each input. Written out for each count: a loop in every sum and product is most of what the compiler then
+/// works at.
+macro_rules! numbers {
+    ($count:literal: $($own:ident $other:ident),+) => {
+        impl<V: Lane> Slopes<V> for [V; $count] {
+            #[inline(always)]
+            fn none() -> Self {
+                [V::zero(); $count]
+            }
 
-    #[inline(always)]
-    fn plus(mut self, other: Self) -> Self {
-        for d in 0..D {
-            self[d] = self[d] + other[d];
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
+                let ([$($own),+], [$($other),+]) = (self, other);
+                [$($own + $other),+]
+            }
+
+            #[inline(always)]
+            fn minus(self, other: Self) -> Self {
+                let ([$($own),+], [$($other),+]) = (self, other);
+                [$($own - $other),+]
+            }
+
+            #[inline(always)]
+            fn times(self, factor: V) -> Self {
+                let [$($own),+] = self;
+                [$($own * factor),+]
+            }
+
+            #[inline(always)]
+            fn mixed(self, factor: V, other: Self, with: V) -> Self {
+                let ([$($own),+], [$($other),+]) = (self, other);
+                [$($own * factor + $other * with),+]
+            }
+
+            #[inline(always)]
+            fn select(mask: V::Mask, yes: Self, no: Self) -> Self {
+                let ([$($own),+], [$($other),+]) = (yes, no);
+                [$(V::select(mask, $own, $other)),+]
+            }
+
+            #[inline(always)]
+            fn within<W: Work>(work: W) -> W::Output {
+                V::within(work)
+            }
         }
-        self
-    }
-
-    #[inline(always)]
-    fn minus(mut self, other: Self) -> Self {
-        for d in 0..D {
-            self[d] = self[d] - other[d];
-        }
-        self
-    }
-
-    #[inline(always)]
-    fn times(mut self, factor: V) -> Self {
-        for slope in &mut self {
-            *slope = *slope * factor;
-        }
-        self
-    }
-
-    #[inline(always)]
-    fn mixed(mut self, factor: V, other: Self, with: V) -> Self {
-        for d in 0..D {
-            self[d] = self[d] * factor + other[d] * with;
-        }
-        self
-    }
-
-    #[inline(always)]
-    fn select(mask: V::Mask, mut yes: Self, no: Self) -> Self {
-        for d in 0..D {
-            yes[d] = V::select(mask, yes[d], no[d]);
-        }
-        yes
-    }
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        V::within(work)
-    }
+    };
 }
+
+numbers!(1: a b);
+#[cfg(test)]
+numbers!(2: a b, c d);
+#[cfg(test)]
+numbers!(5: a b, c d, e f, g h, i j);

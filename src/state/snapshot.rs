@@ -82,8 +82,9 @@ pub enum SnapshotError {
     Damaged,
 }
 
-/// Where the fields go one by one, list by list: into memory, a file, a checksum.
-struct Flowing<'a, T: Take>(&'a mut T);
+/// Where the fields go one by one, list by list: into memory, a file, a checksum. One type for the three of them: what
+/// writes a whole state is compiled once.
+struct Flowing<'a>(&'a mut dyn Take);
 
 /// Takes bytes.
 trait Take {
@@ -106,16 +107,16 @@ impl Take for Xxh3 {
 }
 
 /// A file, the checksum of what it has got, and what went wrong.
-struct Checked<'a, W> {
+struct Checked<'a> {
     /// The file.
-    file: &'a mut W,
+    file: &'a mut dyn Write,
     /// Checksum so far.
     checksum: Xxh3,
     /// What went wrong.
     failed: Option<io::Error>,
 }
 
-impl<W: Write> Take for Checked<'_, W> {
+impl Take for Checked<'_> {
     fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.checksum.update(bytes);
         self.file.write_all(bytes).map_err(|error| {
@@ -126,7 +127,7 @@ impl<W: Write> Take for Checked<'_, W> {
     }
 }
 
-impl<T: Take> postcard::ser_flavors::Flavor for Flowing<'_, T> {
+impl postcard::ser_flavors::Flavor for Flowing<'_> {
     type Output = ();
 
     fn try_push(&mut self, byte: u8) -> postcard::Result<()> {

@@ -44,6 +44,9 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteRotation<const RELAXING: bool, const RATES: bool = false>;
 
+/// The type that does all that can be asked.
+pub(super) type Whole = FiniteRotation<true, true>;
+
 /// Goes from what is asked to the type: it needs no rates itself.
 pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
     match (asked.relaxation, asked.rates) {
@@ -367,7 +370,7 @@ impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotatio
             energy: energy_left(parts, left),
             relaxed: if RELAXING { relaxation_loss(left, parts) } else { N::zero() },
             overbent: strains.overbent(last_twist),
-            rows: if RELAXING {
+            rows: if RELAXING && law.relaxes {
                 relaxed(law, pair, motion, &ends, &strains, rows)
             } else {
                 [rows[0], rows[1], [strains.twist, free_twist, length, spare]]

@@ -34,6 +34,11 @@ macro_rules! formulations {
             pub fn visit<V: TakeFormulation>(self, asked: Asked, visitor: V) -> V::Output {
                 match self { $(Self::$row => $name::visit(asked, visitor),)+ }
             }
+
+            /// Goes from the row of the list to the type that does all that can be asked.
+            pub fn visit_whole<V: TakeFormulation>(self, visitor: V) -> V::Output {
+                match self { $(Self::$row => visitor.take::<$name::Whole>(),)+ }
+            }
         }
     };
 }
