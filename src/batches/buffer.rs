@@ -79,8 +79,9 @@ mod column {
 }
 use column as at;
 
-/// A batch.
-#[repr(align(64))]
+/// A batch. In the order that is written here each column begins with a line of the cache: a register that lies in two of them takes
+/// twice as long.
+#[repr(C, align(64))]
 pub(crate) struct Buffer {
     /// Contacts, column by column.
     columns: [[f64; ROOM]; at::COUNT],
@@ -102,15 +103,23 @@ pub(crate) struct Buffer {
     pub(crate) second: [u32; ROOM],
     /// Their rows of the table, where they differ.
     pub(crate) row: [u32; ROOM],
-    /// Entries whose bodies have parted since the last batch, where something goes along.
-    pub(crate) parted: Vec<u32>,
     /// What is lost.
     pub(super) losses: Sums,
+    /// Entries whose bodies have parted since the last batch, where something goes along.
+    pub(crate) parted: Vec<u32>,
     /// How many were found.
     pub(crate) count: usize,
     /// How many are worked on now.
     pub(crate) ready: usize,
 }
+
+const _: () = {
+    assert!(std::mem::offset_of!(Buffer, columns).is_multiple_of(64));
+    assert!(std::mem::offset_of!(Buffer, found).is_multiple_of(64));
+    assert!(std::mem::offset_of!(Buffer, roots).is_multiple_of(64));
+    assert!(std::mem::offset_of!(Buffer, force).is_multiple_of(64));
+    assert!(std::mem::offset_of!(Buffer, losses).is_multiple_of(64));
+};
 
 /// Copies eight entries to the front.
 #[inline(always)]
@@ -149,8 +158,8 @@ impl Buffer {
             first: slots,
             second: slots,
             row: slots,
-            parted: Vec::new(),
             losses: Sums::default(),
+            parted: Vec::new(),
             count: 0,
             ready: 0,
         }

@@ -5,6 +5,7 @@ use crate::state::{Loss, Losses};
 
 /// Losses of a piece of a list, while it is worked on.
 #[derive(Default)]
+#[repr(C)]
 pub(crate) struct Sums {
     /// Of the contacts whose place in the batch is 0, 1, … 7 beyond a multiple of 8 \[J\].
     pub(super) columns: [[f64; 8]; LossKind::COUNT],

@@ -1,6 +1,6 @@
 //! The stable time step: when it is found again, and what follows from it.
 
-use super::sight::{Range, Sight};
+use super::sight::{Horizon, Sight};
 use super::{RunError, Simulation};
 use crate::bond::creation::{Creation, Due, Window};
 use crate::boundaries::{RigidBody, course};
@@ -35,7 +35,7 @@ impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
         let (mut counter, context) = (self.state.foresight.counter, self.standing());
-        let (sight, found) = self.foresee(self.state.clock.step, Range::NEAR, 0.0, &mut counter, &context);
+        let (sight, found) = self.foresee(self.state.clock.step, Horizon::NEAR, 0.0, &mut counter, &context);
         let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &context);
         Limit { safe: found.safe(), by }
     }
@@ -50,14 +50,14 @@ impl Simulation {
     fn foresee(
         &self,
         step: f64,
-        range: Range,
+        horizon: Horizon,
         guess: f64,
         counter: &mut u64,
         context: &Context,
     ) -> (Sight, stability::Found) {
         let (mut step, mut tries) = (step, 0);
         loop {
-            let sight = self.sight(step, range, guess);
+            let sight = self.sight(step, horizon, guess);
             let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
             // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
             if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
@@ -90,22 +90,23 @@ impl Simulation {
 
     /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
     /// more is foreseen, and the fewer looks a bed takes that begins to move; not so where that would add to inertia.
-    fn range(&self, step: f64) -> Range {
+    fn horizon(&self, step: f64) -> Horizon {
         let (stable, looks) = (self.state.clock.stable, self.state.foresight.looks);
         let is_far = looks > 0 && stable > FAR_BELOW * step && !self.has_implicit();
         match self.scene.run.step {
-            _ if !is_far => Range::NEAR,
-            Step::Given(step) => Range { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
-            Step::Automatic { .. } => Range { faster: FASTER, is_far },
+            _ if !is_far => Horizon::NEAR,
+            Step::Given(step) => Horizon { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
+            Step::Automatic { .. } => Horizon { faster: FASTER, is_far },
         }
     }
 
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
     pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
-        let (mut counter, guess, range) = (self.state.foresight.counter, self.state.foresight.root, self.range(step));
-        let (mut sight, mut found) = self.foresee(step, range, guess, &mut counter, context);
-        if range.is_far && found.safe() < FAR_BELOW * step {
-            (sight, found) = self.foresee(step, Range::NEAR, guess, &mut counter, context);
+        let (mut counter, guess, horizon) =
+            (self.state.foresight.counter, self.state.foresight.root, self.horizon(step));
+        let (mut sight, mut found) = self.foresee(step, horizon, guess, &mut counter, context);
+        if horizon.is_far && found.safe() < FAR_BELOW * step {
+            (sight, found) = self.foresee(step, Horizon::NEAR, guess, &mut counter, context);
         }
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();
@@ -140,7 +141,7 @@ impl Simulation {
         let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
         let mut light = (0..self.bodies.len()).filter(light);
         if light.any(|index| stability::has_more_contacts(&self.state, index)) {
-            let sight = self.sight(step, Range::NEAR, 0.0);
+            let sight = self.sight(step, Horizon::NEAR, 0.0);
             let blocks = self.system().blocks(&sight.ahead);
             stability::put_blocks(&mut self.state, blocks);
         }

@@ -25,14 +25,14 @@ const LEAST: [f64; 2] = [2e-6, 2e-3];
 
 /// How far is to be foreseen.
 #[derive(Clone, Copy)]
-pub(super) struct Range {
+pub(super) struct Horizon {
     /// How much faster than now anything may become.
     pub(super) faster: f64,
     /// Whether time steps are far below the stable one: then a bound that is a little lower costs nothing.
     pub(super) is_far: bool,
 }
 
-impl Range {
+impl Horizon {
     /// No further than it has to be.
     pub(super) const NEAR: Self = Self { faster: FASTER, is_far: false };
 }
@@ -66,7 +66,7 @@ fn way(is_dense: bool, fastest: f64, step: f64) -> f64 {
 impl Simulation {
     /// What is to be foreseen at time steps of about this length \[s\], so far, where the network had this root at the last look \[1/s\]
     /// (0 if there was none).
-    pub(super) fn sight(&self, step: f64, Range { faster, is_far }: Range, root: f64) -> Sight {
+    pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> Sight {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);

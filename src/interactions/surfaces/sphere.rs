@@ -105,15 +105,8 @@ pub(super) struct Loaded<'a> {
 impl<'a> Loaded<'a> {
     /// The particles of a state.
     pub(super) fn of(particles: &'a mut Particles) -> Self {
-        Self {
-            plane_rows: particles.plane_rows,
-            position: &particles.position,
-            velocity: &particles.velocity,
-            angular_velocity: &particles.angular_velocity,
-            material: &particles.material,
-            force: Shared::new(&mut particles.force),
-            torque: Shared::new(&mut particles.torque),
-        }
+        let (force, torque) = (Shared::new(&mut particles.force), Shared::new(&mut particles.torque));
+        Self { force, torque, ..Self::looking(particles) }
     }
 
     /// The particles of a state that is looked at alone: nothing is added to them.
