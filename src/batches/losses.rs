@@ -103,13 +103,13 @@ impl Kernel for Book<'_, '_> {
     }
 }
 
-/// Adds what a register's worth of contacts lose, and stores what is to be known of them next time.
+/// Adds twice what a register's worth of contacts lose, and stores what is to be known of them next time.
 ///
 /// # Safety
 /// As for [`Stage::press`]; `place` is a multiple of the width, so that the register ends in the eight columns.
 #[inline(always)]
 pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<N>, booked: &Booked) {
-    let (mut lost, loads) = seen.losses(booked);
+    let (mut lost, loads) = seen.twice_losses(booked);
     // SAFETY: the caller's promise.
     unsafe {
         let entries = stage.buffer.entry.as_ptr().add(place);
@@ -145,7 +145,7 @@ pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
 /// As for [`Stage::contact`].
 #[inline(always)]
 unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> {
-    let (half, booked, buffer) = (N::splat(0.5 * stage.step), *stage.booked, &*stage.buffer);
+    let (step, booked, buffer) = (N::splat(stage.step), *stage.booked, &*stage.buffer);
     let history = &stage.history;
     // SAFETY: the caller's promise.
     unsafe {
@@ -164,9 +164,9 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
                 None => stage.table.gather(booked.least_force, buffer.row.as_ptr().add(place)),
             },
             acts: !matches!(manner, Manner::Bonded),
-            half_approach: contact.normal_velocity * half,
-            half_slip: contact.slip * half,
-            half_turn: contact.relative_spin * half,
+            approach: contact.normal_velocity * step,
+            slip: contact.slip * step,
+            turn: contact.relative_spin * step,
             force: Vector::zero(),
             rolling: Vector::zero(),
             spring_before: Vector::zero(),
@@ -188,11 +188,11 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             let (spring, velocity) = buffer.before::<N>(place);
             seen.spring_before = spring;
             if booked.moves_otherwise() {
-                seen.half_approach = velocity * half;
+                seen.approach = velocity * step;
             }
             if booked.carries {
                 let carry = buffer.carry::<N>(place);
-                seen.half_slip = carry.stretch * (N::splat(0.5) / carry.share);
+                seen.slip = carry.stretch * (N::splat(1.0) / carry.share);
             }
         }
         seen

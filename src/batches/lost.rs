@@ -3,7 +3,7 @@
 use crate::contact::{Law, LossKind};
 use crate::state::{Loss, Losses};
 
-/// Losses of a piece of a list, while it is worked on.
+/// Twice the losses of a piece of a list, while it is worked on.
 #[derive(Default)]
 #[repr(C)]
 pub(crate) struct Sums {
@@ -19,7 +19,7 @@ impl Sums {
         *self = Self::default();
     }
 
-    /// Adds what was lost with a contact that ended, by kind, and what its spring held \[J\].
+    /// Adds twice what was lost with a contact that ended, by kind, and what its spring held \[J\].
     pub(super) fn add_parted(&mut self, (lost, held): ([f64; LossKind::COUNT], f64)) {
         for (column, energy) in self.columns.iter_mut().zip(lost) {
             column[0] += energy;
@@ -29,7 +29,7 @@ impl Sums {
 
     /// The losses of the piece.
     pub(super) fn end(&self) -> Lost {
-        Lost { kinds: self.columns.map(|column| column.iter().sum()), parted: self.parted }
+        Lost { kinds: self.columns.map(|column| 0.5 * column.iter().sum::<f64>()), parted: 0.5 * self.parted }
     }
 }
 

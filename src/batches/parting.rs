@@ -30,8 +30,8 @@ impl<B: Bodies> Parting<'_, '_, B> {
         if self.work.law.law.is_booked() {
             // SAFETY: the caller's promise.
             let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
-            let (booked, half) = (&self.work.law.booked, 0.5 * self.work.step);
-            self.losses.add_parted(parting(booked, &contact, half, spring.into(), [loads, other]));
+            let (booked, step) = (&self.work.law.booked, self.work.step);
+            self.losses.add_parted(parting(booked, &contact, step, spring.into(), [loads, other]));
         }
     }
 

@@ -159,16 +159,16 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
                 }
                 if BOOKED {
                     let Rubbed { force, spring, sliding } = rubbed;
-                    let (half, entries) = (N::splat(0.5 * stage.step), stage.buffer.entry.as_ptr().add(done));
+                    let (step, entries) = (N::splat(stage.step), stage.buffer.entry.as_ptr().add(done));
                     let before = [stage.history.loads, stage.history.other_loads];
                     let seen = Seen {
                         normal,
                         pressing: contact.overlap,
                         least_force: row[A::COUNT],
                         acts: true,
-                        half_approach: velocity * half,
-                        half_slip: contact.slip * half,
-                        half_turn: contact.relative_spin * half,
+                        approach: velocity * step,
+                        slip: contact.slip * step,
+                        turn: contact.relative_spin * step,
                         force,
                         rolling,
                         spring_before,

@@ -3,7 +3,7 @@
 //!
 //! A force acts half a step before its evaluation and half a step after it. Work is therefore booked as the integrator makes
 //! it: the way of the step times the mean of the forces at its beginning, which are remembered ([`Seen::before`]), and at
-//! its end. No loss is the rest of a balance, but those of rolling, sticky and plastic models: there the work is booked, and what the
+//! its end. All sums here are twice the losses, so that no mean is halved before they are handed out. No loss is the rest of a balance, but those of rolling, sticky and plastic models: there the work is booked, and what the
 //! models then hold is taken off where somebody asks.
 
 use super::{Contact, NormalForce};
@@ -91,12 +91,12 @@ pub struct Seen<N: Number> {
     pub least_force: N,
     /// Whether the normal force and rolling torque act.
     pub acts: bool,
-    /// Half the way along the normal in this step \[m\].
-    pub half_approach: N,
-    /// Half the way in the tangent plane in this step \[m\].
-    pub half_slip: Vector<N>,
-    /// Half the angle by which i turned against j \[rad\].
-    pub half_turn: Vector<N>,
+    /// Way along the normal in this step \[m\].
+    pub approach: N,
+    /// Way in the tangent plane in this step \[m\].
+    pub slip: Vector<N>,
+    /// Angle by which i turned against j in this step \[rad\].
+    pub turn: Vector<N>,
     /// Force on i \[N\], that along the normal among it if it acts.
     pub force: Vector<N>,
     /// Rolling torque \[N m\].
@@ -113,16 +113,16 @@ pub struct Seen<N: Number> {
 }
 
 impl<N: Number> Seen<N> {
-    /// What the contact loses \[J\], by [`LossKind`], and what is to be remembered.
+    /// Twice what the contact loses \[J\], by [`LossKind`], and what is to be remembered.
     #[inline(always)]
-    pub fn losses(&self, booked: &Booked) -> ([N; LossKind::COUNT], [[N; 4]; 2]) {
+    pub fn twice_losses(&self, booked: &Booked) -> ([N; LossKind::COUNT], [[N; 4]; 2]) {
         let mut lost = [N::zero(); LossKind::COUNT];
         let normal = self.contact.normal;
         let (damping, other) = self.dashpot(booked);
         let [stiffness_before, x, y, z] = self.before[0];
         let before = Vector::new(x, y, z);
         let along = before.dot(normal) + damping;
-        lost[LossKind::Normal as usize] = -(along * self.half_approach);
+        lost[LossKind::Normal as usize] = -(along * self.approach);
         let (mut stiffness, mut dashpots) = (N::zero(), normal * damping);
         if booked.friction {
             let pressing = if self.acts { self.normal.force - damping } else { N::zero() };
@@ -138,23 +138,27 @@ impl<N: Number> Seen<N> {
                 lost[LossKind::Stiffness as usize] = lost_by_both - slipped;
                 lost[LossKind::Projection as usize] = projected;
             }
-            let mut taken = (before + dashpots).dot(self.half_slip);
+            let mut taken = (before + dashpots).dot(self.slip);
             if booked.carries {
                 // The tangent plane is that of mid-step.
-                taken = taken - along * normal.dot(self.half_slip);
+                taken = taken - along * normal.dot(self.slip);
             }
-            let rubbed = if booked.limits_dashpot { N::select(self.sliding, -taken, N::zero()) } else { N::zero() };
-            lost[LossKind::Tangential as usize] = -(taken + rubbed);
-            lost[LossKind::Sliding as usize] = slipped + rubbed;
+            let mut damped = -taken;
+            if booked.limits_dashpot {
+                let rubbed = N::select(self.sliding, damped, N::zero());
+                (damped, slipped) = (damped - rubbed, slipped + rubbed);
+            }
+            lost[LossKind::Tangential as usize] = damped;
+            lost[LossKind::Sliding as usize] = slipped;
         }
         let mut rolling = Vector::zero();
         let [other_before, x, y, z] = self.before[1];
         if booked.other {
-            lost[LossKind::Other as usize] = -((other_before + other) * self.half_approach);
+            lost[LossKind::Other as usize] = -((other_before + other) * self.approach);
         }
         if booked.rolling && self.acts {
             rolling = self.rolling;
-            lost[LossKind::Rolling as usize] = (Vector::new(x, y, z) + rolling).dot(self.half_turn);
+            lost[LossKind::Rolling as usize] = (Vector::new(x, y, z) + rolling).dot(self.turn);
         }
         (lost, [[stiffness, dashpots.x, dashpots.y, dashpots.z], [other, rolling.x, rolling.y, rolling.z]])
     }
@@ -178,39 +182,37 @@ impl<N: Number> Seen<N> {
         (pressed - elastic, self.normal.force - pressed)
     }
 
-    /// What a spring loses by its stiffness and by friction at its limit together, what friction takes of that, and what is
+    /// Twice what a spring loses by its stiffness and by friction at its limit together, what friction takes of that, and what is
     /// projected, of stiffnesses before and now \[J\].
     ///
     /// ```text
     /// W = ½ (k₀ s₀ + k s)·Δ                   work on the spring
     /// P = ½ k₀ (s₀·n)²                        projected
-    /// W − ½ k s² + ½ k₀ s₀² − P               lost by both
+    /// L = W − ½ k s² + ½ k₀ s₀² − P           lost by both
+    ///   = ½ k₀ s₀·(Δ + s₀) + ½ k s·(Δ − s) − P
     /// S = W + ½ (k₀ s₀ + k s)·(s₀ − s) − P    the same mean force times what did not stretch the spring
-    ///   = lost by both + ½ (k − k₀) s₀·s
+    ///   = L + ½ (k − k₀) s₀·s
     /// ```
     #[inline(always)]
     fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 3] {
-        let half = N::splat(0.5);
         let (before, now) = (self.spring_before, Vector::of_row(self.spring));
-        let (loaded_before, loaded) = (before * stiffness_before, now * stiffness);
-        let work = (loaded_before + loaded).dot(self.half_slip);
-        let mut left = work + (loaded_before.dot(before) - loaded.dot(now)) * half;
+        let mut lost = (before * stiffness_before).dot(before + self.slip) + (now * stiffness).dot(self.slip - now);
         let mut projected = N::zero();
         if projects {
             let along = before.dot(self.contact.normal);
-            projected = stiffness_before * along * along * half;
-            left = left - projected;
+            projected = stiffness_before * along * along;
+            lost = lost - projected;
         }
-        [left, left + (loaded.dot(before) - loaded_before.dot(now)) * half, projected]
+        [lost, lost + (stiffness - stiffness_before) * before.dot(now), projected]
     }
 }
 
-/// What is lost with a contact whose bodies have parted: of this motion and half step \[s\], by the loads that are remembered and
-/// the spring that friction remembers; by [`LossKind`], and what the spring held \[J\].
+/// Twice what is lost with a contact whose bodies have parted: of this motion and time step \[s\], of which the loads that are
+/// remembered acted for half; by [`LossKind`], and twice what the spring held that friction remembers \[J\].
 pub(crate) fn parting(
     booked: &Booked,
     contact: &Contact,
-    half: f64,
+    step: f64,
     spring: Vector,
     before: [[f64; 4]; 2],
 ) -> ([f64; LossKind::COUNT], f64) {
@@ -218,15 +220,15 @@ pub(crate) fn parting(
     let [stiffness, x, y, z] = before[0];
     let (loads, normal) = (Vector::new(x, y, z), contact.normal);
     let along = loads.dot(normal);
-    lost[LossKind::Normal as usize] = -(along * contact.normal_velocity * half);
+    lost[LossKind::Normal as usize] = -(along * contact.normal_velocity * step);
     if booked.friction {
-        lost[LossKind::Tangential as usize] = -((loads - normal * along).dot(contact.slip) * half);
-        held = stiffness * spring.dot(spring * 0.5 + contact.slip * half);
+        lost[LossKind::Tangential as usize] = -((loads - normal * along).dot(contact.slip) * step);
+        held = stiffness * spring.dot(spring + contact.slip * step);
     }
     let [other, x, y, z] = before[1];
-    lost[LossKind::Other as usize] = -(other * contact.normal_velocity * half);
+    lost[LossKind::Other as usize] = -(other * contact.normal_velocity * step);
     if booked.rolling {
-        lost[LossKind::Rolling as usize] = Vector::new(x, y, z).dot(contact.relative_spin) * half;
+        lost[LossKind::Rolling as usize] = Vector::new(x, y, z).dot(contact.relative_spin) * step;
     }
     (lost, held)
 }
