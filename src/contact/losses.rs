@@ -132,9 +132,11 @@ impl<N: Number> Seen<N> {
                 stiffness = self.normal.response.tangential_stiffness;
                 stiffness = if booked.keeps_stiffness { self.spring[3] } else { stiffness };
                 dashpots += Vector::of_row(self.spring) * stiffness;
-                let [lost_by_both, slid, projected] =
-                    self.spring_losses([stiffness_before, stiffness], booked.projects);
-                slipped = N::select(self.sliding, slid, N::zero());
+                let [lost_by_both, projected] = self.spring_losses([stiffness_before, stiffness], booked.projects);
+                if N::any(self.sliding) {
+                    let gained = (stiffness - stiffness_before) * self.spring_before.dot(Vector::of_row(self.spring));
+                    slipped = N::select(self.sliding, lost_by_both + gained, N::zero());
+                }
                 lost[LossKind::Stiffness as usize] = lost_by_both - slipped;
                 lost[LossKind::Projection as usize] = projected;
             }
@@ -194,16 +196,16 @@ impl<N: Number> Seen<N> {
     ///   = L + ½ (k − k₀) s₀·s
     /// ```
     #[inline(always)]
-    fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 3] {
+    fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 2] {
         let (before, now) = (self.spring_before, Vector::of_row(self.spring));
-        let mut lost = (before * stiffness_before).dot(before + self.slip) + (now * stiffness).dot(self.slip - now);
+        let mut lost = before.dot(before + self.slip) * stiffness_before + (now * stiffness).dot(self.slip - now);
         let mut projected = N::zero();
         if projects {
             let along = before.dot(self.contact.normal);
             projected = stiffness_before * along * along;
             lost = lost - projected;
         }
-        [lost, lost + (stiffness - stiffness_before) * before.dot(now), projected]
+        [lost, projected]
     }
 }
 
