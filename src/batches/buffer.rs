@@ -9,6 +9,7 @@ use crate::number::Vector;
 use crate::state::Row;
 use std::cell::RefCell;
 use std::f64::consts::PI;
+use std::mem::offset_of;
 
 /// Touching entries of one batch.
 pub(crate) const BATCH: usize = 64;
@@ -113,13 +114,10 @@ pub(crate) struct Buffer {
     pub(crate) ready: usize,
 }
 
-const _: () = {
-    assert!(std::mem::offset_of!(Buffer, columns).is_multiple_of(64));
-    assert!(std::mem::offset_of!(Buffer, found).is_multiple_of(64));
-    assert!(std::mem::offset_of!(Buffer, roots).is_multiple_of(64));
-    assert!(std::mem::offset_of!(Buffer, force).is_multiple_of(64));
-    assert!(std::mem::offset_of!(Buffer, losses).is_multiple_of(64));
-};
+const _: () = assert!(
+    (offset_of!(Buffer, columns) | offset_of!(Buffer, found) | offset_of!(Buffer, roots)).is_multiple_of(64)
+        && (offset_of!(Buffer, force) | offset_of!(Buffer, losses)).is_multiple_of(64)
+);
 
 /// Copies eight entries to the front.
 #[inline(always)]

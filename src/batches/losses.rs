@@ -122,10 +122,8 @@ pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
         if stage.buffer.ready < place + N::WIDTH {
             // The entries that fill the last register are not counted.
             let counted = N::splat(stage.buffer.ready as f64).greater(N::load(RAMP.as_ptr().add(place)));
-            let mut kind = 0;
-            while kind < LossKind::COUNT {
-                lost[kind] = N::select(counted, lost[kind], N::zero());
-                kind += 1;
+            for energy in &mut lost {
+                *energy = N::select(counted, *energy, N::zero());
             }
         }
         let mut kind = 0;
@@ -202,10 +200,8 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
 /// Puts weights on the losses of contacts that do not count once: of the normal force, and of friction.
 #[inline(always)]
 fn weigh<N: Lane>(lost: &mut [N; LossKind::COUNT], [weight, share]: [N; 2]) {
-    let mut kind = 0;
-    while kind < LossKind::COUNT {
+    for (kind, energy) in lost.iter_mut().enumerate() {
         let of_normal = kind == LossKind::Normal as usize || kind == LossKind::Other as usize;
-        lost[kind] = lost[kind] * if of_normal { weight } else { share };
-        kind += 1;
+        *energy = *energy * if of_normal { weight } else { share };
     }
 }
