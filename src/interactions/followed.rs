@@ -90,15 +90,13 @@ impl<S: Sides> Along for Followed<'_, '_, S> {
         let Some(last) = tangents.iter().rposition(|tangent| self.sides.reaches(tangent, batch.buffer)) else {
             return if self.looks { Left::Nothing } else { Left::All };
         };
-        // The last one evaluates the law, too: history goes on then.
+        // The last input evaluates the law, too: history goes on then.
         let writes = !self.looks && !self.law.law.is_booked();
-        for (place, tangent) in tangents[..=last].iter_mut().enumerate() {
-            let (width, writes) = (tangent.width, writes && place == last);
-            if self.law.needs.torque {
-                lanes::run_seldom(width, Follow::<S, true> { contacts: self, tangent, batch, writes });
-            } else {
-                lanes::run_seldom(width, Follow::<S, false> { contacts: self, tangent, batch, writes });
-            }
+        let (width, tangents) = (tangents[last].width, &mut tangents[..=last]);
+        if self.law.needs.torque {
+            lanes::run_seldom(width, Follow::<S, true> { contacts: self, tangents, batch, writes });
+        } else {
+            lanes::run_seldom(width, Follow::<S, false> { contacts: self, tangents, batch, writes });
         }
         match (self.looks, writes) {
             (true, _) => Left::Nothing,
@@ -108,27 +106,27 @@ impl<S: Sides> Along for Followed<'_, '_, S> {
     }
 }
 
-/// Contacts of a batch with the slopes by an input. TURNING: they turn their bodies; otherwise nothing is looked at but the force.
+/// Contacts of a batch with the slopes by some inputs, one after another. TURNING: they turn their bodies; otherwise nothing is looked at but the force.
 struct Follow<'a, 'b, 'c, 'd, S, const TURNING: bool> {
     /// The contacts.
     contacts: &'a Followed<'c, 'd, S>,
     /// What is followed.
-    tangent: &'a mut Tangent,
+    tangents: &'a mut [Tangent],
     /// The batch.
     batch: &'a mut Batch<'b>,
-    /// Whether the law is evaluated.
+    /// Whether the law is evaluated, with the last input.
     writes: bool,
 }
 
 impl<S: Sides, const TURNING: bool> Kernel for Follow<'_, '_, '_, '_, S, TURNING> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { contacts: Followed { sides, law, table, uniform, step, .. }, tangent, batch, writes } = self;
-        let (law, needs) = (&law.law, law.needs);
+        let Self { contacts: Followed { sides, law, table, uniform, step, .. }, tangents, batch, writes } = self;
+        let (law, needs, last) = (&law.law, law.needs, tangents.len() - 1);
         let (step, remembered) = (spread::<N>(*step), law.history().len());
         let uniform = uniform.map(in_lanes::<N>);
         let acting = Evaluated::acting(law);
-        let mut rows = [[Dual::zero(); 4]; MOST_HISTORY];
+        let (mut values, mut rows) = ([[N::zero(); 4]; MOST_HISTORY], [[Dual::zero(); 4]; MOST_HISTORY]);
         // What the law looks at stays where it is from one register to the next: slopes that are none are written once.
         let mut contact = Contact::zero();
         let mut roots = sides.roots(&batch.found::<N>(0));
@@ -138,18 +136,9 @@ impl<S: Sides, const TURNING: bool> Kernel for Follow<'_, '_, '_, '_, S, TURNING
             let Buffer { first, second, entry, ready, .. } = &*batch.buffer;
             let (slots, entries) =
                 ([Places::from::<N>(first, at), Places::from::<N>(second, at)], Places::from::<N>(entry, at));
-            let count = usize::min(ready - at, N::WIDTH);
-            let reached = sides.reached(tangent, &slots, count);
-            if reached == 0 && !writes {
-                continue;
-            }
-            let (found, constant) = (batch.found::<N>(at), batch.constants::<N>(at));
+            let (count, found, constant) =
+                (usize::min(ready - at, N::WIDTH), batch.found::<N>(at), batch.constants::<N>(at));
             let contacts = Register { slots, count, found, roots: here, constant };
-            let mut geometry = sides.meet::<N, TURNING>(tangent, &contacts, needs);
-            if S::AT_BOUNDARY && TURNING && law.undeformed_arms() {
-                geometry.first_arm = geometry.contact.radius;
-            }
-            fill::<N, TURNING>(&mut contact, &geometry.contact, needs);
             let gathered;
             let row = match &uniform {
                 Some(row) => row,
@@ -159,25 +148,39 @@ impl<S: Sides, const TURNING: bool> Kernel for Follow<'_, '_, '_, '_, S, TURNING
                     &gathered
                 }
             };
-            let list = sides.list(tangent);
-            for (place, row) in rows[..remembered].iter_mut().enumerate() {
-                *row = with_slopes::<N>(batch.remembered(place, at), list.read::<N>(place, &entries));
+            for (place, row) in values[..remembered].iter_mut().enumerate() {
+                *row = batch.remembered(place, at);
             }
-            let reaction = react::<N, TURNING>(law, &acting, row, &mut contact, &mut rows[..remembered], step);
-            if writes {
-                for (place, row) in rows[..remembered].iter().enumerate() {
-                    batch.remember(place, at, Dual::values_of(*row));
+            for (place, tangent) in tangents.iter_mut().enumerate() {
+                let (writes, reached) = (writes && place == last, sides.reached(tangent, &contacts.slots, count));
+                if reached == 0 && !writes {
+                    continue;
                 }
-                let arms = [geometry.first_arm.value, geometry.second_arm.value];
-                put::<S, N>(batch, at, &values_of(&reaction), (arms, needs));
+                let mut geometry = sides.meet::<N, TURNING>(tangent, &contacts, needs);
+                if S::AT_BOUNDARY && TURNING && law.undeformed_arms() {
+                    geometry.first_arm = geometry.contact.radius;
+                }
+                fill::<N, TURNING>(&mut contact, &geometry.contact, needs);
+                let list = sides.list(tangent);
+                for (place, (row, values)) in rows[..remembered].iter_mut().zip(&values).enumerate() {
+                    *row = with_slopes::<N>(*values, list.read::<N>(place, &entries));
+                }
+                let reaction = react::<N, TURNING>(law, &acting, row, &mut contact, &mut rows[..remembered], step);
+                if writes {
+                    for (place, row) in rows[..remembered].iter().enumerate() {
+                        batch.remember(place, at, Dual::values_of(*row));
+                    }
+                    let arms = [geometry.first_arm.value, geometry.second_arm.value];
+                    put::<S, N>(batch, at, &values_of(&reaction), (arms, needs));
+                }
+                if reached == 0 {
+                    continue;
+                }
+                for (place, row) in rows[..remembered].iter().enumerate() {
+                    list.put::<N>(place, &entries, slopes_of::<N>(*row));
+                }
+                sides.load::<N, TURNING>(tangent, (&contacts, reached), &geometry, &reaction);
             }
-            if reached == 0 {
-                continue;
-            }
-            for (place, row) in rows[..remembered].iter().enumerate() {
-                list.put::<N>(place, &entries, slopes_of::<N>(*row));
-            }
-            sides.load::<N, TURNING>(tangent, (&contacts, reached), &geometry, &reaction);
         }
     }
 }

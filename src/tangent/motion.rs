@@ -20,13 +20,14 @@ impl Tangent {
 }
 
 impl ParticleSlopes {
-    /// Half a kick of a particle, of this length \[s\].
+    /// Half a kick of the particles, of this length \[s\].
     #[inline(always)]
-    fn kick(&mut self, slot: usize, half: f64) {
-        let [per_mass, per_inertia] = self.inverse[slot];
-        add_times(&mut self.velocity[slot], &self.force[slot], half * per_mass);
+    fn kick(&mut self, half: f64) {
+        let (reached, inverse) = (&self.is_reached, &self.inverse);
+        add_times(&mut self.velocity, &self.force, reached, inverse.iter().map(|[per_mass, _]| half * per_mass));
         if self.turning {
-            add_times(&mut self.spin[slot], &self.torque[slot], half * per_inertia);
+            let factors = inverse.iter().map(|[_, per_inertia]| half * per_inertia);
+            add_times(&mut self.spin, &self.torque, reached, factors);
         }
     }
 
@@ -64,14 +65,10 @@ impl Kernel for Drift<'_> {
     fn run<N: Lane>(self) {
         let Self { slopes, particles, step } = self;
         slopes.all_reached = !slopes.is_reached.contains(&false);
-        for slot in 0..particles.len() {
-            // Nothing has ever been written of a particle that is not reached. Those of boundaries are put where they belong later.
-            if slopes.is_reached[slot] {
-                slopes.kick(slot, 0.5 * step);
-                add_times(&mut slopes.position[slot], &slopes.velocity[slot], step);
-                slopes.force[slot] = [0.0; 4];
-            }
-        }
+        // Those of boundaries are put where they belong later.
+        slopes.kick(0.5 * step);
+        add_times(&mut slopes.position, &slopes.velocity, &slopes.is_reached, std::iter::repeat(step));
+        slopes.force.fill([0.0; 4]);
         let mut first = 0;
         while first < slopes.orientation.len() {
             let whole = are_free::<N>(particles, first);
@@ -103,12 +100,7 @@ struct Kick<'a> {
 impl Kernel for Kick<'_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { slopes, half } = self;
-        for slot in 0..slopes.velocity.len() {
-            if slopes.is_reached[slot] {
-                slopes.kick(slot, half);
-            }
-        }
+        self.slopes.kick(self.half);
     }
 }
 

@@ -46,11 +46,13 @@ pub(crate) fn sum<N: Lane>(columns: [N; 4], sums: &mut [[f64; 1]; 3], count: usi
     }
 }
 
-/// Adds multiples of a row.
+/// Adds multiples of rows where an input has reached the particle: nothing has ever been written of the others.
 #[inline(always)]
-pub(super) fn add_times(sums: &mut Row, parts: &Row, factor: f64) {
-    for (sum, part) in sums.iter_mut().zip(parts) {
-        *sum += factor * part;
+pub(super) fn add_times(sums: &mut [Row], parts: &[Row], reached: &[bool], factors: impl Iterator<Item = f64>) {
+    for (((sums, parts), _), factor) in sums.iter_mut().zip(parts).zip(reached).zip(factors).filter(|it| *it.0.1) {
+        for (sum, part) in sums.iter_mut().zip(parts) {
+            *sum += factor * part;
+        }
     }
 }
 
