@@ -205,12 +205,15 @@ impl Kernel for OnPiece<'_, '_> {
         let (mut found, gravity) = (Sums::default(), row(gravity.unwrap_or_default()));
         let (bonds, passes) = (between.bonds.rows(), between.fields.rows());
         let (applies, damps) = (fields.applies(), fields.damps());
-        for slot in piece * CHUNK..((piece + 1) * CHUNK).min(particles.len()) {
-            if particles.owner[slot] != 0 {
+        let slots = piece * CHUNK..((piece + 1) * CHUNK).min(particles.len());
+        // Side by side, so that no place is looked for in each of the lists.
+        let motions = particles.velocity[slots.clone()].iter().zip(&particles.angular_velocity[slots.clone()]);
+        let loads = particles.force[slots.clone()].iter().zip(&particles.torque[slots.clone()]);
+        let owners = &particles.owner[slots.clone()];
+        for (slot, (((velocity, spin), (force, torque)), owner)) in slots.zip(motions.zip(loads).zip(owners)) {
+            if *owner != 0 {
                 continue;
             }
-            let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
-            let (force, torque) = (&particles.force[slot], &particles.torque[slot]);
             let acceleration = plus(&gravity, force, 1.0 / velocity[3]);
             let motion = [[velocity, spin], [&acceleration, &plus(&[0.0; 4], torque, 1.0 / spin[3])]];
             let passed = passes.map_or([force, torque], |[forces, torques]| [&forces[slot], &torques[slot]]);
