@@ -127,7 +127,7 @@ fn contacts_of_which_nothing_acts_are_left_alone_until_their_bond_breaks() {
     // The flags of the contact, and what is kept of it.
     let kept = |simulation: &Simulation| {
         let list = &simulation.state().contacts[0];
-        (list.flags[0], list.history.last().expect("offsets are kept")[0])
+        (list.flags[0], *list.history.get(0).last().expect("offsets are kept"))
     };
     let mut followed = pair("without_normal", "[1.0, 0.0, 0.0]", 1.0, 1e-8);
     let before = kept(&followed).1;

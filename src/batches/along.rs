@@ -57,17 +57,17 @@ impl Batch<'_> {
     /// A row of what the law remembers.
     #[inline(always)]
     pub(crate) fn remembered<N: Lane>(&self, row: usize, at: usize) -> [N; 4] {
-        let entries = &self.buffer.entry[at..at + N::WIDTH];
+        let places = &self.buffer.history[at..at + N::WIDTH];
         // SAFETY: there is a row for each entry.
-        unsafe { N::load_rows(self.entries.history()[row].pointer(), entries.as_ptr()) }
+        unsafe { N::load_rows(self.entries.row(row), places.as_ptr()) }
     }
 
     /// Remembers a row.
     #[inline(always)]
     pub(crate) fn remember<N: Lane>(&mut self, row: usize, at: usize, values: [N; 4]) {
-        let entries = &self.buffer.entry[at..at + N::WIDTH];
+        let places = &self.buffer.history[at..at + N::WIDTH];
         // SAFETY: there is a row for each entry, which this piece alone works on; a repeated one is written twice with the same.
-        unsafe { N::store_rows(values, self.entries.history()[row].pointer(), entries.as_ptr()) };
+        unsafe { N::store_rows(values, self.entries.row(row), places.as_ptr()) };
     }
 
     /// Notes that those entries of a register's worth slide whose bit is set.

@@ -98,6 +98,8 @@ pub(crate) struct Buffer {
     pub(crate) rolling: [Row; ROOM],
     /// Touching entries.
     pub(crate) entry: [u32; ROOM],
+    /// Where the rows that are stored of them begin.
+    pub(crate) history: [u32; ROOM],
     /// Their first bodies.
     pub(crate) first: [u32; ROOM],
     /// Their second bodies.
@@ -153,6 +155,7 @@ impl Buffer {
             couple: rows,
             rolling: rows,
             entry: slots,
+            history: slots,
             first: slots,
             second: slots,
             row: slots,
@@ -168,7 +171,7 @@ impl Buffer {
     pub(crate) fn complete<B: Bodies>(&mut self, last: bool) {
         self.ready = if last { self.count } else { self.count / 8 * 8 };
         if last && self.count > 0 {
-            for slots in [&mut self.entry, &mut self.first, &mut self.second] {
+            for slots in [&mut self.entry, &mut self.history, &mut self.first, &mut self.second] {
                 let repeated = slots[self.count - 1];
                 slots[self.count..self.count + 8].fill(repeated);
             }

@@ -58,8 +58,7 @@ impl Kernel for KeepBefore<'_, '_> {
             // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
             // piece of the list.
             unsafe {
-                let entries = stage.buffer.entry.as_ptr().add(done);
-                let row = stage.remembered(spring, stage.history.tangential, entries);
+                let row = stage.remembered(spring, stage.history.tangential, done);
                 let mut velocity = N::zero();
                 if predicts_normal_alone {
                     let contact: Contact<N> = stage.contact(done, false);
@@ -112,11 +111,10 @@ pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
     let (mut lost, loads) = seen.twice_losses(booked);
     // SAFETY: the caller's promise.
     unsafe {
-        let entries = stage.buffer.entry.as_ptr().add(place);
-        stage.remember(true, stage.history.loads, loads[0], entries);
-        stage.remember(true, stage.history.other_loads, loads[1], entries);
+        stage.remember(true, stage.history.loads, loads[0], place);
+        stage.remember(true, stage.history.other_loads, loads[1], place);
         if let Some(weights) = stage.weights {
-            let base = weights.as_ptr().cast::<f64>();
+            let (base, entries) = (weights.as_ptr().cast::<f64>(), stage.buffer.entry.as_ptr().add(place));
             weigh(&mut lost, [N::gather(base, entries, 2), N::gather(base.add(1), entries, 2)]);
         }
         if stage.buffer.ready < place + N::WIDTH {
@@ -168,12 +166,9 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             force: Vector::zero(),
             rolling: Vector::zero(),
             spring_before: Vector::zero(),
-            spring: stage.remembered(booked.spring, history.tangential, entries),
+            spring: stage.remembered(booked.spring, history.tangential, place),
             sliding: N::load(sliding.as_ptr()).greater(N::zero()),
-            before: [
-                stage.remembered(true, history.loads, entries),
-                stage.remembered(true, history.other_loads, entries),
-            ],
+            before: [stage.remembered(true, history.loads, place), stage.remembered(true, history.other_loads, place)],
             contact,
         };
         if booked.friction {

@@ -30,10 +30,10 @@ mod suppressed;
 mod whole_laws;
 
 use crate::coefficients::CoefficientTable;
-use crate::contact::{Contact, MOST_KEPT, Needs};
+use crate::contact::{Contact, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
-use crate::state::Row;
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
+use crate::state::{History, Row};
 pub(crate) use along::{Along, Batch, Left};
 pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
@@ -148,9 +148,9 @@ impl Touching<'_> {
 pub(crate) struct Entries {
     /// Its bits.
     pub flags: Shared<u8>,
-    /// What is stored: a row for each entry in each of the first lists.
-    history: [Shared<Row>; MOST_KEPT],
-    /// How many rows are stored.
+    /// What is stored: the rows of one entry after the other.
+    history: Shared<Row>,
+    /// How many rows are stored of each.
     kept: usize,
     /// Its pair constant; empty where the law has none.
     pub pair_constant: Shared<f64>,
@@ -158,23 +158,15 @@ pub(crate) struct Entries {
 
 impl Entries {
     /// What a list stores.
-    pub(crate) fn of(flags: &mut [u8], history: &mut [Vec<Row>], pair_constant: &mut [f64]) -> Self {
-        let mut rows = [Shared::new(&mut []); MOST_KEPT];
-        let kept = history.len();
-        for (rows, list) in rows.iter_mut().zip(history) {
-            *rows = Shared::new(list);
-        }
-        Self { flags: Shared::new(flags), history: rows, kept, pair_constant: Shared::new(pair_constant) }
+    pub(crate) fn of(flags: &mut [u8], history: &mut History, pair_constant: &mut [f64]) -> Self {
+        let (kept, history) = (history.width(), Shared::new(history.all_mut()));
+        Self { flags: Shared::new(flags), history, kept, pair_constant: Shared::new(pair_constant) }
     }
 
     /// Those from an entry on, with pair constants that are kept elsewhere.
     pub(crate) fn from(&self, first: usize, pair_constant: &mut [f64]) -> Self {
-        let mut rows = self.history;
-        for rows in &mut rows[..self.kept] {
-            *rows = rows.from(first);
-        }
         let (flags, pair_constant) = (self.flags.from(first), Shared::new(pair_constant));
-        Self { flags, history: rows, kept: self.kept, pair_constant }
+        Self { flags, history: self.history.from(first * self.kept), kept: self.kept, pair_constant }
     }
 
     /// How many rows are stored for each.
@@ -182,19 +174,22 @@ impl Entries {
         self.kept
     }
 
-    /// What is stored of an entry in one of the lists; nothing where there is no such list.
+    /// The rows of an entry.
     ///
     /// # Safety
-    /// There is such an entry, and it belongs to the piece that asks.
-    pub(crate) unsafe fn row(&self, list: usize, entry: usize) -> Row {
+    /// There is such an entry, and it belongs to the piece that asks, which holds no other reference to its rows.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref, reason = "disjoint use is the caller's promise")]
+    pub(crate) unsafe fn history(&self, entry: usize) -> &mut [Row] {
         // SAFETY: the caller's promise.
-        self.history().get(list).map_or([0.0; 4], |rows| unsafe { *rows.at(entry) })
+        unsafe { self.history.part(entry * self.kept, (entry + 1) * self.kept) }
     }
 
-    /// What is stored: lists with a row for each entry.
+    /// Where a row of the first entry stands: that of another one stands as many rows further as [`Buffer::history`] says.
     #[inline(always)]
-    fn history(&self) -> &[Shared<Row>] {
-        &self.history[..self.kept]
+    fn row(&self, row: usize) -> *mut Row {
+        debug_assert!(row < self.kept, "row {row} of {}", self.kept);
+        self.history.pointer().wrapping_add(row)
     }
 
     /// The bits that any of these entries has.

@@ -48,7 +48,8 @@ impl<B: Bodies> Parting<'_, '_, B> {
         unsafe {
             let (_, found): (u32, [f64; FOUND]) = bodies.touch(first, second, None, &mut B::Sum::default());
             let contact = bodies.meet::<f64, true>(first, second, found, B::roots(&found)).contact;
-            let row = |place: Option<usize>| place.map_or([0.0; 4], |place| *entries.history[place].at(entry));
+            let kept = entries.history(entry);
+            let row = |place: Option<usize>| place.map_or([0.0; 4], |place| kept[place]);
             (contact, [row(spring), row(places.loads), row(places.other_loads)])
         }
     }

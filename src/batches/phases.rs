@@ -77,13 +77,16 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                 } else {
                     end(parting, entry, here, bits);
                 }
-                for history in entries.history() {
-                    let rows = history.pointer().wrapping_add(entry);
+                let mut rows = entries.history.pointer().wrapping_add(entry * entries.kept);
+                let mut kept = 0;
+                while kept < entries.kept {
                     let mut lane = 0;
                     while lane < N::WIDTH {
                         prefetch(rows.wrapping_add(lane));
                         lane += 2;
                     }
+                    rows = rows.wrapping_add(N::WIDTH);
+                    kept += 1;
                 }
                 N::compact(first, bits, buffer.first.as_mut_ptr().add(count));
                 N::compact(second, bits, buffer.second.as_mut_ptr().add(count));
@@ -98,6 +101,10 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                 count += bits.count_ones() as usize;
                 entry += here;
             }
+        }
+        // The whole column, since its length is known: behind the last entry stands anything.
+        for (history, entry) in buffer.history.iter_mut().zip(&buffer.entry) {
+            *history = entry.wrapping_mul(entries.kept as u32);
         }
         (*next, buffer.count) = (entry, count);
     }
@@ -173,18 +180,14 @@ unsafe fn end_chosen<B: Bodies>(mut parting: Parting<B>, entry: usize, count: us
 /// # Safety
 /// As for [`flags_of`].
 unsafe fn end_one(entries: &Entries, entry: usize) {
-    let Some((offset, remembered)) = entries.history().split_last() else { return };
-    // SAFETY: the caller's promise; there is a row for each entry.
-    unsafe {
-        for history in remembered {
-            *history.at(entry) = [0.0; 4];
-        }
-        let (flags, offset) = (entries.flags.at(entry), offset.at(entry));
-        let lasts = *flags & LASTING != 0;
-        *offset = [0.0, 0.0, 0.0, if lasts { offset[3] } else { 0.0 }];
-        if offset[3] == 0.0 {
-            *flags &= !RELEASED;
-        }
+    // SAFETY: the caller's promise.
+    let (flags, history) = unsafe { (entries.flags.at(entry), entries.history(entry)) };
+    let Some((offset, remembered)) = history.split_last_mut() else { return };
+    remembered.fill([0.0; 4]);
+    let lasts = *flags & LASTING != 0;
+    *offset = [0.0, 0.0, 0.0, if lasts { offset[3] } else { 0.0 }];
+    if offset[3] == 0.0 {
+        *flags &= !RELEASED;
     }
 }
 
@@ -207,10 +210,9 @@ unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bi
     while ended != 0 {
         let lane = ended.trailing_zeros() as usize / 8;
         // SAFETY: the caller's promise.
-        unsafe { parting.tell(entry + lane) };
-        for history in entries.history() {
-            // SAFETY: the caller's promise; there is a row for each entry.
-            unsafe { *history.at(entry + lane) = [0.0; 4] };
+        unsafe {
+            parting.tell(entry + lane);
+            entries.history(entry + lane).fill([0.0; 4]);
         }
         ended &= ended - 1;
     }

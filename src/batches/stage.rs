@@ -50,20 +50,17 @@ pub(super) struct Rubbed<N: Lane> {
 }
 
 impl Stage<'_> {
-    /// What a sub-model remembers of a register's worth of entries; zeros where it remembers nothing.
+    /// What a sub-model remembers of a register's worth of entries, in this row; zeros where it remembers nothing.
     ///
     /// # Safety
-    /// The entries are of the list; `place` is that of the sub-model.
+    /// As for [`Stage::contact`]; the entries are of the list, and the row is that of the sub-model.
     #[inline(always)]
-    pub(super) unsafe fn remembered<N: Lane>(
-        &self,
-        remembers: bool,
-        place: Option<usize>,
-        entries: *const u32,
-    ) -> [N; 4] {
-        match place {
+    pub(super) unsafe fn remembered<N: Lane>(&self, remembers: bool, row: Option<usize>, place: usize) -> [N; 4] {
+        match row {
             // SAFETY: the caller's promise; there is a row for each entry.
-            Some(place) if remembers => unsafe { N::load_rows(self.entries.history[place].pointer(), entries) },
+            Some(row) if remembers => unsafe {
+                N::load_rows(self.entries.row(row), self.buffer.history.as_ptr().add(place))
+            },
             _ => [N::zero(); 4],
         }
     }
@@ -74,8 +71,8 @@ impl Stage<'_> {
     /// As for [`Stage::contact`]; the list keeps offsets.
     #[inline(always)]
     pub(super) unsafe fn kept_offset<N: Lane>(&self, place: usize) -> [N; 4] {
-        // SAFETY: the caller's promise; there is a row for each entry.
-        unsafe { N::load_rows(self.entries.history[self.offset].pointer(), self.buffer.entry.as_ptr().add(place)) }
+        // SAFETY: the caller's promise.
+        unsafe { self.remembered(true, Some(self.offset), place) }
     }
 
     /// Remembers it.
@@ -84,16 +81,10 @@ impl Stage<'_> {
     /// As for [`Stage::remembered`]; the entries belong to this piece of the list. A repeated entry is written twice,
     /// with the same.
     #[inline(always)]
-    pub(super) unsafe fn remember<N: Lane>(
-        &self,
-        remembers: bool,
-        place: Option<usize>,
-        row: [N; 4],
-        entries: *const u32,
-    ) {
-        if let (true, Some(place)) = (remembers, place) {
+    pub(super) unsafe fn remember<N: Lane>(&self, remembers: bool, row: Option<usize>, values: [N; 4], place: usize) {
+        if let (true, Some(row)) = (remembers, row) {
             // SAFETY: the caller's promise; there is a row for each entry.
-            unsafe { N::store_rows(row, self.entries.history[place].pointer(), entries) };
+            unsafe { N::store_rows(values, self.entries.row(row), self.buffer.history.as_ptr().add(place)) };
         }
     }
 
@@ -130,10 +121,9 @@ impl Stage<'_> {
         let (remembers, own) = (A::HISTORY.is_some(), self.history.normal);
         // SAFETY: the caller's promise.
         unsafe {
-            let entries = self.buffer.entry.as_ptr().add(place);
-            let history = self.remembered(remembers, own, entries);
+            let history = self.remembered(remembers, own, place);
             let (normal, history) = A::force(law, switches, contact, roots, history, N::splat(self.step));
-            self.remember(remembers, own, history, entries);
+            self.remember(remembers, own, history, place);
             normal
         }
     }
@@ -163,7 +153,7 @@ impl Stage<'_> {
     pub(super) unsafe fn tangential_history<N: Lane, B: Tangential>(&self, place: usize) -> [N; 4] {
         let remembers = B::ACTIVE && B::HISTORY.is_some();
         // SAFETY: the caller's promise.
-        unsafe { self.remembered(remembers, self.history.tangential, self.buffer.entry.as_ptr().add(place)) }
+        unsafe { self.remembered(remembers, self.history.tangential, place) }
     }
 
     /// Writes force and friction of a register's worth of contacts, of which `history` is remembered. Returns what a book of losses
@@ -205,7 +195,7 @@ impl Stage<'_> {
                     *self.entries.flags.pointer().add(*entries.add(lane) as usize) |= SLIDING;
                     sliding &= sliding - 1;
                 }
-                self.remember(remembers, own, friction.history, entries);
+                self.remember(remembers, own, friction.history, place);
             }
             N::store_block(columns(rubbed.force), self.buffer.force.as_mut_ptr().add(place));
         }
@@ -232,16 +222,15 @@ impl Stage<'_> {
         let step = N::splat(self.step);
         // SAFETY: the caller's promise.
         unsafe {
-            let entries = self.buffer.entry.as_ptr().add(place);
-            let mut row = if shared { *history } else { self.remembered(true, own, entries) };
+            let mut row = if shared { *history } else { self.remembered(true, own, place) };
             let Foreseen { middle, weight } = foresee_normal(contact, row[3], self.onset, step);
             row[3] = middle;
             if shared {
                 *history = row;
             } else {
-                self.remember(true, own, row, entries);
+                self.remember(true, own, row, place);
             }
-            self.remember(true, seen, [contact.normal_velocity, weight, N::splat(1.0), N::zero()], entries);
+            self.remember(true, seen, [contact.normal_velocity, weight, N::splat(1.0), N::zero()], place);
             weight
         }
     }
@@ -261,8 +250,7 @@ impl Stage<'_> {
         let (remembers, own) = (C::HISTORY.is_some(), self.history.rolling);
         // SAFETY: the caller's promise.
         unsafe {
-            let entries = self.buffer.entry.as_ptr().add(place);
-            let (mut history, mut step) = (self.remembered(remembers, own, entries), N::splat(self.step));
+            let (mut history, mut step) = (self.remembered(remembers, own, place), N::splat(self.step));
             let (mut contact, mut pressed) = (*contact, *normal);
             if CARRIES {
                 let carry: Carry<N> = self.buffer.carry(place);
@@ -276,7 +264,7 @@ impl Stage<'_> {
                 history[3] = normal.response.normal_stiffness;
             }
             N::store_block(columns(torque), self.buffer.rolling.as_mut_ptr().add(place));
-            self.remember(remembers, own, history, entries);
+            self.remember(remembers, own, history, place);
             torque
         }
     }

@@ -100,11 +100,10 @@ impl Kernel for CarryRun<'_, '_> {
                 let carry = Carry::of(&contact, step, stage.touches);
                 let mut along = [contact.normal_velocity, N::zero()];
                 if rates.is_some() {
-                    let entries = stage.buffer.entry.as_ptr().add(done);
-                    let before = stage.remembered(true, rates, entries);
+                    let before = stage.remembered(true, rates, done);
                     let row = carry.foresee(&mut contact, before, step);
                     along = [row[0], before[0]];
-                    stage.remember(true, rates, row, entries);
+                    stage.remember(true, rates, row, done);
                 }
                 carry.weigh(&mut contact, stage.onset, step, along);
                 stage.buffer.put_carry(done, &carry, &contact);

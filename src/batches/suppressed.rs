@@ -141,7 +141,7 @@ fn keep(stage: &mut Stage, bonded: bool) {
     let buffer: &Buffer = buffer;
     for place in 0..buffer.ready {
         // SAFETY: the entries belong to this piece of the list, which keeps offsets.
-        let row = unsafe { stage.entries.history()[stage.offset].at(buffer.entry[place] as usize) };
+        let row = unsafe { &mut stage.entries.history(buffer.entry[place] as usize)[stage.offset] };
         let [x, y, z, _] = buffer.force[place];
         let [overlap, offset] = buffer.overlap_and_offset(place);
         let next = if bonded { overlap } else { offset };
@@ -155,7 +155,7 @@ fn follow(stage: &mut Stage) {
         let [overlap, _] = stage.buffer.overlap_and_offset(place);
         if stage.step > 0.0 {
             // SAFETY: as above.
-            let row = unsafe { stage.entries.history()[stage.offset].at(stage.buffer.entry[place] as usize) };
+            let row = unsafe { &mut stage.entries.history(stage.buffer.entry[place] as usize)[stage.offset] };
             *row = [0.0, 0.0, 0.0, overlap];
         }
     }

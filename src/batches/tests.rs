@@ -11,6 +11,7 @@ use crate::contact::fixtures::{corners, every_law, properties, with_pair};
 use crate::contact::{Contact, Law, LawChoice, Needs, Offset};
 use crate::lanes::Width;
 use crate::number::{Row, Vector};
+use crate::state::History;
 use crate::state::contacts::{SLIDING, TOUCHING};
 use std::f64::consts::PI;
 
@@ -42,12 +43,13 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         buffer.entry[place] = buffer.entry[COUNT - 1];
         buffer.row[place] = buffer.row[COUNT - 1];
     }
+    let kept = law.law.history().len() + usize::from(manner.is_some());
+    buffer.history = buffer.entry.map(|entry| entry * kept as u32);
     buffer.ready = COUNT;
     let mut constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
     let mut flags = vec![TOUCHING; COUNT];
-    let kept = law.law.history().len() + usize::from(manner.is_some());
-    let mut history: Vec<Vec<Row>> =
-        (0..kept).map(|row| (0..COUNT).map(|entry| before(entry, row)).collect()).collect();
+    let mut history = History::of(kept, 0);
+    (0..COUNT).for_each(|entry| history.push((0..kept).map(|row| before(entry, row))));
     let entries = Entries::of(&mut flags, &mut history, &mut constants);
     let (places, own) = (law.law.places(), law.law.history_places());
     let uniform = uniform.then_some(rows);
@@ -78,7 +80,7 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         if needs.spin {
             rows.push(buffer.rolling[place]);
         }
-        rows.extend(history.iter().map(|list| list[entry]));
+        rows.extend(history.get(entry));
         found.push((rows, flags[entry]));
     }
     if law.law.is_booked() {

@@ -159,7 +159,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
                 }
                 if BOOKED {
                     let Rubbed { force, spring, sliding } = rubbed;
-                    let (step, entries) = (N::splat(stage.step), stage.buffer.entry.as_ptr().add(done));
+                    let step = N::splat(stage.step);
                     let before = [stage.history.loads, stage.history.other_loads];
                     let seen = Seen {
                         normal,
@@ -174,7 +174,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
                         spring_before,
                         spring,
                         sliding,
-                        before: before.map(|place| stage.remembered(true, place, entries)),
+                        before: before.map(|row| stage.remembered(true, row, done)),
                         contact,
                     };
                     losses::book(stage, done, &seen, &booked);

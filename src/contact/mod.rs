@@ -219,9 +219,6 @@ pub struct Friction<N: Number = f64> {
 /// scheme, one of records, and two of a book of losses.
 pub const MOST_HISTORY: usize = 7;
 
-/// Rows that a list keeps of a contact at most: [`OFFSET`] behind those of the law.
-pub const MOST_KEPT: usize = MOST_HISTORY + 1;
-
 /// The history that a sub-model stores of a contact from one evaluation to the next: a row of four numbers, zero at first
 /// touch and removed with the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

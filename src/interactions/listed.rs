@@ -5,7 +5,7 @@ use super::records::{self, ContactRecord, Motion};
 use crate::contact::{Contact, Law, Reaction};
 use crate::number::Vector;
 use crate::state::contacts::{BONDED, RELEASED, SILENT, SLIDING, TOUCHING, is_told};
-use crate::state::{Row, State};
+use crate::state::{History, Row, State};
 
 /// What a list keeps of its contacts, each a column.
 #[derive(Clone, Copy)]
@@ -13,7 +13,7 @@ pub(crate) struct Kept<'a> {
     /// Bits.
     pub flags: &'a [u8],
     /// What the law remembers, and offsets behind it.
-    pub history: &'a [Vec<Row>],
+    pub history: &'a History,
     /// Pair constants; empty where the law has none.
     pub pair_constant: &'a [f64],
 }
@@ -122,8 +122,8 @@ pub(crate) fn near_switch(list: &impl Listed, state: &State, step: f64, margin: 
 }
 
 /// What a suppressed contact did, as far as records tell it: the force that was kept, and whether friction slid.
-fn remembered(history: &[Vec<Row>], entry: usize, flags: u8) -> (Reaction, bool) {
-    let force = history.last().map_or([0.0; 4], |rows| rows[entry]);
+fn remembered(history: &History, entry: usize, flags: u8) -> (Reaction, bool) {
+    let force = history.get(entry).last().copied().unwrap_or_default();
     let sliding = flags & SLIDING != 0;
     (Reaction { force: force.into(), couple: Vector::zero(), rolling: Vector::zero(), sliding }, sliding)
 }
@@ -154,7 +154,7 @@ fn energy(list: &impl Listed, state: &State, of: impl Fn(&Law, &[f64], &Contact,
         let offset = match flags {
             flags if flags & BONDED != 0 => contact.overlap,
             flags if flags & RELEASED != 0 => {
-                kept.history.last().map_or(0.0, |rows| rows[entry][3]).min(contact.overlap)
+                kept.history.get(entry).last().map_or(0.0, |row| row[3]).min(contact.overlap)
             }
             _ => 0.0,
         };

@@ -4,7 +4,7 @@ use crate::bond::Carried;
 use crate::contact::{Contact, Law, MOST_HISTORY, Reaction};
 use crate::number::Vector;
 use crate::state::contacts::SLIDING;
-use crate::state::{Row, State};
+use crate::state::{History, Row, State};
 
 /// One contact at work, as it was when the present forces were evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,17 +120,17 @@ impl Motion {
 }
 
 /// What a law remembers of an entry of a list; rows that it does not have are zero.
-pub(crate) fn history(lists: &[Vec<Row>], entry: usize) -> [Row; MOST_HISTORY] {
+pub(crate) fn history(kept: &History, entry: usize) -> [Row; MOST_HISTORY] {
     let mut rows = [[0.0; 4]; MOST_HISTORY];
-    for (row, list) in rows.iter_mut().zip(lists) {
-        *row = list.get(entry).copied().unwrap_or_default();
+    for (row, kept) in rows.iter_mut().zip(kept.get(entry)) {
+        *row = *kept;
     }
     rows
 }
 
 /// A contact in the motion that the records of its law show, as its dashpots saw it, if that is remembered.
-pub(crate) fn seen(law: &Law, mut contact: Contact, lists: &[Vec<Row>], entry: usize) -> Contact {
-    let remembered = law.history_places().seen.and_then(|place| lists.get(place)?.get(entry));
+pub(crate) fn seen(law: &Law, mut contact: Contact, kept: &History, entry: usize) -> Contact {
+    let remembered = law.history_places().seen.and_then(|place| kept.get(entry).get(place));
     // Where records were not asked for until now, nothing is remembered yet.
     if let Some([velocity, weight, 1.0, _]) = remembered {
         contact.normal_velocity = *velocity;
@@ -146,7 +146,7 @@ pub(crate) fn react(
     law: &Law,
     row: &[f64],
     contact: &Contact,
-    lists: &[Vec<Row>],
+    kept: &History,
     entry: usize,
     flags: u8,
 ) -> (Reaction, bool) {
@@ -155,7 +155,7 @@ pub(crate) fn react(
     if sliding && law.spring().is_some() && !law.limits_dashpot() {
         contact.slip = Vector::zero();
     }
-    (law.react(row, &mut contact, &mut history(lists, entry), 0.0), sliding)
+    (law.react(row, &mut contact, &mut history(kept, entry), 0.0), sliding)
 }
 
 /// The spring of a contact.

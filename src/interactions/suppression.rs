@@ -43,17 +43,17 @@ impl Place {
         }
     }
 
-    /// What is kept of the contact: a row of each of these lists.
-    fn kept<'a>(&self, state: &'a mut State) -> &'a mut [Vec<Row>] {
+    /// What is kept of the contact.
+    fn kept<'a>(&self, state: &'a mut State) -> &'a mut [Row] {
         match self.at_plane {
-            true => &mut state.walls[self.list].history,
-            false => &mut state.contacts[self.list].history,
+            true => state.walls[self.list].history.get_mut(self.entry),
+            false => state.contacts[self.list].history.get_mut(self.entry),
         }
     }
 
     /// The row with the offset.
     fn offset<'a>(&self, state: &'a mut State) -> Option<&'a mut Row> {
-        self.kept(state).last_mut().map(|rows| &mut rows[self.entry])
+        self.kept(state).last_mut()
     }
 }
 
@@ -193,7 +193,7 @@ impl Suppression {
                 *flags = (*flags | BONDED) & !(FRESH | RELEASED);
                 if is_resting(*flags) {
                     *flags &= !(TOUCHING | SLIDING);
-                    history.iter_mut().for_each(|rows| rows[entry] = [0.0; 4]);
+                    history.get_mut(entry).fill([0.0; 4]);
                 }
             }
         }
@@ -285,9 +285,7 @@ impl Suppression {
 /// Lets a contact go whose last bond that suppressed it has broken, at this overlap \[m\].
 fn release(state: &mut State, place: Place, overlap: f64) {
     if is_resting(*place.flags(state)) {
-        for rows in place.kept(state) {
-            rows[place.entry] = [0.0; 4];
-        }
+        place.kept(state).fill([0.0; 4]);
         if let Some(row) = place.offset(state) {
             row[3] = overlap;
         }

@@ -4,7 +4,7 @@ use super::order::Order;
 use super::pairs::{Found, Laws};
 use crate::contact::HistoryRow;
 use crate::lanes::{self, Shared};
-use crate::state::{ContactList, Row};
+use crate::state::ContactList;
 use crate::threads::Context;
 
 /// Pairs of the old list in one piece of work.
@@ -42,10 +42,7 @@ impl Making {
         new.first.resize(count, 0);
         new.second.resize(count, 0);
         new.flags.resize(count, 0);
-        new.history.resize(history.len(), Vec::new());
-        for rows in &mut new.history {
-            rows.resize(count, [0.0; 4]);
-        }
+        new.history.resize(history.len(), count);
         new.pair_constant.clear();
         self.starts.resize(order.slots.len() + 1, 0);
         self.fill(found, (law, laws), order, context);
@@ -57,7 +54,8 @@ impl Making {
     fn fill(&mut self, found: &[Found], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
         let new = &mut self.spare;
         let (first, second) = (Shared::new(&mut new.first), Shared::new(&mut new.second));
-        let (flags, history) = (Shared::new(&mut new.flags), shared(&mut new.history));
+        let (flags, width) = (Shared::new(&mut new.flags), new.history.width());
+        let history = Shared::new(new.history.all_mut());
         let starts = Shared::new(&mut self.starts);
         let (slabs, particles) = (&new.slabs, &order.slabs);
         context.each(found.len(), |slab| {
@@ -84,9 +82,7 @@ impl Making {
                     begin_rows(first, low, from, starts);
                 }
                 flags.part(from, to).fill(0);
-                for rows in &history {
-                    rows.part(from, to).fill([0.0; 4]);
-                }
+                history.part(from * width, to * width).fill([0.0; 4]);
             }
         });
         if let Some(last) = self.starts.last_mut() {
@@ -96,7 +92,8 @@ impl Making {
 
     /// Brings flags and history of pairs that have any from the old list, pieces side by side.
     fn carry(&mut self, old: &ContactList, kept: &[HistoryRow], order: &Order, context: &Context) {
-        let (flags, history) = (Shared::new(&mut self.spare.flags), shared(&mut self.spare.history));
+        let (flags, width) = (Shared::new(&mut self.spare.flags), self.spare.history.width());
+        let history = Shared::new(self.spare.history.all_mut());
         let (second, starts, new_slot) = (&self.spare.second[..], &self.starts[..], &order.new_slot[..]);
         context.each(old.first.len().div_ceil(PIECE), |piece| {
             let mut flagged = [0_u32; PIECE];
@@ -110,19 +107,15 @@ impl Making {
                     // SAFETY: no other old pair is of these two particles.
                     unsafe {
                         *flags.at(place) = old.flags[pair];
-                        for ((rows, old), kept) in history.iter().zip(&old.history).zip(kept) {
-                            *rows.at(place) = if a < b { old[pair] } else { kept.reversed(old[pair]) };
+                        let new = history.part(place * width, (place + 1) * width);
+                        for ((new, old), kept) in new.iter_mut().zip(old.history.get(pair)).zip(kept) {
+                            *new = if a < b { *old } else { kept.reversed(*old) };
                         }
                     }
                 }
             }
         });
     }
-}
-
-/// The lists of what is remembered, for several threads.
-fn shared(history: &mut [Vec<Row>]) -> Vec<Shared<Row>> {
-    history.iter_mut().map(|rows| Shared::new(rows)).collect()
 }
 
 /// Writes the pairs of a piece that have a flag, without a branch that cannot be foreseen. Returns how many.

@@ -4,7 +4,7 @@ use super::order::{BEYOND, Order};
 use super::pairs::Laws;
 use crate::lanes::{self, Kernel, Lane};
 use crate::number::Vector;
-use crate::state::{Columns, Particles, WallContacts};
+use crate::state::{Columns, History, Particles, WallContacts};
 use crate::threads::{CHUNK, Context};
 
 /// A plane of the scene.
@@ -59,7 +59,7 @@ pub(crate) fn replace(
     list.law = old.law;
     list.particle = pieces.concat();
     list.flags = vec![0; list.particle.len()];
-    list.history = vec![vec![[0.0; 4]; list.particle.len()]; history];
+    list.history = History::of(history, list.particle.len());
     carry(&old, list, mark, order);
 }
 
@@ -75,8 +75,8 @@ fn carry(old: &WallContacts, new: &mut WallContacts, mark: &mut Vec<u32>, order:
         let place = mark[slot as usize] as usize;
         if new.particle.get(place) == Some(&slot) {
             new.flags[place] = old.flags[entry];
-            for (new, old) in new.history.iter_mut().zip(&old.history) {
-                new[place] = old[entry];
+            for (new, old) in new.history.get_mut(place).iter_mut().zip(old.history.get(entry)) {
+                *new = *old;
             }
         }
     }

@@ -68,9 +68,7 @@ fn renumber(list: &mut WallContacts, order: &Order) {
     list.particle = entries.iter().map(|&entry| slot(entry)).collect();
     list.feature = entries.iter().map(|&entry| list.feature[entry]).collect();
     list.flags = entries.iter().map(|&entry| list.flags[entry]).collect();
-    for rows in &mut list.history {
-        *rows = entries.iter().filter_map(|&entry| rows.get(entry).copied()).collect();
-    }
+    list.history = list.history.chosen(&entries);
 }
 
 /// The largest distance of a particle from a point \[m\].

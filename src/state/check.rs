@@ -6,7 +6,7 @@
 //! ([`Pass::check`](crate::interactions::Pass::check)).
 
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{Exchange, GONE, NearParts, Nodes, Row, State, WallContacts};
+use super::{Exchange, GONE, History, NearParts, Nodes, Row, State, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -305,13 +305,13 @@ impl ContactList {
         }
         ends(&self.slabs, count, "contacts")?;
         in_slabs(|pair| (self.first[pair], self.second[pair]), &self.slabs, particles, "contacts")?;
-        self.history.iter().try_for_each(|rows| finite(rows, "history"))?;
+        finite(self.history.all(), "history")?;
         all_finite(&self.pair_constant, "pair_constant")
     }
 
     /// Whether it has the columns of a law that remembers so many rows of each contact.
     pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
-        let columns = (&self.history[..], history, &self.pair_constant[..], pair_constant);
+        let columns = (&self.history, history, &self.pair_constant[..], pair_constant);
         remembered(columns, self.first.len())
     }
 }
@@ -325,13 +325,13 @@ impl WallContacts {
         let last = self.particle.last().is_none_or(|&last| (last as usize) < particles);
         demand(last, "walls", self.particle.len(), "slots of particles")?;
         self.near.check(particles)?;
-        self.history.iter().try_for_each(|rows| finite(rows, "history"))?;
+        finite(self.history.all(), "history")?;
         all_finite(&self.pair_constant, "pair_constant")
     }
 
     /// Whether it has the columns of a law that remembers so many rows of each contact.
     pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
-        let columns = (&self.history[..], history, &self.pair_constant[..], pair_constant);
+        let columns = (&self.history, history, &self.pair_constant[..], pair_constant);
         remembered(columns, self.particle.len())?;
         let once = self.particle.windows(2).map(|pair| pair[0] < pair[1]);
         demand_all(once, "walls", "each particle once")?;
@@ -358,7 +358,7 @@ impl WallContacts {
 impl ContactList {
     /// Whether it has as many rows as its law remembers, if there is one.
     pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
-        described((&self.history, rows), self.first.len())
+        has_rows((&self.history, rows), self.first.len())
     }
 }
 
@@ -367,7 +367,7 @@ impl WallContacts {
     pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
         let feature = self.feature.is_empty() || self.feature.len() == self.particle.len();
         demand(feature, "feature", self.feature.len(), "one for each contact, or none")?;
-        described((&self.history, rows), self.particle.len())
+        has_rows((&self.history, rows), self.particle.len())
     }
 }
 
@@ -389,14 +389,19 @@ fn described((found, rows): (&[Vec<Row>], Option<usize>), count: usize) -> Resul
     found.iter().try_for_each(|row| column(row, count, true, "history"))
 }
 
+/// Whether so many contacts have as many rows as a law remembers, if there is one.
+fn has_rows((history, rows): (&History, Option<usize>), count: usize) -> Result<(), StateFault> {
+    let fits = Some(history.width()) == rows || (count == 0 && history.width() == 0);
+    demand(fits, "history", history.width(), "the rows of the law")?;
+    column(history.all(), count * history.width(), true, "history")
+}
+
 /// Whether a list of so many contacts has the rows that its law remembers, and the pair constants that it keeps or not.
 fn remembered(
-    (history, rows, pair_constant, kept): (&[Vec<Row>], usize, &[f64], bool),
+    (history, rows, pair_constant, kept): (&History, usize, &[f64], bool),
     count: usize,
 ) -> Result<(), StateFault> {
-    let fits = history.len() == rows || (count == 0 && history.is_empty());
-    demand(fits, "history", history.len(), "the rows of the law")?;
-    history.iter().try_for_each(|rows| column(rows, count, true, "history"))?;
+    has_rows((history, Some(rows)), count)?;
     column(pair_constant, count, kept, "pair_constant")
 }
 

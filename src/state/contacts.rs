@@ -1,7 +1,7 @@
 //! Pairs that may touch, with the history of those that do.
 
 use super::in_place::clone_in_place;
-use super::{Row, plain};
+use super::{History, Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// When the neighbour lists were made, and for where.
@@ -75,10 +75,9 @@ pub struct ContactList {
     /// Bits of each pair: [`TOUCHING`], [`SLIDING`] and what bonds leave of it.
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// What is kept of each pair, as `first` sees `second`: a list for each row of its law, in their order, and behind
-    /// them one for [`OFFSET`](crate::contact::OFFSET) where bonds suppress contacts.
-    #[serde(with = "plain::lists")]
-    pub history: Vec<Vec<Row>>,
+    /// What is kept of each pair, as `first` sees `second`: the rows of its law, in their order, and behind them
+    /// [`OFFSET`](crate::contact::OFFSET) where bonds suppress contacts.
+    pub history: History,
     /// What the normal model keeps of each pair; empty where it keeps nothing. Follows from the pair.
     #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,
@@ -134,9 +133,8 @@ pub struct WallContacts {
     /// Bits of each: [`TOUCHING`], [`SLIDING`] and what bonds leave of it.
     #[serde(with = "plain")]
     pub flags: Vec<u8>,
-    /// What is kept of each: a list for each row, as for pairs.
-    #[serde(with = "plain::lists")]
-    pub history: Vec<Vec<Row>>,
+    /// What is kept of each, as for pairs.
+    pub history: History,
     /// What the normal model keeps of each; empty where it keeps nothing.
     #[serde(with = "plain")]
     pub pair_constant: Vec<f64>,

@@ -237,7 +237,8 @@ mod tests {
             assert!(text.contains(part), "{part} is missing in {text}");
         }
         assert!(
-            text.contains("second: option visit_u32") && text.contains("history: list of (bytes, 32 for each"),
+            text.contains("second: option visit_u32")
+                && text.contains("history: History { width: visit_u32, rows: (bytes, 32 for each"),
             "{text}"
         );
         assert!(text.ends_with("turnover: visit_f64 } } } "), "{text}");

@@ -172,7 +172,7 @@ impl ContactList {
             moved.renumber(slots);
         }
         keep(&mut self.flags, |pair| stays[pair]);
-        self.history.iter_mut().for_each(|rows| keep(rows, |pair| stays[pair]));
+        self.history.keep(|pair| stays[pair]);
         keep(&mut self.pair_constant, |pair| stays[pair]);
         shorten(&mut self.slabs, &stays);
     }
@@ -190,7 +190,7 @@ impl WallContacts {
         moved.renumber(&mut self.particle);
         keep(&mut self.flags, |entry| stays[entry]);
         keep(&mut self.feature, |entry| stays[entry]);
-        self.history.iter_mut().for_each(|rows| keep(rows, |entry| stays[entry]));
+        self.history.keep(|entry| stays[entry]);
         self.near.remove(&near, moved);
     }
 }

@@ -105,8 +105,8 @@ impl Simulation {
     pub fn pressing_energy(&self) -> f64 {
         let mut state = self.state.clone();
         let contacts = state.contacts.iter_mut().map(|list| &mut list.history);
-        for row in contacts.chain(state.walls.iter_mut().map(|list| &mut list.history)).flatten() {
-            row.fill([0.0; 4]);
+        for history in contacts.chain(state.walls.iter_mut().map(|list| &mut list.history)) {
+            history.all_mut().fill([0.0; 4]);
         }
         let touching = self.passes.iter().filter(|pass| pass.source() != Source::Bonds);
         touching.map(|pass| pass.elastic_energy(&state)).sum()

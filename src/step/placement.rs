@@ -139,7 +139,7 @@ fn put_spring(scene: &Scene, state: &mut State, placed: &PlacedSpring) {
                 _ => continue,
             };
             list.flags[pair] |= TOUCHING;
-            if let Some(spring) = spring.and_then(|spring| list.history.get_mut(spring)?.get_mut(pair)) {
+            if let Some(spring) = spring.and_then(|spring| list.history.get_mut(pair).get_mut(spring)) {
                 put(spring, placed.spring.map(|part| sign * part));
             }
         }

@@ -46,7 +46,7 @@ impl Past<'_> {
     pub(super) fn row(&self, entry: usize, row: usize) -> Row {
         assert!(entry < self.particle.len(), "entry {entry} of another piece");
         // SAFETY: the entry is in the list, among those of this piece.
-        unsafe { self.entries.row(row, entry) }
+        unsafe { self.entries.history(entry) }.get(row).copied().unwrap_or_default()
     }
 }
 

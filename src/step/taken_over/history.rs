@@ -5,7 +5,7 @@ use crate::bond::Law;
 use crate::contact::HistoryRow;
 use crate::scene::Scene;
 use crate::state::contacts::{BONDED, RELEASED, SILENT};
-use crate::state::{BondList, Row, State, WallContacts};
+use crate::state::{BondList, History, Row, State, WallContacts};
 use crate::step::Simulation;
 
 /// What both scenes keep of the contacts of their laws.
@@ -31,19 +31,21 @@ impl Memories {
         Self { rows: here.iter().map(|rows| all(rows)).collect(), here, numbers }
     }
 
-    /// What a law here remembers of a contact of a law there; as the other body sees it, if they have changed places.
-    fn taken(&self, here: usize, there: usize, swapped: bool, old: impl Fn(usize) -> Row) -> Vec<Row> {
+    /// Adds what a law here remembers of a contact of a law there; as the other body sees it, if they have changed places.
+    fn push(&self, history: &mut History, (here, there, swapped): (usize, usize, bool), old: &[Row]) {
+        if history.all().is_empty() {
+            history.clear(self.here[here].len());
+        }
         let rows = self.here[here].iter().zip(&self.rows[here][there]).enumerate();
-        rows.map(|(number, (kept, place))| {
+        history.push(rows.map(|(number, (kept, place))| {
             let Some(place) = place else { return Row::default() };
-            let mut row = if swapped { kept.reversed(old(*place)) } else { old(*place) };
+            let mut row = if swapped { kept.reversed(old[*place]) } else { old[*place] };
             // What another scheme left there would be older at each step.
             if kept.fourth_is_free && self.numbers[here] != Some(number) {
                 row[3] = 0.0;
             }
             row
-        })
-        .collect()
+        }));
     }
 }
 
@@ -52,12 +54,15 @@ impl Memories {
 pub(super) fn fit_outputs(scene: &Scene, state: &mut State, from: &Description) {
     for (law, (_, there)) in from.contacts().iter().enumerate().take(scene.contacts.len()) {
         let here = scene.kept_rows(law);
-        let fit = |history: &mut Vec<Vec<Row>>, count: usize| {
-            if history.len() == there.len() {
-                let mut old = std::mem::take(history);
-                let place = |row: &HistoryRow| there.iter().position(|name| name == row.name);
-                let kept = |row| place(row).map(|place| std::mem::take(&mut old[place]));
-                history.extend(here.iter().map(kept).map(|rows| rows.unwrap_or_else(|| vec![Row::default(); count])));
+        let places: Vec<_> = here.iter().map(|row| there.iter().position(|name| name == row.name)).collect();
+        let fit = |history: &mut History, count: usize| {
+            if history.width() == there.len() {
+                let mut new = History::of(here.len(), 0);
+                for entry in 0..count {
+                    let old = history.get(entry);
+                    new.push(places.iter().map(|place| place.map_or(Row::default(), |place| old[place])));
+                }
+                *history = new;
             }
         };
         if let Some(list) = state.contacts.get_mut(law) {
@@ -66,14 +71,6 @@ pub(super) fn fit_outputs(scene: &Scene, state: &mut State, from: &Description) 
         for list in state.walls.iter_mut().filter(|list| list.law as usize == law) {
             fit(&mut list.history, list.particle.len());
         }
-    }
-}
-
-/// Adds what is remembered of a contact to the lists of a law, a list for each row.
-fn push(history: &mut Vec<Vec<Row>>, rows: Vec<Row>) {
-    history.resize(rows.len(), Vec::new());
-    for (list, row) in history.iter_mut().zip(rows) {
-        list.push(row);
     }
 }
 
@@ -98,7 +95,7 @@ pub(super) fn put_contacts(scene: &Scene, state: &mut State, reached: &State, kn
             new.first.push(a.min(b));
             new.second.push(a.max(b));
             new.flags.push(unbonded(list.flags[pair]));
-            push(&mut new.history, memories.taken(law, there, a > b, |row| list.history[row][pair]));
+            memories.push(&mut new.history, (law, there, a > b), list.history.get(pair));
         }
     }
     put_wall_contacts(scene, state, reached, (from, numbers, &memories));
@@ -136,8 +133,7 @@ fn put_wall_contacts(
             new.particle.push(index);
             new.flags.push(unbonded(list.flags[entry]));
             new.feature.extend(feature);
-            let rows = memories.taken(law, list.law as usize, false, |row| list.history[row][entry]);
-            push(&mut new.history, rows);
+            memories.push(&mut new.history, (law, list.law as usize, false), list.history.get(entry));
         }
     }
 }
@@ -238,9 +234,11 @@ mod tests {
         let taken = |number: Option<usize>| {
             let memories =
                 Memories { here: vec![vec![spring]], rows: vec![vec![vec![Some(0)]]], numbers: vec![number] };
-            memories.taken(0, 0, true, |_| [1.0, 2.0, 3.0, 4.0])
+            let mut history = History::default();
+            memories.push(&mut history, (0, 0, true), &[[1.0, 2.0, 3.0, 4.0]]);
+            history
         };
-        assert_eq!(taken(Some(0)), [[-1.0, -2.0, -3.0, 4.0]]);
-        assert_eq!(taken(None), [[-1.0, -2.0, -3.0, 0.0]]);
+        assert_eq!(taken(Some(0)).get(0), [[-1.0, -2.0, -3.0, 4.0]]);
+        assert_eq!(taken(None).get(0), [[-1.0, -2.0, -3.0, 0.0]]);
     }
 }

@@ -5,7 +5,7 @@ use crate::interactions::surfaces::history::{Past, Present};
 use crate::interactions::surfaces::nodes::Held;
 use crate::number::Vector;
 use crate::state::contacts::{REVERSE, SLIDING, TOUCHING};
-use crate::state::{Row, WallContacts};
+use crate::state::{History, Row, WallContacts};
 use crate::surface::{Feet, Foot, Saddle};
 use std::ops::Range;
 
@@ -22,8 +22,8 @@ pub(in crate::interactions::surfaces) struct FeatureContacts {
     pub(super) kept: Option<Range<usize>>,
     /// Its bits.
     pub(super) flags: Vec<u8>,
-    /// What the law remembers of it, row by row.
-    pub(super) history: Vec<Vec<Row>>,
+    /// What the law remembers of it.
+    pub(super) history: History,
     /// Its pair constant; empty where the law has none.
     pub(super) pair_constant: Vec<f64>,
     /// Its number: 0, 1, 2, …
@@ -50,8 +50,7 @@ impl FeatureContacts {
         self.particle.clear();
         self.feature.clear();
         self.flags.clear();
-        self.history.resize(rows, Vec::new());
-        self.history.iter_mut().for_each(Vec::clear);
+        self.history.clear(rows);
         self.pair_constant.clear();
         self.foot.clear();
         self.weight.clear();
@@ -147,7 +146,7 @@ pub(in crate::interactions::surfaces) struct Spare {
     /// Bits.
     flags: Vec<u8>,
     /// What is stored.
-    history: Vec<Vec<Row>>,
+    history: History,
 }
 
 /// Puts the contacts that the pieces found, of each of which so many rows are stored, in the place of a list's, whose room is
@@ -164,8 +163,7 @@ pub(in crate::interactions::surfaces) fn replace<'a>(
     spare.particle.clear();
     spare.feature.clear();
     spare.flags.clear();
-    spare.history.resize(rows, Vec::new());
-    spare.history.iter_mut().for_each(Vec::clear);
+    spare.history.clear(rows);
     for piece in pieces {
         spare.particle.extend_from_slice(&piece.particle);
         spare.feature.extend_from_slice(&piece.feature);
@@ -174,9 +172,7 @@ pub(in crate::interactions::surfaces) fn replace<'a>(
             None => (&piece.flags, &piece.history, 0..piece.flags.len()),
         };
         spare.flags.extend_from_slice(&flags[range.clone()]);
-        for (all, rows) in spare.history.iter_mut().zip(history) {
-            all.extend_from_slice(&rows[range.clone()]);
-        }
+        spare.history.append(history, range);
     }
     std::mem::swap(&mut list.particle, &mut spare.particle);
     std::mem::swap(&mut list.feature, &mut spare.feature);

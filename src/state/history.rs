@@ -1,0 +1,127 @@
+//! What is remembered of the entries of a list.
+
+use super::in_place::clone_in_place;
+use super::{Row, plain};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Rows of the entries of a list, as many of each. Those of an entry stand side by side: an evaluation looks at all of them, and
+/// they take fewer lines of the cache than in lists of their own.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// How many rows there are of each entry.
+    width: u32,
+    /// The rows, entry by entry.
+    #[serde(with = "plain")]
+    rows: Vec<Row>,
+}
+
+clone_in_place!(History { width, rows });
+
+impl History {
+    /// So many rows of each of so many entries, all zero.
+    pub fn of(width: usize, count: usize) -> Self {
+        Self { width: width as u32, rows: vec![Row::default(); width * count] }
+    }
+
+    /// How many rows there are of each entry.
+    pub fn width(&self) -> usize {
+        self.width as usize
+    }
+
+    /// The rows of all entries, one entry after the other.
+    pub fn all(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The same, to be changed.
+    pub fn all_mut(&mut self) -> &mut [Row] {
+        &mut self.rows
+    }
+
+    /// The rows of an entry; none of one that is not there.
+    pub fn get(&self, entry: usize) -> &[Row] {
+        self.rows.get(self.places(entry..entry + 1)).unwrap_or_default()
+    }
+
+    /// The same, to be changed.
+    pub fn get_mut(&mut self, entry: usize) -> &mut [Row] {
+        let places = self.places(entry..entry + 1);
+        self.rows.get_mut(places).unwrap_or_default()
+    }
+
+    /// Adds the rows of an entry. All have as many.
+    pub fn push(&mut self, rows: impl IntoIterator<Item = Row>) {
+        self.rows.extend(rows);
+        debug_assert!(self.rows.len().is_multiple_of(self.width().max(1)), "{} rows", self.rows.len());
+    }
+
+    /// Takes out all entries; those that come have so many rows.
+    pub fn clear(&mut self, width: usize) {
+        self.width = width as u32;
+        self.rows.clear();
+    }
+
+    /// Makes room for so many rows of each of so many entries. What stands there is anything.
+    pub(crate) fn resize(&mut self, width: usize, count: usize) {
+        self.width = width as u32;
+        self.rows.resize(width * count, Row::default());
+    }
+
+    /// Adds entries of another list with as many rows.
+    pub(crate) fn append(&mut self, other: &Self, entries: Range<usize>) {
+        debug_assert_eq!(self.width, other.width);
+        self.rows.extend_from_slice(&other.rows[other.places(entries)]);
+    }
+
+    /// These entries, in this order.
+    pub(crate) fn chosen(&self, entries: &[usize]) -> Self {
+        Self { width: self.width, rows: entries.iter().flat_map(|&entry| self.get(entry)).copied().collect() }
+    }
+
+    /// Keeps the entries for which this holds.
+    pub(super) fn keep(&mut self, stays: impl Fn(usize) -> bool) {
+        let (width, mut place) = (self.width(), 0);
+        self.rows.retain(|_| {
+            place += 1;
+            stays((place - 1) / width)
+        });
+    }
+
+    /// Where the rows of some entries stand.
+    fn places(&self, entries: Range<usize>) -> Range<usize> {
+        entries.start * self.width()..entries.end * self.width()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::History;
+
+    /// Two rows of each of some entries.
+    fn history(entries: &[f64]) -> History {
+        let mut history = History::of(2, 0);
+        entries.iter().for_each(|&entry| history.push([[entry; 4], [-entry; 4]]));
+        history
+    }
+
+    #[test]
+    fn rows_go_with_their_entries() {
+        let mut all = history(&[1.0, 2.0, 3.0]);
+        assert_eq!(all.get(1), [[2.0; 4], [-2.0; 4]]);
+        assert!(all.get(3).is_empty() && all.get_mut(3).is_empty());
+        assert_eq!(all.chosen(&[2, 0]), history(&[3.0, 1.0]));
+        all.append(&history(&[4.0, 5.0, 6.0]), 1..3);
+        assert_eq!(all, history(&[1.0, 2.0, 3.0, 5.0, 6.0]));
+        all.keep(|entry| entry % 2 == 1);
+        assert_eq!(all, history(&[2.0, 5.0]));
+    }
+
+    #[test]
+    fn a_list_may_remember_nothing() {
+        let mut none = History::of(0, 3);
+        none.keep(|_| false);
+        assert!(none.get(1).is_empty() && none.chosen(&[2, 0]).all().is_empty());
+        assert_eq!(none, History::default());
+    }
+}
