@@ -160,8 +160,8 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
                 None => stage.table.gather(booked.least_force, buffer.row.as_ptr().add(place)),
             },
             acts: !matches!(manner, Manner::Bonded),
-            approach: contact.normal_velocity * step,
-            slip: contact.slip * step,
+            normal_displacement: contact.normal_velocity * step,
+            tangential_displacement: contact.slip * step,
             turn: contact.relative_spin * step,
             force: Vector::zero(),
             rolling: Vector::zero(),
@@ -181,11 +181,11 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
             let (spring, velocity) = buffer.before::<N>(place);
             seen.spring_before = spring;
             if booked.moves_otherwise() {
-                seen.approach = velocity * step;
+                seen.normal_displacement = velocity * step;
             }
             if booked.carries {
                 let carry = buffer.carry::<N>(place);
-                seen.slip = carry.stretch * (N::splat(1.0) / carry.share);
+                seen.tangential_displacement = carry.stretch * (N::splat(1.0) / carry.share);
             }
         }
         seen

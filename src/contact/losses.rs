@@ -3,8 +3,9 @@
 //!
 //! A force acts half a step before its evaluation and half a step after it. Work is therefore booked as the integrator makes
 //! it: the way of the step times the mean of the forces at its beginning, which are remembered ([`Seen::before`]), and at
-//! its end. All sums here are twice the losses, so that no mean is halved before they are handed out. No loss is the rest of a balance, but those of rolling, sticky and plastic models: there the work is booked, and what the
-//! models then hold is taken off where somebody asks.
+//! its end. All sums here are twice the losses, so that no mean is halved before they are handed out. No loss is the rest of a
+//! balance, but those of rolling, sticky and plastic models: there the work is booked, and what the models then hold is taken off
+//! where somebody asks.
 
 use super::{Contact, NormalForce};
 use crate::number::{Number, Vector};
@@ -91,10 +92,10 @@ pub struct Seen<N: Number> {
     pub least_force: N,
     /// Whether the normal force and rolling torque act.
     pub acts: bool,
-    /// Way along the normal in this step \[m\].
-    pub approach: N,
-    /// Way in the tangent plane in this step \[m\].
-    pub slip: Vector<N>,
+    /// How far the bodies went from each other along the normal in this step \[m\].
+    pub normal_displacement: N,
+    /// How far i went by j in the tangent plane in this step \[m\].
+    pub tangential_displacement: Vector<N>,
     /// Angle by which i turned against j in this step \[rad\].
     pub turn: Vector<N>,
     /// Force on i \[N\], that along the normal among it if it acts.
@@ -122,7 +123,7 @@ impl<N: Number> Seen<N> {
         let [stiffness_before, x, y, z] = self.before[0];
         let before = Vector::new(x, y, z);
         let along = before.dot(normal) + damping;
-        lost[LossKind::Normal as usize] = -(along * self.approach);
+        lost[LossKind::Normal as usize] = -(along * self.normal_displacement);
         let (mut stiffness, mut dashpots) = (N::zero(), normal * damping);
         if booked.friction {
             let pressing = if self.acts { self.normal.force - damping } else { N::zero() };
@@ -140,10 +141,10 @@ impl<N: Number> Seen<N> {
                 lost[LossKind::Stiffness as usize] = lost_by_both - slipped;
                 lost[LossKind::Projection as usize] = projected;
             }
-            let mut taken = (before + dashpots).dot(self.slip);
+            let mut taken = (before + dashpots).dot(self.tangential_displacement);
             if booked.carries {
                 // The tangent plane is that of mid-step.
-                taken = taken - along * normal.dot(self.slip);
+                taken = taken - along * normal.dot(self.tangential_displacement);
             }
             let mut damped = -taken;
             if booked.limits_dashpot {
@@ -156,7 +157,7 @@ impl<N: Number> Seen<N> {
         let mut rolling = Vector::zero();
         let [other_before, x, y, z] = self.before[1];
         if booked.other {
-            lost[LossKind::Other as usize] = -((other_before + other) * self.approach);
+            lost[LossKind::Other as usize] = -((other_before + other) * self.normal_displacement);
         }
         if booked.rolling && self.acts {
             rolling = self.rolling;
@@ -198,7 +199,8 @@ impl<N: Number> Seen<N> {
     #[inline(always)]
     fn spring_losses(&self, [stiffness_before, stiffness]: [N; 2], projects: bool) -> [N; 2] {
         let (before, now) = (self.spring_before, Vector::of_row(self.spring));
-        let mut lost = before.dot(before + self.slip) * stiffness_before + (now * stiffness).dot(self.slip - now);
+        let mut lost = before.dot(before + self.tangential_displacement) * stiffness_before
+            + (now * stiffness).dot(self.tangential_displacement - now);
         let mut projected = N::zero();
         if projects {
             let along = before.dot(self.contact.normal);

@@ -50,7 +50,7 @@ impl History {
         self.rows.get_mut(places).unwrap_or_default()
     }
 
-    /// Adds the rows of an entry. All have as many.
+    /// Adds an entry with these rows, as many as the others have.
     pub fn push(&mut self, rows: impl IntoIterator<Item = Row>) {
         self.rows.extend(rows);
         debug_assert!(self.rows.len().is_multiple_of(self.width().max(1)), "{} rows", self.rows.len());

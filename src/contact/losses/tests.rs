@@ -29,8 +29,8 @@ fn seen() -> Seen<f64> {
         pressing: contact().overlap,
         least_force: f64::NEG_INFINITY,
         acts: true,
-        approach: 0.0,
-        slip: Vector::zero(),
+        normal_displacement: 0.0,
+        tangential_displacement: Vector::zero(),
         turn: Vector::zero(),
         force: contact().normal * normal.force,
         rolling: Vector::zero(),
@@ -54,7 +54,7 @@ fn a_dashpot_takes_its_mean_force_times_the_way() {
     seen.contact.normal_velocity = -0.5;
     seen.normal.force += 5.0;
     seen.force.z += 5.0;
-    (seen.before[0], seen.approach) = ([0.0, 0.0, 0.0, 3.0], -0.25);
+    (seen.before[0], seen.normal_displacement) = ([0.0, 0.0, 0.0, 3.0], -0.25);
     assert_eq!(lost(&seen, LossKind::Normal), 1.0);
     assert_eq!(seen.twice_losses(&BOOKED).1[0], [8.0, 0.0, 0.0, 5.0]);
     assert_eq!(lost(&seen, LossKind::Other), 0.0);
@@ -65,7 +65,7 @@ fn a_force_beside_spring_and_dashpot_is_booked_by_itself() {
     let mut seen = seen();
     seen.normal.force -= 2.0;
     seen.force.z -= 2.0;
-    (seen.before[1], seen.approach) = ([-4.0, 0.0, 0.0, 0.0], 0.5);
+    (seen.before[1], seen.normal_displacement) = ([-4.0, 0.0, 0.0, 0.0], 0.5);
     assert_eq!(lost(&seen, LossKind::Other), 1.5);
     assert_eq!(seen.twice_losses(&BOOKED).1[1], [-2.0, 0.0, 0.0, 0.0]);
 }
@@ -73,7 +73,7 @@ fn a_force_beside_spring_and_dashpot_is_booked_by_itself() {
 #[test]
 fn nothing_along_the_normal_is_lost_where_a_bond_suppresses_it() {
     let mut seen = seen();
-    (seen.normal.force, seen.approach, seen.acts) = (7.0, 0.5, false);
+    (seen.normal.force, seen.normal_displacement, seen.acts) = (7.0, 0.5, false);
     assert_eq!([lost(&seen, LossKind::Normal), lost(&seen, LossKind::Other)], [0.0; 2]);
 }
 
@@ -81,7 +81,7 @@ fn nothing_along_the_normal_is_lost_where_a_bond_suppresses_it() {
 fn a_spring_that_sticks_loses_nothing() {
     let mut seen = seen();
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.0), [1.0, 0.5, 0.0, 0.0]);
-    seen.slip = Vector::new(0.0, 0.5, 0.0);
+    seen.tangential_displacement = Vector::new(0.0, 0.5, 0.0);
     seen.force += Vector::new(-8.0, -4.0, 0.0);
     seen.before[0] = [8.0, 0.0, 0.0, 0.0];
     assert_eq!(seen.twice_losses(&BOOKED).0, [0.0; LossKind::COUNT]);
@@ -92,7 +92,7 @@ fn sliding_takes_the_limit_times_the_way_that_does_not_stretch_the_spring() {
     let mut seen = seen();
     // The spring stays at 8 N while the bodies slip by 0.5 m.
     (seen.spring_before, seen.spring) = (Vector::new(1.0, 0.0, 0.0), [1.0, 0.0, 0.0, 0.0]);
-    (seen.slip, seen.sliding) = (Vector::new(0.5, 0.0, 0.0), true);
+    (seen.tangential_displacement, seen.sliding) = (Vector::new(0.5, 0.0, 0.0), true);
     seen.force.x = -8.0;
     seen.before[0] = [8.0, 0.0, 0.0, 0.0];
     assert_eq!(lost(&seen, LossKind::Sliding), 4.0);

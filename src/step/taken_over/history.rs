@@ -33,6 +33,7 @@ impl Memories {
 
     /// Adds what a law here remembers of a contact of a law there; as the other body sees it, if they have changed places.
     fn push(&self, history: &mut History, (here, there, swapped): (usize, usize, bool), old: &[Row]) {
+        // A list that is new knows not yet how many rows there are.
         if history.all().is_empty() {
             history.clear(self.here[here].len());
         }
