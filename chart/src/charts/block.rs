@@ -21,7 +21,7 @@ const SPACING: f64 = 0.999 * 2e-3;
 const STEPS: f64 = 40.0;
 
 /// Rounds.
-const ROUNDS: u32 = 5;
+const ROUNDS: u32 = 20;
 
 /// Lines of a scene with spheres that are pressed.
 pub(super) const HERTZ: &str = "[contact.c.normal.hertz]\n";
