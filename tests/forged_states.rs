@@ -220,6 +220,25 @@ fn a_thousand_forged_checkpoints_are_refused_by_another_scene_or_make_a_step() {
 }
 
 #[test]
+fn a_checkpoint_without_its_rows_is_refused_also_where_outputs_ask_for_more() {
+    let mut simulation = Simulation::new(scene()).unwrap();
+    simulation.advance(3.0e-5).unwrap();
+    let path = std::env::temp_dir().join(format!("cograin_rows_{}.cograin", std::process::id()));
+    let shown = scene_with(&SCENE.replace("energy = true", "energy = true\ncontacts = true\nframe_interval = 1e-3"));
+    let go_on = |state: &State| {
+        write_checkpoint(&path, state, simulation.scene(), "scene.toml").unwrap();
+        Checkpoint::read(&path).unwrap().taken_over(&shown).map(|taken| taken.goes_on)
+    };
+    let mut state = simulation.state().clone();
+    assert!(go_on(&state).unwrap());
+    let rows = state.contacts[0].history.rows();
+    state.contacts[0].history.clear(rows);
+    let refusal = go_on(&state).unwrap_err().to_string();
+    std::fs::remove_file(&path).unwrap();
+    assert!(refusal.contains("history[2]: the rows of the law"), "{refusal}");
+}
+
+#[test]
 fn a_state_is_refused_with_the_part_that_cannot_be() {
     let scene = scene();
     let simulation = Simulation::new(scene).unwrap();

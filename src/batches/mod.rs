@@ -159,7 +159,7 @@ pub(crate) struct Entries {
 impl Entries {
     /// What a list stores.
     pub(crate) fn of(flags: &mut [u8], history: &mut History, pair_constant: &mut [f64]) -> Self {
-        let (kept, history) = (history.width(), Shared::new(history.all_mut()));
+        let (kept, history) = (history.rows(), Shared::new(history.all_mut()));
         Self { flags: Shared::new(flags), history, kept, pair_constant: Shared::new(pair_constant) }
     }
 

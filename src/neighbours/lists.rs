@@ -54,7 +54,7 @@ impl Making {
     fn fill(&mut self, found: &[Found], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
         let new = &mut self.spare;
         let (first, second) = (Shared::new(&mut new.first), Shared::new(&mut new.second));
-        let (flags, width) = (Shared::new(&mut new.flags), new.history.width());
+        let (flags, rows) = (Shared::new(&mut new.flags), new.history.rows());
         let history = Shared::new(new.history.all_mut());
         let starts = Shared::new(&mut self.starts);
         let (slabs, particles) = (&new.slabs, &order.slabs);
@@ -82,7 +82,7 @@ impl Making {
                     begin_rows(first, low, from, starts);
                 }
                 flags.part(from, to).fill(0);
-                history.part(from * width, to * width).fill([0.0; 4]);
+                history.part(from * rows, to * rows).fill([0.0; 4]);
             }
         });
         if let Some(last) = self.starts.last_mut() {
@@ -92,7 +92,7 @@ impl Making {
 
     /// Brings flags and history of pairs that have any from the old list, pieces side by side.
     fn carry(&mut self, old: &ContactList, kept: &[HistoryRow], order: &Order, context: &Context) {
-        let (flags, width) = (Shared::new(&mut self.spare.flags), self.spare.history.width());
+        let (flags, rows) = (Shared::new(&mut self.spare.flags), self.spare.history.rows());
         let history = Shared::new(self.spare.history.all_mut());
         let (second, starts, new_slot) = (&self.spare.second[..], &self.starts[..], &order.new_slot[..]);
         context.each(old.first.len().div_ceil(PIECE), |piece| {
@@ -107,7 +107,7 @@ impl Making {
                     // SAFETY: no other old pair is of these two particles.
                     unsafe {
                         *flags.at(place) = old.flags[pair];
-                        let new = history.part(place * width, (place + 1) * width);
+                        let new = history.part(place * rows, (place + 1) * rows);
                         for ((new, old), kept) in new.iter_mut().zip(old.history.get(pair)).zip(kept) {
                             *new = if a < b { *old } else { kept.reversed(*old) };
                         }

@@ -391,9 +391,9 @@ fn described((found, rows): (&[Vec<Row>], Option<usize>), count: usize) -> Resul
 
 /// Whether so many contacts have as many rows as a law remembers, if there is one.
 fn has_rows((history, rows): (&History, Option<usize>), count: usize) -> Result<(), StateFault> {
-    let fits = Some(history.width()) == rows || (count == 0 && history.width() == 0);
-    demand(fits, "history", history.width(), "the rows of the law")?;
-    column(history.all(), count * history.width(), true, "history")
+    let fits = Some(history.rows()) == rows || (count == 0 && history.rows() == 0);
+    demand(fits, "history", history.rows(), "the rows of the law")?;
+    column(history.all(), count * history.rows(), true, "history")
 }
 
 /// Whether a list of so many contacts has the rows that its law remembers, and the pair constants that it keeps or not.

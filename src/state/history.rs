@@ -10,87 +10,87 @@ use std::ops::Range;
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// How many rows there are of each entry.
-    width: u32,
+    of_each: u32,
     /// The rows, entry by entry.
     #[serde(with = "plain")]
-    rows: Vec<Row>,
+    all: Vec<Row>,
 }
 
-clone_in_place!(History { width, rows });
+clone_in_place!(History { of_each, all });
 
 impl History {
     /// So many rows of each of so many entries, all zero.
-    pub fn of(width: usize, count: usize) -> Self {
-        Self { width: width as u32, rows: vec![Row::default(); width * count] }
+    pub fn of(rows: usize, count: usize) -> Self {
+        Self { of_each: rows as u32, all: vec![Row::default(); rows * count] }
     }
 
     /// How many rows there are of each entry.
-    pub fn width(&self) -> usize {
-        self.width as usize
+    pub fn rows(&self) -> usize {
+        self.of_each as usize
     }
 
     /// The rows of all entries, one entry after the other.
     pub fn all(&self) -> &[Row] {
-        &self.rows
+        &self.all
     }
 
     /// The same, to be changed.
     pub fn all_mut(&mut self) -> &mut [Row] {
-        &mut self.rows
+        &mut self.all
     }
 
     /// The rows of an entry; none of one that is not there.
     pub fn get(&self, entry: usize) -> &[Row] {
-        self.rows.get(self.places(entry..entry + 1)).unwrap_or_default()
+        self.all.get(self.places(entry..entry + 1)).unwrap_or_default()
     }
 
     /// The same, to be changed.
     pub fn get_mut(&mut self, entry: usize) -> &mut [Row] {
         let places = self.places(entry..entry + 1);
-        self.rows.get_mut(places).unwrap_or_default()
+        self.all.get_mut(places).unwrap_or_default()
     }
 
     /// Adds an entry with these rows, as many as the others have.
     pub fn push(&mut self, rows: impl IntoIterator<Item = Row>) {
-        self.rows.extend(rows);
-        debug_assert!(self.rows.len().is_multiple_of(self.width().max(1)), "{} rows", self.rows.len());
+        self.all.extend(rows);
+        debug_assert!(self.all.len().is_multiple_of(self.rows().max(1)), "{} rows", self.all.len());
     }
 
     /// Takes out all entries; those that come have so many rows.
-    pub fn clear(&mut self, width: usize) {
-        self.width = width as u32;
-        self.rows.clear();
+    pub fn clear(&mut self, rows: usize) {
+        self.of_each = rows as u32;
+        self.all.clear();
     }
 
     /// Makes room for so many rows of each of so many entries. What stands there is anything.
-    pub(crate) fn resize(&mut self, width: usize, count: usize) {
-        self.width = width as u32;
-        self.rows.resize(width * count, Row::default());
+    pub(crate) fn resize(&mut self, rows: usize, count: usize) {
+        self.of_each = rows as u32;
+        self.all.resize(rows * count, Row::default());
     }
 
     /// Adds entries of another list with as many rows.
     pub(crate) fn append(&mut self, other: &Self, entries: Range<usize>) {
-        debug_assert_eq!(self.width, other.width);
-        self.rows.extend_from_slice(&other.rows[other.places(entries)]);
+        debug_assert_eq!(self.of_each, other.of_each);
+        self.all.extend_from_slice(&other.all[other.places(entries)]);
     }
 
     /// These entries, in this order.
     pub(crate) fn chosen(&self, entries: &[usize]) -> Self {
-        Self { width: self.width, rows: entries.iter().flat_map(|&entry| self.get(entry)).copied().collect() }
+        Self { of_each: self.of_each, all: entries.iter().flat_map(|&entry| self.get(entry)).copied().collect() }
     }
 
     /// Keeps the entries for which this holds.
     pub(super) fn keep(&mut self, stays: impl Fn(usize) -> bool) {
-        let (width, mut place) = (self.width(), 0);
-        self.rows.retain(|_| {
+        let (rows, mut place) = (self.rows(), 0);
+        self.all.retain(|_| {
             place += 1;
-            stays((place - 1) / width)
+            stays((place - 1) / rows)
         });
     }
 
     /// Where the rows of some entries stand.
     fn places(&self, entries: Range<usize>) -> Range<usize> {
-        entries.start * self.width()..entries.end * self.width()
+        entries.start * self.rows()..entries.end * self.rows()
     }
 }
 

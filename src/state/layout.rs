@@ -238,7 +238,7 @@ mod tests {
         }
         assert!(
             text.contains("second: option visit_u32")
-                && text.contains("history: History { width: visit_u32 rows: (bytes, 32 for each"),
+                && text.contains("history: History { of_each: visit_u32 all: (bytes, 32 for each"),
             "{text}"
         );
         assert!(text.ends_with("turnover: visit_f64 } } } "), "{text}");

@@ -211,8 +211,8 @@ impl State {
     fn size(&self) -> usize {
         let row = size_of::<super::Row>();
         let particles = self.particles.len() * (8 * row + 24);
-        let lists = self.contacts.iter().map(|list| list.first.len() * (list.history.width() * row + 17));
-        let planes = self.walls.iter().map(|list| list.particle.len() * (list.history.width() * row + 17));
+        let lists = self.contacts.iter().map(|list| list.first.len() * (list.history.rows() * row + 17));
+        let planes = self.walls.iter().map(|list| list.particle.len() * (list.history.rows() * row + 17));
         let bonds = self.bonds.iter().map(|list| list.first.len() * (list.rows.len() * row + 8));
         let contacts = lists.chain(planes).sum::<usize>();
         4096 + 1024 * self.boundaries.len() + particles + contacts + bonds.sum::<usize>()

@@ -64,8 +64,8 @@ impl Tangent {
     pub(crate) fn of(state: &State, width: Width, turning: bool) -> Self {
         let mut tangent = Self {
             particles: ParticleSlopes::of(&state.particles, turning),
-            contacts: state.contacts.iter().map(|list| ListSlopes::of(list.history.width())).collect(),
-            walls: state.walls.iter().map(|list| ListSlopes::of(list.history.width())).collect(),
+            contacts: state.contacts.iter().map(|list| ListSlopes::of(list.history.rows())).collect(),
+            walls: state.walls.iter().map(|list| ListSlopes::of(list.history.rows())).collect(),
             bonds: state.bonds.iter().map(|list| ListSlopes::of(list.rows.len() + list.rate_columns().len())).collect(),
             boundaries: state.boundaries.iter().map(|_| BoundarySlopes::default()).collect(),
             width,

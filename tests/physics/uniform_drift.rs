@@ -136,7 +136,7 @@ fn a_jammed_bed_that_drifts_with_its_walls_feels_what_it_feels_at_rest() {
     let first = forces(&still);
     let largest = first.iter().flatten().fold(0.0_f64, |most, part| most.max(part.abs()));
     let lists = &drifting.state().contacts[0];
-    let springs = lists.history.all().chunks_exact(lists.history.width()).map(|rows| rows[0]);
+    let springs = lists.history.all().chunks_exact(lists.history.rows()).map(|rows| rows[0]);
     let loaded = springs.filter(|spring| spring[..3].iter().any(|part| part.abs() > 1e-9)).count();
     assert!(largest > 1.0 && loaded > 2 * first.len(), "{largest} N, {loaded} springs loaded");
     for plane in [false, true] {

@@ -57,7 +57,8 @@ pub(super) fn fit_outputs(scene: &Scene, state: &mut State, from: &Description) 
         let here = scene.kept_rows(law);
         let places: Vec<_> = here.iter().map(|row| there.iter().position(|name| name == row.name)).collect();
         let fit = |history: &mut History, count: usize| {
-            if history.width() == there.len() {
+            // Others are refused when the state is looked through.
+            if history.rows() == there.len() && history.all().len() == there.len() * count {
                 let mut new = History::of(here.len(), 0);
                 for entry in 0..count {
                     let old = history.get(entry);

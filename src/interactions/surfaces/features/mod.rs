@@ -184,7 +184,7 @@ impl AtSurface {
                 let known = source(touched, present, (past, &entries), at.features, law);
                 let moved = known != past.entry(&entries, feature);
                 let normal = Vector::from(contacts.foot[contact]);
-                history.push((0..history.width()).map(|row| {
+                history.push((0..history.rows()).map(|row| {
                     let kept = known.map_or([0.0; 4], |entry| past.row(entry, row));
                     let memory = law.history().get(row).filter(|_| moved);
                     memory.map_or(kept, |memory| taken(kept, memory, normal))
