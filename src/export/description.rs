@@ -58,6 +58,11 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
             xml.create_element("CoSimulation")
                 .with_attribute(("modelIdentifier", model.identifier))
                 .with_attributes(CAPABILITIES)
+                .with_attribute(("maxOutputDerivativeOrder", if model.interface.has_rates() { "1" } else { "0" }))
+                .with_attribute((
+                    "providesDirectionalDerivative",
+                    if model.interface.has_derivatives() { "true" } else { "false" },
+                ))
                 .write_empty()?;
             units(xml, model.interface)?;
             xml.create_element("LogCategories").write_inner_content(|xml| {

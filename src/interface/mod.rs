@@ -14,6 +14,7 @@ mod rows;
 mod texts;
 mod writing;
 
+pub use derivatives::Derivatives;
 pub use error::InterfaceError;
 pub use findings::Findings;
 pub use quantity::{Quantity, Type};

@@ -32,6 +32,14 @@ impl Insertion {
         ParticleShape::Sphere.volume(radius) * self.density
     }
 
+    /// What one sphere adds at least to what its rate counts: 1, or the mass of the smallest \[kg\].
+    pub(crate) fn least_amount(&self) -> f64 {
+        match self.amount {
+            Amount::CountRate(_) => 1.0,
+            Amount::MassRate(_) | Amount::Mass(_) => self.mass(self.sizes.bounds()[0]),
+        }
+    }
+
     /// Largest speed of a new sphere \[m/s\].
     pub fn fastest(&self) -> f64 {
         self.velocity.iter().map(|part| (part.abs() + self.scatter).powi(2)).sum::<f64>().sqrt()

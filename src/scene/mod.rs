@@ -117,6 +117,10 @@ pub struct Run {
     pub max_overlap: f64,
     /// The plane in which all particles stay, if the scene says so: a run in which one leaves it stops.
     pub plane: Option<MotionPlane>,
+    /// Whether derivatives are differences of both sides.
+    pub central_derivatives: bool,
+    /// How far derivatives displace inputs, over what the program chooses.
+    pub derivative_displacement: f64,
 }
 
 impl Default for Run {
@@ -134,6 +138,8 @@ impl Default for Run {
             settle_damping: 0.7,
             max_overlap: 0.05,
             plane: None,
+            central_derivatives: false,
+            derivative_displacement: 1.0,
         }
     }
 }

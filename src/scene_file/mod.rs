@@ -6,7 +6,7 @@ mod tables;
 use crate::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
 use crate::memory;
 use crate::packing::PackingProgress;
-use crate::parameters::{THREADS, TIME_STEP};
+use crate::parameters::{CENTRAL_DERIVATIVES, THREADS, TIME_STEP};
 use crate::scene::{Scene, Source};
 use check::raw_tables;
 use std::collections::BTreeMap;
@@ -89,6 +89,7 @@ impl Scene {
                 }
                 TIME_STEP if value == 0.0 => "run.step=auto".to_owned(),
                 TIME_STEP => format!("run.step={value:?}"),
+                CENTRAL_DERIVATIVES => format!("run.central_derivatives={}", value != 0.0),
                 _ => format!("{name}={value:?}"),
             };
             settings.extend(text.parse::<Setting>());

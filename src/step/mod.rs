@@ -3,6 +3,7 @@
 mod assemble;
 mod coefficients;
 mod depth;
+mod derivatives;
 mod exchange;
 mod limits;
 mod losses;
@@ -23,6 +24,7 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
+pub use derivatives::{Input, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};

@@ -51,6 +51,8 @@ pub(super) struct WayBack {
     rates: Vec<[f64; 2]>,
     /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
     close: bool,
+    /// Memory of a state that is worked on meanwhile.
+    pub(super) room: Option<State>,
 }
 
 impl WayBack {
@@ -59,9 +61,9 @@ impl WayBack {
         self.holds = false;
     }
 
-    /// Whether there is a last communication step.
-    pub(super) fn has_last(&self) -> bool {
-        self.holds && !self.intervals.is_empty()
+    /// Length of the last communication step, if one can be made again \[s\].
+    pub(super) fn last_length(&self) -> Option<f64> {
+        self.intervals.last().copied().filter(|_| self.holds)
     }
 
     /// Notes that a communication step of this length \[s\] begins.

@@ -158,8 +158,12 @@ impl Instance {
         knowns: Items<Reference>,
         direction: Items<f64>,
     ) -> Result<Vec<f64>, Refusal> {
-        let _ = (knowns, direction);
-        self.refuse_derivatives(unknowns)
+        let index = |reference| Ok(self.variable(reference, "Real")?.0);
+        let inputs = knowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let outputs = unknowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let direction: Vec<(usize, f64)> = inputs.into_iter().zip(direction.iter()).collect();
+        let Self { unit, simulation, derivatives, .. } = self;
+        Ok(unit.interface.derivatives(simulation, derivatives, (&outputs, &direction))?)
     }
 
     /// `fmi2GetRealOutputDerivatives`: of order 1.
@@ -168,16 +172,14 @@ impl Instance {
         references: Items<Reference>,
         orders: Items<i32>,
     ) -> Result<Vec<f64>, Refusal> {
-        let _ = orders;
-        self.refuse_derivatives(references)
-    }
-
-    /// Refuses derivatives of outputs.
-    fn refuse_derivatives(&self, references: Items<Reference>) -> Result<Vec<f64>, Refusal> {
-        for reference in references.iter() {
+        let mut rates = Vec::new();
+        for (reference, order) in references.iter().zip(orders.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
-            return Err(InterfaceError::NoSlope { index, name: variable.name.clone() }.into());
+            if order != 1 {
+                return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
+            }
+            rates.push(self.unit.interface.rate(&self.simulation, index)?);
         }
-        Ok(Vec::new())
+        Ok(rates)
     }
 }

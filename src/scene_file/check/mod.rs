@@ -137,6 +137,10 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::quantity::Fraction::get),
         max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::quantity::NonNegative::get),
         plane: table.plane,
+        central_derivatives: table.central_derivatives.unwrap_or(defaults.central_derivatives),
+        derivative_displacement: table
+            .derivative_displacement
+            .map_or(defaults.derivative_displacement, crate::quantity::Positive::get),
     }
 }
 
