@@ -199,6 +199,7 @@ impl Simulation {
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
+            | RunError::Invalid { .. }
             | RunError::Stopped { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
