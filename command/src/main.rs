@@ -12,6 +12,7 @@ use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgre
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -48,7 +49,7 @@ enum Command {
     Export(ExportArguments),
     /// Replay reference cases of other engines and compare
     Verify(VerifyArguments),
-    /// Chart speed against accuracy, and where methods fail: tables and pictures
+    /// Chart the outputs of a scene over its time step, and recommend one: a table and a picture
     Chart(ChartArguments),
 }
 
@@ -380,9 +381,10 @@ fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
         formulation: arguments.formulation,
     };
     let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
+    let reports: Vec<_> = cases.par_iter().with_max_len(1).map(|case| verify::replay(case, &options)).collect();
     let mut failed = 0;
-    for case in &cases {
-        let report = verify::replay(case, &options).map_err(Ending::refused)?;
+    for report in reports {
+        let report = report.map_err(Ending::refused)?;
         failed += usize::from(!report.passed());
         say(report);
     }

@@ -1,12 +1,12 @@
 //! Spheres that are thrown at a rigid plane, and what they leave it with.
 
-use crate::ChartError;
 use crate::stage::Stage;
+use cograin_chart::ChartError;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// Aluminium oxide of A. H. Kharaz, D. A. Gorham & A. D. Salman, *Powder Technol.* 120 (2001) 281–291: radius \[m\].
-pub(super) const RADIUS: f64 = 0.0025;
+pub(crate) const RADIUS: f64 = 0.0025;
 
 /// Density \[kg/m³\].
 const DENSITY: f64 = 4000.0;
@@ -15,7 +15,7 @@ const DENSITY: f64 = 4000.0;
 const ELASTICITY: [f64; 2] = [380e9, 0.23];
 
 /// Speed \[m/s\].
-pub(super) const SPEED: f64 = 3.9;
+pub(crate) const SPEED: f64 = 3.9;
 
 /// Moments within a time step at which contacts begin.
 const PHASES: u32 = 16;
@@ -39,19 +39,19 @@ fn deepest(speed: f64) -> f64 {
 }
 
 /// Duration of an elastic Hertz contact at this speed \[m/s\] along the normal \[s\].
-pub(super) fn hertz_duration(speed: f64) -> f64 {
+pub(crate) fn hertz_duration(speed: f64) -> f64 {
     2.943_28 * deepest(speed) / speed
 }
 
 /// Duration of an elastic contact with the spring of `hooke` at [`SPEED`] \[s\].
-pub(super) fn hooke_duration() -> f64 {
+pub(crate) fn hooke_duration() -> f64 {
     // The spring stores at its largest overlap what Hertz's contact does there.
     let stiffness = 16.0 / 15.0 * RADIUS.sqrt() * modulus() * deepest(SPEED).sqrt();
     PI * (mass() / stiffness).sqrt()
 }
 
 /// Spheres that are thrown.
-pub(super) struct Throw<'a> {
+pub(crate) struct Throw<'a> {
     /// Tables of the contact law, named `touch`.
     pub law: &'a str,
     /// Coefficients of restitution and of friction.
@@ -63,7 +63,7 @@ pub(super) struct Throw<'a> {
 }
 
 /// Velocity \[m/s\] and angular velocity \[rad/s\] after the impact.
-pub(super) type Rebound = [[f64; 3]; 2];
+pub(crate) type Rebound = [[f64; 3]; 2];
 
 impl Throw<'_> {
     /// Speed along the normal \[m/s\].
@@ -109,13 +109,13 @@ impl Throw<'_> {
     }
 
     /// The same with so many time steps in an elastic contact, and more lines of `[run]`.
-    pub(super) fn steps(&self, steps: f64, run: &str) -> Result<Vec<Rebound>, ChartError> {
+    pub(crate) fn steps(&self, steps: f64, run: &str) -> Result<Vec<Rebound>, ChartError> {
         let step = self.duration / steps;
         Ok(self.run(&format!("step = {step:?}\nallow_unstable = true\n{run}"), step)?.0)
     }
 
     /// The same with the step that the program chooses; with the time steps in an elastic contact.
-    pub(super) fn automatic(&self, run: &str) -> Result<(Vec<Rebound>, f64), ChartError> {
+    pub(crate) fn automatic(&self, run: &str) -> Result<(Vec<Rebound>, f64), ChartError> {
         // The first run tells how long the step is, the second one places the spheres by it.
         let (_, step) = self.run(run, self.duration / 10.0)?;
         let (rebounds, step) = self.run(run, step)?;

@@ -3,8 +3,8 @@
 //! An impact without friction depends on restitution and on the number of time steps in the contact alone, so these spheres may
 //! be softer and slower than ours: LIGGGHTS takes no moduli above 1e9 Pa.
 
-use super::block;
-use crate::ChartError;
+use crate::block;
+use cograin_chart::ChartError;
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
@@ -20,13 +20,13 @@ const PHASES: u32 = 16;
 const TIMED: [u32; 3] = [20, 200, 3];
 
 /// The peers.
-pub(super) const PEERS: [Peer; 2] = [
+pub(crate) const PEERS: [Peer; 2] = [
     Peer { name: "LIGGGHTS", program: "liggghts", write: liggghts },
     Peer { name: "LAMMPS", program: "lmp", write: lammps },
 ];
 
 /// Another program.
-pub(super) struct Peer {
+pub(crate) struct Peer {
     /// Its name.
     pub name: &'static str,
     /// What it is called by.
@@ -142,7 +142,7 @@ fn data(sphere: [f64; 5], centers: &[[f64; 3]]) -> String {
 impl Peer {
     /// The largest error of restitution over all phases, with so many time steps in an elastic contact; none where the program is
     /// not installed.
-    pub(super) fn impact(&self, model: &str, restitution: f64, steps: f64) -> Result<Option<f64>, ChartError> {
+    pub(crate) fn impact(&self, model: &str, restitution: f64, steps: f64) -> Result<Option<f64>, ChartError> {
         let ([.., radius, speed], step) = (SPHERE, duration(model, SPHERE) / steps);
         let center = |phase: u32| {
             let phase = f64::from(phase);
@@ -168,7 +168,7 @@ impl Peer {
     }
 
     /// Wall time of a time step of the block of spheres, with friction \[s\]; none where the program is not installed.
-    pub(super) fn step_time(&self, model: &str, step: f64) -> Result<Option<f64>, ChartError> {
+    pub(crate) fn step_time(&self, model: &str, step: f64) -> Result<Option<f64>, ChartError> {
         let [before, timed, repeats] = TIMED;
         let planes = block::planes();
         let sample =

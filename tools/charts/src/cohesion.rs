@@ -3,18 +3,19 @@
 //! With Hertz two spheres rest at the overlap δ/R* = (3 π C/(2 E*))², C the cohesion energy density: deep where C is some
 //! per cent of E*. With linear springs nothing holds them from C = k_n/(π R) on, for two spheres of radius R.
 
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
 use crate::stage::Stage;
-use crate::table::Table;
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::f64::consts::PI;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "cohesion",
     shows: "stability: overlap at rest and collapse of cohesive contacts over stiffness, measured and in theory",
     seconds: 1.0,
+    measures: Measures::Errors,
     draw,
 };
 

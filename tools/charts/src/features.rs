@@ -1,17 +1,18 @@
 //! What each feature adds to the cost of a time step of a block of spheres.
 
-use super::block::{BOND, EDGE, Feature, HERTZ, HOOKE, ROUGH, Timed, times};
-use super::schemes::{ENGINE, MIDWAY, PREDICTED};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Bars, Picture};
-use crate::table::Table;
+use crate::block::{BOND, EDGE, Feature, HERTZ, HOOKE, ROUGH, Timed, times};
+use crate::schemes::{ENGINE, MIDWAY, PREDICTED};
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Bars, Picture};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "features",
     shows: "what laws, bonds, damping and books add to the time of a step",
     seconds: 16.0,
+    measures: Measures::Times,
     draw,
 };
 

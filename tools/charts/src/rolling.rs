@@ -4,20 +4,21 @@
 //! bounce: it rocks on its rolling spring (`epsd2`), swings on its tangential spring with a dashpot (e = 0.5), or is set down
 //! sliding and ends rolling.
 
-use super::runs::{Sampled, apart, given};
-use super::schemes::{MIDWAY, PREDICTED, PREDICTED_NORMAL, Scheme};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
+use crate::runs::{Sampled, apart, given};
+use crate::schemes::{MIDWAY, PREDICTED, PREDICTED_NORMAL, Scheme};
 use crate::stage::Stage;
-use crate::table::Table;
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::f64::consts::PI;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "rolling",
     shows: "error of a sphere that rocks, swings or slides on a plane, over time steps",
     seconds: 1.0,
+    measures: Measures::Errors,
     draw,
 };
 
@@ -104,7 +105,7 @@ fn errors(case: &Case, tangential: &str, scheme: &Scheme) -> Result<Vec<[f64; 2]
 }
 
 /// Those of a sphere that rocks on its rolling spring (`epsd2`) with `history`.
-pub(super) fn rocking_errors(scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
+pub(crate) fn rocking_errors(scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
     errors(&CASES[0], "history", scheme)
 }
 

@@ -3,16 +3,16 @@
 //! It makes steps on one thread, with one feature after the other, in turn; the least time of several rounds counts. It is
 //! processor time where the system tells it, so that other programs disturb less.
 
-use super::schemes::Scheme;
-use crate::ChartError;
+use crate::schemes::Scheme;
 use crate::stage::Stage;
+use cograin_chart::ChartError;
 use std::time::Instant;
 
 /// Spheres along each edge of the block.
-pub(super) const EDGE: usize = 20;
+pub(crate) const EDGE: usize = 20;
 
 /// Density \[kg/m³\], Young's modulus \[Pa\], Poisson's ratio, radius \[m\], characteristic speed \[m/s\].
-pub(super) const SPHERE: [f64; 5] = [2500.0, 1e8, 0.25, 1e-3, 1.0];
+pub(crate) const SPHERE: [f64; 5] = [2500.0, 1e8, 0.25, 1e-3, 1.0];
 
 /// Distance of centres \[m\].
 const SPACING: f64 = 0.999 * 2e-3;
@@ -24,21 +24,21 @@ const STEPS: f64 = 40.0;
 const ROUNDS: u32 = 20;
 
 /// Lines of a scene with spheres that are pressed.
-pub(super) const HERTZ: &str = "[contact.c.normal.hertz]\n";
+pub(crate) const HERTZ: &str = "[contact.c.normal.hertz]\n";
 
 /// The same with linear springs.
-pub(super) const HOOKE: &str = "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n";
+pub(crate) const HOOKE: &str = "[contact.c.normal.hooke]\ncharacteristic_velocity = 1.0\n";
 
 /// Lines that give them friction.
-pub(super) const ROUGH: &str = "[contact.c.tangential.history]\n";
+pub(crate) const ROUGH: &str = "[contact.c.tangential.history]\n";
 
 /// Lines that bond them; keys of the bond may follow.
-pub(super) const BOND: &str = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
+pub(crate) const BOND: &str = "[bond.b]\nbetween = [\"block\", \"block\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\n\
                                tangential_stiffness = 4e11\n";
 
 /// What the block has beside particles and planes.
 #[derive(Clone, Copy)]
-pub(super) struct Feature {
+pub(crate) struct Feature {
     /// Its name.
     pub name: &'static str,
     /// Lines of laws, bonds and outputs, one after another.
@@ -55,25 +55,25 @@ pub(super) struct Feature {
 
 impl Feature {
     /// These lines.
-    pub(super) const fn new(name: &'static str, tables: &'static [&'static str]) -> Self {
+    pub(crate) const fn new(name: &'static str, tables: &'static [&'static str]) -> Self {
         Self { name, tables, scheme: None, friction: 0.5, gravity: false, single_steps: false }
     }
 
     /// The same in this scheme.
-    pub(super) const fn with(self, scheme: Scheme) -> Self {
+    pub(crate) const fn with(self, scheme: Scheme) -> Self {
         Self { scheme: Some(scheme), ..self }
     }
 }
 
 /// Centres of the spheres \[m\].
-pub(super) fn centers() -> Vec<[f64; 3]> {
+pub(crate) fn centers() -> Vec<[f64; 3]> {
     let place = |number: usize| SPACING * number as f64;
     let number = |sphere: usize| [sphere % EDGE, sphere / EDGE % EDGE, sphere / (EDGE * EDGE)];
     (0..EDGE * EDGE * EDGE).map(|sphere| number(sphere).map(place)).collect()
 }
 
 /// The planes: across which axis, where \[m\], whether the spheres are above.
-pub(super) fn planes() -> [(usize, f64, bool); 6] {
+pub(crate) fn planes() -> [(usize, f64, bool); 6] {
     let [low, high] = [-0.5, EDGE as f64 - 0.5].map(|place| place * SPACING);
     std::array::from_fn(|plane| if plane % 2 == 0 { (plane / 2, low, true) } else { (plane / 2, high, false) })
 }
@@ -104,7 +104,7 @@ fn text(feature: &Feature) -> String {
 }
 
 /// Processor time of this thread \[s\], or wall time where the system does not tell it.
-pub(super) fn processor_time(begun: Instant) -> f64 {
+pub(crate) fn processor_time(begun: Instant) -> f64 {
     // The system counts when it looks for another thread to run, or some milliseconds later.
     std::thread::yield_now();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
@@ -113,7 +113,7 @@ pub(super) fn processor_time(begun: Instant) -> f64 {
 }
 
 /// The block with a feature, timed.
-pub(super) struct Timed {
+pub(crate) struct Timed {
     /// Name of the feature.
     pub name: &'static str,
     /// The block.
@@ -126,18 +126,18 @@ pub(super) struct Timed {
 
 impl Timed {
     /// How many contacts it has.
-    pub(super) fn contacts(&self) -> f64 {
+    pub(crate) fn contacts(&self) -> f64 {
         self.stage.simulation.contact_count() as f64
     }
 
     /// How many bonds it has.
-    pub(super) fn bonds(&self) -> f64 {
+    pub(crate) fn bonds(&self) -> f64 {
         self.stage.simulation.state().bonds.iter().map(|list| list.first.len()).sum::<usize>() as f64
     }
 }
 
 /// Times the block with each of these features, in turn.
-pub(super) fn times(features: &[Feature]) -> Result<Vec<Timed>, ChartError> {
+pub(crate) fn times(features: &[Feature]) -> Result<Vec<Timed>, ChartError> {
     let mut blocks = Vec::new();
     for feature in features {
         let mut stage = Stage::of(&text(feature))?;

@@ -4,19 +4,20 @@
 //! which the contact may begin and end within a time step. Theory: the restitution that leaves is the one that the scene
 //! gives; Tsuji's dashpot is exact for Hertz's force, the dashpot of `hooke` for its spring, where the end may pull.
 
-use super::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
-use super::peers::{PEERS, Peer};
-use super::schemes::{ENGINE, PREDICTED_NORMAL, SCHEMES, Scheme};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
-use crate::table::Table;
+use crate::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
+use crate::peers::{PEERS, Peer};
+use crate::schemes::{ENGINE, PREDICTED_NORMAL, SCHEMES, Scheme};
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "impact",
     shows: "error of restitution over time steps in a contact: hertz and hooke, from damped to elastic",
     seconds: 5.0,
+    measures: Measures::Errors,
     draw,
 };
 
@@ -24,10 +25,10 @@ pub(super) const CHART: Chart = Chart {
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Time steps in an elastic contact.
-pub(super) const STEPS: [f64; 12] = [5.0, 8.0, 12.0, 20.0, 32.0, 50.0, 80.0, 125.0, 200.0, 400.0, 800.0, 1600.0];
+pub(crate) const STEPS: [f64; 12] = [5.0, 8.0, 12.0, 20.0, 32.0, 50.0, 80.0, 125.0, 200.0, 400.0, 800.0, 1600.0];
 
 /// Coefficients of restitution.
-pub(super) const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
+pub(crate) const RESTITUTIONS: [f64; 5] = [0.1, 0.3, 0.6, 0.9, 1.0];
 
 /// What the default step is called.
 const DEFAULT: &str = "default step, all e";
@@ -36,10 +37,10 @@ const DEFAULT: &str = "default step, all e";
 const ALL: &str = ", all e";
 
 /// Time steps in an elastic contact of the peer's points.
-pub(super) const PEER_STEPS: [f64; 3] = [20.0, 80.0, 400.0];
+pub(crate) const PEER_STEPS: [f64; 3] = [20.0, 80.0, 400.0];
 
 /// A normal model: its name, its table in the scene, the duration of an elastic contact \[s\].
-pub(super) struct Normal {
+pub(crate) struct Normal {
     /// Its name.
     pub name: &'static str,
     /// Its table in the scene.
@@ -61,7 +62,7 @@ fn largest(rebounds: &[Rebound], restitution: f64) -> f64 {
 }
 
 /// The largest error of restitution with so many steps in an elastic contact.
-pub(super) fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
+pub(crate) fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
     let mut error = 0.0_f64;
     for end in ENDS {
         error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
@@ -88,7 +89,7 @@ fn fill_default(table: &mut Table, normal: &Normal, restitution: f64, scheme: &S
 }
 
 /// The largest error of restitution of a peer with so many steps in an elastic contact; none where it is not installed.
-pub(super) fn peer_error(peer: &Peer, model: &str, restitution: f64, steps: f64) -> Result<Option<f64>, ChartError> {
+pub(crate) fn peer_error(peer: &Peer, model: &str, restitution: f64, steps: f64) -> Result<Option<f64>, ChartError> {
     let mut error = 0.0_f64;
     for end in ENDS {
         let Some(found) = peer.impact(model, restitution, steps + end)? else { return Ok(None) };
@@ -111,7 +112,7 @@ fn fill_peer(table: &mut Table, normal: &Normal, peer: &Peer) -> Result<bool, Ch
 }
 
 /// The normal models.
-pub(super) fn models() -> [Normal; 2] {
+pub(crate) fn models() -> [Normal; 2] {
     let hooke = format!("[contact.touch.normal.hooke]\ncharacteristic_velocity = {SPEED:?}");
     [
         Normal { name: "hertz", table: "[contact.touch.normal.hertz]".into(), duration: hertz_duration(SPEED) },

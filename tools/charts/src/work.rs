@@ -4,23 +4,24 @@
 //! with the same law and scheme (all have friction there). That of a sphere that rocks is that of its contact, over a period of its bounce; that of a
 //! cantilever is the same for one bond. Other programs rebound the same way, and compute the same block.
 
-use super::block::{BOND, Feature, HERTZ, HOOKE, ROUGH, times};
-use super::cantilever::deflection_errors;
-use super::impact::{self, RESTITUTIONS};
-use super::oblique;
-use super::peers::{PEERS, Peer};
-use super::rolling::rocking_errors;
-use super::schemes::{PREDICTED, SCHEMES, Scheme};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
-use crate::table::Table;
+use crate::block::{BOND, Feature, HERTZ, HOOKE, ROUGH, times};
+use crate::cantilever::deflection_errors;
+use crate::impact::{self, RESTITUTIONS};
+use crate::oblique;
+use crate::peers::{PEERS, Peer};
+use crate::rolling::rocking_errors;
+use crate::schemes::{PREDICTED, SCHEMES, Scheme};
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "work",
     shows: "error over processor time: impacts, a sphere that rocks and a bonded cantilever, over schemes, formulations and other programs",
     seconds: 40.0,
+    measures: Measures::Times,
     draw,
 };
 

@@ -4,18 +4,19 @@
 //! axis across it (5 k_t/m); Hertz's stiffnesses at the given overlap. The unit is the Rayleigh time of the small sphere, which
 //! knows neither overlap nor ratio.
 
-use super::border::border;
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
-use crate::table::Table;
+use crate::border::border;
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::f64::consts::PI;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "size_ratio",
     shows: "stability: longest stable step of a small sphere between large ones, with and without friction",
     seconds: 1.0,
+    measures: Measures::Errors,
     draw,
 };
 

@@ -3,20 +3,21 @@
 //! Grains that fall and roll are chaotic: a trajectory does not converge, its measures do, up to what another packing would
 //! change. So each step is run from several packings, and the picture shows each of them.
 
-use super::block::processor_time;
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, linear, logarithmic};
+use crate::block::processor_time;
 use crate::stage::Stage;
-use crate::table::Table;
+use crate::{Chart, Measures};
 use cograin::interface::Interface;
+use cograin_chart::picture::{Panel, Picture, linear, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::time::Instant;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "bed",
     shows: "settled column and collapse: height, force on the gate, coordination, run-out, over processor time, time steps and packings",
     seconds: 33.0,
+    measures: Measures::Times,
     draw,
 };
 

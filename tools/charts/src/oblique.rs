@@ -4,18 +4,19 @@
 //! The error is the largest one of velocity and of angular velocity times radius, together, against what the same law leaves
 //! with [`CONVERGED`] time steps, over the speed of the impact and over the moments at which the contact begins.
 
-use super::drops::{RADIUS, Rebound, SPEED, Throw, hertz_duration};
-use super::schemes::{ENGINE, PREDICTED, PREDICTED_NORMAL, SCHEMES, Scheme};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
-use crate::table::Table;
+use crate::drops::{RADIUS, Rebound, SPEED, Throw, hertz_duration};
+use crate::schemes::{ENGINE, PREDICTED, PREDICTED_NORMAL, SCHEMES, Scheme};
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "oblique",
     shows: "error of rebound of oblique impacts over time steps in a contact, over tangential laws",
     seconds: 2.0,
+    measures: Measures::Errors,
     draw,
 };
 
@@ -32,7 +33,7 @@ const ANGLES: [f64; 4] = [5.0, 20.0, 40.0, 70.0];
 const DEFAULT: &str = "default step, all angles";
 
 /// The tangential model `history`.
-pub(super) const HISTORY: &str = "[contact.touch.tangential.history]";
+pub(crate) const HISTORY: &str = "[contact.touch.tangential.history]";
 
 /// `turned_history`, as in LAMMPS.
 const TURNED: &str = "[contact.touch.tangential.turned_history]";
@@ -73,7 +74,7 @@ fn largest(rebounds: &[Rebound], right: &Rebound) -> f64 {
 }
 
 /// The largest errors over all angles of a case, over numbers of time steps in an elastic contact.
-pub(super) fn largest_errors(tangential: &str, coefficients: [f64; 2], run: &str) -> Result<Vec<[f64; 2]>, ChartError> {
+pub(crate) fn largest_errors(tangential: &str, coefficients: [f64; 2], run: &str) -> Result<Vec<[f64; 2]>, ChartError> {
     let law = format!("[contact.touch.normal.hertz]\n{tangential}");
     let mut errors = STEPS.map(|steps| [steps, 0.0_f64]);
     for angle in ANGLES.map(f64::to_radians) {

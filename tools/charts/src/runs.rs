@@ -1,10 +1,10 @@
 //! What a scene passes through, sampled at equal intervals, and how far two runs of it are apart.
 
-use crate::ChartError;
 use crate::stage::Stage;
+use cograin_chart::ChartError;
 
 /// A run that is sampled.
-pub(super) struct Sampled {
+pub(crate) struct Sampled {
     /// Time between samples \[s\].
     pub interval: f64,
     /// How many there are.
@@ -15,7 +15,7 @@ pub(super) struct Sampled {
 
 impl Sampled {
     /// The samples of a scene whose given step divides the interval.
-    pub(super) fn of(&self, text: &str) -> Result<Vec<f64>, ChartError> {
+    pub(crate) fn of(&self, text: &str) -> Result<Vec<f64>, ChartError> {
         let mut stage = Stage::of(text)?;
         let mut samples = Vec::new();
         for _ in 0..self.count {
@@ -26,17 +26,17 @@ impl Sampled {
     }
 
     /// The time step that divides the interval and is this long at most \[s\].
-    pub(super) fn dividing(&self, step: f64) -> f64 {
+    pub(crate) fn dividing(&self, step: f64) -> f64 {
         self.interval / (self.interval / step).ceil()
     }
 }
 
 /// The largest difference of two runs.
-pub(super) fn apart(one: &[f64], other: &[f64]) -> f64 {
+pub(crate) fn apart(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// The lines of `[run]` that give a step \[s\].
-pub(super) fn given(step: f64) -> String {
+pub(crate) fn given(step: f64) -> String {
     format!("threads = 1\nstep = {step:?}\nallow_unstable = true\n")
 }

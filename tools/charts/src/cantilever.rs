@@ -4,20 +4,21 @@
 //! is that of the deflection over a period of the first mode, over the static deflection, against the same bonds with the
 //! finest step. The pair spins about its middle and vibrates in bending; its energy is to stay.
 
-use super::runs::{Sampled, apart, given};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, logarithmic};
+use crate::runs::{Sampled, apart, given};
 use crate::stage::Stage;
-use crate::table::Table;
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "cantilever",
     shows: "bonded cantilever and spinning pair: error over time steps, over formulations and dampings",
     seconds: 10.0,
+    measures: Measures::Errors,
     draw,
 };
 
@@ -140,7 +141,7 @@ fn energy_error(steps: f64, bonds: [&str; 3]) -> Result<f64, ChartError> {
 }
 
 /// An error of the cantilever.
-pub(super) struct Error {
+pub(crate) struct Error {
     /// The time step over the stable one.
     part: f64,
     /// Time steps in a period of the first mode.
@@ -150,7 +151,7 @@ pub(super) struct Error {
 }
 
 /// The errors of the cantilever with these bonds, and more lines of `[run]`.
-pub(super) fn deflection_errors(bonds: [&str; 3], run: &str) -> Result<Vec<Error>, ChartError> {
+pub(crate) fn deflection_errors(bonds: [&str; 3], run: &str) -> Result<Vec<Error>, ChartError> {
     let [deflection, period] = theory();
     let sampled = Sampled { interval: period / 10.0, count: 10, observe };
     let lines = |step: f64| given(step) + run;

@@ -1,8 +1,8 @@
 //! Scenes written as text, run, and looked at particle by particle.
 
-use crate::ChartError;
 use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
+use cograin_chart::ChartError;
 use std::sync::Arc;
 
 /// A running scene.

@@ -4,17 +4,18 @@
 //! on thick glass, e = 0.98, µ = 0.092, points as they were digitised for set-up 4 of Y. C. Chung & J. Y. Ooi (2011). While
 //! the contact slides, e_t = 1 − µ (1 + e)/tan θ and r ω = −5/2 µ (1 + e) v_n.
 
-use super::drops::{RADIUS, SPEED, Throw, hertz_duration};
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, linear};
-use crate::table::Table;
+use crate::drops::{RADIUS, SPEED, Throw, hertz_duration};
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, linear};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "kharaz",
     shows: "oblique impacts over the angle: laws, closed form and experiment (Kharaz et al. 2001)",
     seconds: 1.0,
+    measures: Measures::Errors,
     draw,
 };
 

@@ -1,8 +1,8 @@
 //! The longest stable time step of a scene, by bisection on the engine itself.
 
-use super::runs::given;
-use crate::ChartError;
+use crate::runs::given;
 use crate::stage::Stage;
+use cograin_chart::ChartError;
 
 /// Growth of kinetic energy that only an unstable step brings about.
 const GROWTH: f64 = 1e4;
@@ -18,7 +18,7 @@ const LOOKS: u32 = 400;
 const EXACT: f64 = 0.01;
 
 /// A scene as text, with these lines of `[run]`.
-pub(super) type Text<'a> = &'a dyn Fn(&str) -> String;
+pub(crate) type Text<'a> = &'a dyn Fn(&str) -> String;
 
 /// Whether a small motion grows at this step \[s\].
 fn grows(text: Text, step: f64) -> Result<bool, ChartError> {
@@ -34,7 +34,7 @@ fn grows(text: Text, step: f64) -> Result<bool, ChartError> {
 }
 
 /// The longest step at which nothing grows \[s\], and the one that the program states \[s\].
-pub(super) fn border(text: Text) -> Result<[f64; 2], ChartError> {
+pub(crate) fn border(text: Text) -> Result<[f64; 2], ChartError> {
     let stated = Stage::of(&text("threads = 1\n"))?.stable();
     let (mut stable, mut unstable) = (0.5 * stated, 2.0 * stated);
     while grows(text, stable)? {

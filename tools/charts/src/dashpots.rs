@@ -5,18 +5,19 @@
 //! those along the normal of contacts do. A sphere between two planes has three modes: across (2 k_n/m), along (2 k_t/m), and its spin
 //! (5 k_t/m). Bonded spheres have many; the curve beside them is that of one mode alone.
 
-use super::border::border;
-use super::{Chart, Drawing};
-use crate::ChartError;
-use crate::picture::{Panel, Picture, linear, logarithmic};
-use crate::table::Table;
+use crate::border::border;
+use crate::{Chart, Measures};
+use cograin_chart::picture::{Panel, Picture, linear, logarithmic};
+use cograin_chart::table::Table;
+use cograin_chart::{ChartError, Drawing};
 use std::f64::consts::PI;
 
 /// The chart.
-pub(super) const CHART: Chart = Chart {
+pub(crate) const CHART: Chart = Chart {
     name: "dashpots",
     shows: "stability: longest stable step over the damping of contacts and of bonds, measured, stated, in theory",
     seconds: 3.0,
+    measures: Measures::Errors,
     draw,
 };
 
