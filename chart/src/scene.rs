@@ -4,7 +4,7 @@ use crate::picture::{Panel, Picture, logarithmic};
 use crate::table::Table;
 use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
-use cograin::scene::{Scene, Setting, Step};
+use cograin::scene::{Scene, SceneDraft, Setting, Step};
 use cograin::step::Simulation;
 use rayon::prelude::*;
 use std::path::Path;
@@ -89,18 +89,18 @@ impl SceneChart {
     }
 
     /// The scene at one of them.
-    fn at(&self, part: f64) -> Scene {
-        let mut scene = Scene::clone(&self.scene);
-        scene.run.step = match scene.run.step {
+    fn at(&self, part: f64) -> Result<Scene, ChartError> {
+        let mut draft = SceneDraft::clone(&self.scene);
+        draft.run.step = match draft.run.step {
             Step::Automatic { .. } => Step::Automatic { safety: part },
             Step::Given(step) => Step::Given(part * step),
         };
-        scene
+        Ok(draft.build()?)
     }
 
     /// Runs it, each interval in so many communication steps.
     fn run(&self, part: f64, communication_steps: u32) -> Result<Run, ChartError> {
-        let mut simulation = Simulation::new(Arc::new(self.at(part)))?;
+        let mut simulation = Simulation::new(Arc::new(self.at(part)?))?;
         let interface = Interface::of(&self.scene);
         let begun = Instant::now();
         let mut rows = Vec::new();

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -256,9 +257,12 @@ fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
 
 /// Reads a scene to be computed here. Its files are not needed any more.
 fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (mut scene, mut source) = read(&arguments.scene)?;
+    let (scene, mut source) = read(&arguments.scene)?;
     source.files.clear();
-    scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
+    let scene = match arguments.threads {
+        Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
+        None => scene,
+    };
     Ok((Arc::new(scene), source))
 }
 

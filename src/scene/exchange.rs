@@ -1,6 +1,6 @@
 //! How the number of particles changes, as parts of a scene.
 
-use super::{Boundary, ParticleShape, Scene};
+use super::{Boundary, ParticleShape, SceneDraft};
 use crate::document::Mistake;
 use crate::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
 use crate::quantity::{BoundaryIndex, MaterialIndex};
@@ -192,7 +192,7 @@ impl FlowMeter {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Whether particles come or go.
     pub fn changes_number(&self) -> bool {
         !self.insertions.is_empty() || self.removes()

@@ -12,7 +12,9 @@ use check::raw_tables;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Error, ErrorKind};
+use std::num::NonZeroUsize;
 use std::path::Path;
+use std::str::FromStr;
 
 impl Scene {
     /// Reads a scene and the files that it names, whose paths count from the folder of the scene.
@@ -95,11 +97,20 @@ impl Scene {
             };
             settings.extend(text.parse::<Setting>());
         }
-        let mut scene = Self::from_source_with(source, &settings)?;
-        if let Some(threads) = threads {
-            scene.run.threads = Some(threads as usize).filter(|&threads| threads > 0);
-        }
-        Ok(scene)
+        let scene = Self::from_source_with(source, &settings)?;
+        Ok(match threads {
+            Some(threads) => scene.with_threads(NonZeroUsize::new(threads as usize)),
+            None => scene,
+        })
+    }
+}
+
+impl FromStr for Scene {
+    type Err = SceneErrors;
+
+    /// Reads a scene that names no files from its text.
+    fn from_str(text: &str) -> Result<Self, SceneErrors> {
+        Self::from_source(&Source { name: "scene".to_owned(), text: text.to_owned(), files: BTreeMap::new() })
     }
 }
 

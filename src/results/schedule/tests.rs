@@ -1,11 +1,11 @@
 //! Communication points stand where readers expect them, wherever a run begins.
 
 use super::*;
-use crate::scene::Output;
+use crate::scene::{Output, SceneDraft};
 
 /// The schedule of these outputs.
 fn of(output: Output, end: f64) -> Result<Schedule, Refusal> {
-    Schedule::new(&Scene { output, ..Scene::default() }, "scene.toml", end)
+    Schedule::new(&SceneDraft { output, ..SceneDraft::default() }.build().unwrap(), "scene.toml", end)
 }
 
 /// A schedule with these intervals of history and frames.
@@ -75,7 +75,9 @@ fn counts_that_nobody_can_mean_are_refused() {
     let rows = |interval| of(Output { history_interval: Some(interval), ..Output::default() }, 1.0);
     assert!(rows(1e-12).is_err() && rows(1e-8).is_ok());
     let run = crate::scene::Run { step: Step::Given(1e-30), ..Default::default() };
-    let told = Schedule::new(&Scene { run, ..Scene::default() }, "scene.toml", 1.0).unwrap_err().to_string();
+    let told = Schedule::new(&SceneDraft { run, ..SceneDraft::default() }.build().unwrap(), "scene.toml", 1.0)
+        .unwrap_err()
+        .to_string();
     assert!(told.starts_with("scene.toml, [run] step: 1e-30 s gives 1.000e30 time steps"), "{told}");
 }
 
