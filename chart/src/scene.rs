@@ -7,6 +7,7 @@ use cograin::interface::{Interface, Quantity};
 use cograin::scene::{Scene, SceneDraft, Setting, Step};
 use cograin::step::Simulation;
 use rayon::prelude::*;
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -56,9 +57,9 @@ struct Run {
 impl SceneChart {
     /// Reads a scene and finds out what its chart costs.
     pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
-        let (mut scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
         // The runs are made side by side, a thread each.
-        scene.run.threads = Some(1);
+        let scene = scene.with_threads(NonZeroUsize::new(1));
         let end = scene.run.end.ok_or(ChartError::NoEnd)?;
         let rows = (end / scene.output.history_interval.unwrap_or(end / ROWS)).ceil();
         let mut chart = Self { scene: Arc::new(scene), end, interval: end / rows, wanted, seconds: 0.0 };
