@@ -96,6 +96,8 @@ pub(crate) fn scene(
     particles: Vec<Particle>,
 ) -> SceneDraft {
     let pairs = materials.len() * materials.len();
+    let named = materials.into_iter().zip(0..).map(|(it, place)| Material { name: format!("material_{place}"), ..it });
+    let materials: Vec<Material> = named.collect();
     let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
     SceneDraft {
         run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
