@@ -10,12 +10,13 @@ use crate::quantity::BoundaryIndex;
 use crate::state::contacts::TOUCHING;
 use crate::state::ledger::Source;
 
-/// How far a one-sided difference displaces a body, over the median overlap of the contacts that the input moves. What contacts of
-/// this overlap bend is then as large as what positions lose by rounding, about a millionth.
+/// How far a one-sided difference displaces a body, over the median overlap of the contacts that the input moves. By so much the force
+/// of such a contact bends as much as positions lose by rounding: some ten-millionths of the derivative.
 const ONE_SIDED: f64 = 1e-6;
 
-/// The same of a central difference, from which the bend of the forces falls out.
-const CENTRAL: f64 = 1e-4;
+/// The same of a central difference, from which the bend falls out. With ten times as much, contacts of a sheared bed begin to slide on
+/// one side and not on the other.
+const CENTRAL: f64 = 1e-5;
 
 /// No body is displaced by less, over the radius of the smallest sphere: positions are rounded.
 const LEAST: f64 = 1e-9;
