@@ -1,7 +1,6 @@
 //! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
 
 use super::course::Way;
-use crate::bond::damping::split::Impulse;
 use crate::motion::{InputCourse, Progress};
 use crate::number::Vector;
 use crate::scene::Scene;
@@ -19,78 +18,12 @@ pub(crate) struct Felt {
     conveying_power: f64,
 }
 
-/// What a sweep over dashpots that are integrated by themselves does to a boundary: impulses, or loads where it stands for them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Swept {
-    /// Impulse \[N s\] or force \[N\].
-    push: Vector,
-    /// Angular impulse \[N m s\] or moment \[N m\] about the moved reference point.
-    twist: Vector,
-    /// Energy that the boundary got \[J\].
-    pub(crate) energy: f64,
-}
-
-impl Default for Swept {
-    fn default() -> Self {
-        Self { push: Vector::zero(), twist: Vector::zero(), energy: 0.0 }
-    }
-}
-
-impl Swept {
-    /// By the first or second body of a bond (0 or 1), at this arm from the reference point \[m\], which is led with this velocity
-    /// \[m/s\] and angular velocity \[rad/s\].
-    pub(crate) fn at(impulse: &Impulse, body: usize, arm: Vector, [velocity, spin]: [Vector; 2]) -> Self {
-        let push = if body == 0 { impulse.push } else { -impulse.push };
-        let own = impulse.twists[body];
-        Self { push, twist: own + arm.cross(push), energy: push.dot(velocity) + own.dot(spin) }
-    }
-
-    /// Adds another.
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.push += other.push;
-        self.twist += other.twist;
-        self.energy += other.energy;
-    }
-}
-
-/// Books impulse and work of a sweep, this long after the middle of the communication step \[s\].
-pub(crate) fn book_sweep(scene: &Scene, state: &mut State, swept: &[Swept], since_the_middle: f64) {
-    for ((boundary, moved), swept) in scene.boundaries.iter().zip(&mut state.boundaries).zip(swept) {
-        let (push, twist) = (swept.push.to_array(), swept.twist.to_array());
-        for axis in 0..3 {
-            moved.impulse[axis] += push[axis];
-            moved.angular_impulse[axis] += twist[axis];
-            moved.total_impulse[axis] += push[axis];
-            if boundary.input == InputCourse::Quadratic {
-                moved.first_moment[axis] += push[axis] * since_the_middle;
-            }
-        }
-        moved.work -= swept.energy;
-    }
-}
-
-/// Lets boundaries feel the present loads of dashpots that are integrated by themselves. The next time step takes them away again.
-pub(crate) fn show_swept(state: &mut State, loads: &[Swept]) {
-    for (moved, load) in state.boundaries.iter_mut().zip(loads) {
-        let present = [load.push.to_array(), load.twist.to_array()];
-        for axis in 0..3 {
-            moved.force[axis] += present[0][axis] - moved.swept[0][axis];
-            moved.moment[axis] += present[1][axis] - moved.swept[1][axis];
-        }
-        moved.swept = present;
-    }
-}
-
-/// Sets the loads of all boundaries to zero, and notes what they were, without those of dashpots that are integrated by themselves.
+/// Sets the loads of all boundaries to zero, and notes what they were.
 pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<Felt>) {
     before.clear();
-    for BoundaryState { force, moment, swept, conveying_power, .. } in &mut state.boundaries {
-        for axis in 0..3 {
-            force[axis] -= swept[0][axis];
-            moment[axis] -= swept[1][axis];
-        }
+    for BoundaryState { force, moment, conveying_power, .. } in &mut state.boundaries {
         before.push(Felt { force: *force, moment: *moment, conveying_power: *conveying_power });
-        (*force, *moment, *swept, *conveying_power) = ([0.0; 3], [0.0; 3], [[0.0; 3]; 2], 0.0);
+        (*force, *moment, *conveying_power) = ([0.0; 3], [0.0; 3], 0.0);
     }
 }
 

@@ -212,17 +212,6 @@ impl Bond {
     }
 }
 
-impl Scene {
-    /// The boundaries that bonds of a law may hold: its plane, and groups with particles of its sets.
-    pub(crate) fn held_by<'a>(&'a self, bond: &'a Bond) -> impl Iterator<Item = &'a Boundary> {
-        let is_of = |member: &u32| bond.between.contains(&self.particles[*member as usize].set);
-        let holds = move |(place, boundary): &(usize, &Boundary)| {
-            bond.plane.is_some_and(|plane| plane.index() == *place) || boundary.shape.members().iter().any(is_of)
-        };
-        self.boundaries.iter().enumerate().filter(holds).map(|(_, boundary)| boundary)
-    }
-}
-
 /// A particle as the scene starts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {

@@ -46,9 +46,6 @@ pub struct BoundaryState {
     pub force: [f64; 3],
     /// Moment about the moved reference point at the present time \[N m\].
     pub moment: [f64; 3],
-    /// What of both is of bond dashpots that are integrated by themselves, where that is shown: at the end of a communication step
-    /// \[N, N m\].
-    pub swept: [[f64; 3]; 2],
     /// Power of a surface that runs in itself, on the particles, at the present time \[W\].
     pub conveying_power: f64,
     /// Sum of the half-kick impulses of the present communication step \[N s\].

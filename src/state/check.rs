@@ -483,7 +483,7 @@ impl BoundaryState {
         } = self;
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
-        let Self { target_acceleration, acceleration, first_moment, force_slope, swept: [push, twist], .. } = self;
+        let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -502,8 +502,6 @@ impl BoundaryState {
             acceleration,
             first_moment,
             force_slope,
-            push,
-            twist,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,

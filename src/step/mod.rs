@@ -16,7 +16,6 @@ mod run_checks;
 mod sight;
 mod start;
 mod state_check;
-mod sweeps;
 mod taken_over;
 mod way_back;
 
@@ -35,7 +34,7 @@ pub use run_checks::number;
 pub use taken_over::Description;
 
 use crate::bond::creation::Moment;
-use crate::boundaries::felt::{self, Felt, Swept};
+use crate::boundaries::felt::{self, Felt};
 use crate::boundaries::{RigidBody, course, nodes, rigid_body};
 use crate::flow::Flow;
 use crate::geometry::Quaternion;
@@ -46,7 +45,7 @@ use crate::lanes::Width;
 use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::{BoundaryState, Foresight, State, StateFault};
+use crate::state::{Foresight, State, StateFault};
 use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
@@ -79,10 +78,6 @@ pub struct Simulation {
     turning: bool,
     /// Whether a servo moves a boundary.
     serves: bool,
-    /// Whether dashpots of bonds are integrated by themselves.
-    splits: bool,
-    /// Whether such bonds may belong to a boundary.
-    leads: bool,
     /// [`plane::permits_plane_rows`]
     permits_plane_rows: bool,
     /// Lane width.
@@ -110,10 +105,6 @@ struct Room {
     ways: Vec<course::Way>,
     /// Their loads in the last step.
     loads: Vec<Felt>,
-    /// What a sweep did to them.
-    swept: Vec<Swept>,
-    /// How they stood before a sweep.
-    led: Vec<BoundaryState>,
     /// Nodes of meshes before the time step.
     nodes: nodes::Before,
     /// Bonds of each law before some were made.
@@ -149,16 +140,13 @@ impl Simulation {
         let passes = assemble::passes(&scene);
         let turning = passes.iter().any(|pass| pass.has_torque());
         let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
-        let splits = passes.iter().any(|pass| pass.sweeps());
         let mut simulation = Self {
             turning,
-            leads: sweeps::leads(&scene),
-            splits,
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
-            permits_plane_rows: plane::permits_plane_rows(&scene, turning, flow.is_some() || splits),
+            permits_plane_rows: plane::permits_plane_rows(&scene, turning, flow.is_some()),
             flow,
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
@@ -364,7 +352,6 @@ impl Simulation {
         let mut workers = std::mem::take(&mut self.workers);
         let (elapsed, result) = workers.run(|threads| self.run(interval, threads));
         self.workers = workers;
-        self.show_swept();
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
         if let Some(flow) = &self.flow {
@@ -436,7 +423,6 @@ impl Simulation {
         self.state.clock.advance(step);
         self.state.clock.steps += 1;
         self.state.clock.last_step = step;
-        self.sweep_before(Progress { time: self.state.clock.time, ..progress }, context);
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
@@ -476,15 +462,12 @@ impl Simulation {
         felt::clear_loads(&mut self.state, &mut self.room.loads);
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
-        let gravity = self.fields.weight_alone().filter(|_| !self.books_after_sweeps());
+        let gravity = self.fields.weight_alone();
         self.lead_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
         self.kick_slopes(gravity.is_none(), step);
-        match self.books_after_sweeps() {
-            false => self.book_second(gravity, step, context),
-            true => books::work::book_bodies(&mut self.state, &self.fields, &self.bodies, step),
-        }
+        self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = match self.state.particles.plane_rows {
             true => integration::plane::kick_again(&mut self.state.particles, gravity, step, context),
@@ -493,7 +476,6 @@ impl Simulation {
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;
-        self.sweep_after(&progress, context);
         self.done("kick");
         felt::book(&self.scene, &mut self.state, &self.room.loads, &self.room.ways, &progress);
         nodes::book(&mut self.state, &self.room.nodes, step);
@@ -539,11 +521,6 @@ impl Simulation {
         result
     }
 
-    /// Whether the energy book looks at velocities after a sweep that follows the second half kick. Weights are then among the forces.
-    fn books_after_sweeps(&self) -> bool {
-        self.splits && self.state.ledger.is_some()
-    }
-
     /// Books the half kick that is about to end a step of this length \[s\], with gravity \[m/s²\] where that is not yet among the
     /// forces.
     fn book_second(&mut self, gravity: Option<[f64; 3]>, step: f64, context: &Context) {
@@ -560,7 +537,6 @@ impl Simulation {
         integration::clear_loads(&mut self.state.particles);
         let result = self.evaluate(true, &context);
         self.book_second(None, 0.0, &context);
-        self.show_swept();
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();

@@ -11,8 +11,7 @@ use crate::threads::Context;
 /// Time steps from which plane rows are worth the two passes over the particles that making them and leaving them takes.
 const WORTH: u64 = 8;
 
-/// Whether the time steps of a scene can be made in plane rows. Outlets, flow meters, sweeps over dashpots of bonds (they are the `others`)
-/// and the book of forces look at rows on the way, and where nothing turns there is nothing to spare.
+/// Whether the time steps of a scene can be made in plane rows. Outlets and flow meters (they are the `others`) and the book of forces look at rows on the way, and where nothing turns there is nothing to spare.
 pub(super) fn permits_plane_rows(scene: &Scene, turning: bool, others: bool) -> bool {
     scene.run.plane.is_some() && turning && !others && !scene.output.energy
 }

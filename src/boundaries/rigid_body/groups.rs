@@ -102,12 +102,7 @@ fn larger(most: f64, one: f64) -> f64 {
 }
 
 /// Gives the particles of a boundary that is led the motion that it has.
-pub(crate) fn give_led_motion(
-    boundary: &Boundary,
-    body: Option<&RigidBody>,
-    moved: &BoundaryState,
-    particles: &mut Particles,
-) {
+fn give_led_motion(boundary: &Boundary, body: Option<&RigidBody>, moved: &BoundaryState, particles: &mut Particles) {
     let members = boundary.shape.members();
     if body.is_some_and(|body| body.turning != Turning::Still) {
         return give_motion(moved, members, particles);

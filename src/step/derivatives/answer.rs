@@ -75,10 +75,6 @@ pub(super) fn refuse(scene: &Scene) -> Result<(), NoDerivative> {
         if bond.keys.contact != ContactPolicy::Parallel {
             return refused(format!("[bond.{}] a bond that suppresses contacts", bond.name), "contact = \"parallel\"");
         }
-        if bond.law.split.is_some() {
-            let what = format!("[bond.{}] damping.viscous.integration = \"split\"", bond.name);
-            return refused(what, "integration = \"scheme\"");
-        }
         if bond.create.due() != Due::AtStart {
             return refused(format!("[bond.{}] a bond made on the way", bond.name), "one made before the first step");
         }
