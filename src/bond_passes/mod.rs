@@ -175,7 +175,6 @@ impl Pass for BondPass {
             orientation: &particles.orientation,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
-            plane_rows: particles.plane_rows,
             step: context.step,
         };
         let ends = &list.slabs;
@@ -351,7 +350,7 @@ pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 /// A particle as a body of a bond.
 pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
     let orientation = particles.orientation.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
-    let [velocity, spin] = particles.velocities(slot);
+    let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
     Body {
         position: particles.position[slot].into(),
         velocity: velocity.into(),

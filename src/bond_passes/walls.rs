@@ -16,7 +16,7 @@ use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, StateFault, plane_rows};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault};
 use crate::threads::{CHUNK, Context};
 use std::sync::{Mutex, PoisonError};
 
@@ -204,13 +204,8 @@ impl Work<'_> {
             // SAFETY: a particle stands once in a list.
             let (force, torque) = unsafe { (self.force.at(slot), self.torque.at(slot)) };
             let (push, turn) = (reaction.force.row_with(0.0), reaction.torque_i.row_with(0.0));
-            if self.particles.plane_rows {
-                add(force, &plane_rows::load(push, turn));
-                plane_rows::mark_any(torque, &push, &turn);
-            } else {
-                add(force, &push);
-                add(torque, &turn);
-            }
+            add(force, &push);
+            add(torque, &turn);
             let arm = Vector::from(self.foot[bond]) - *reference;
             piece.force += -reaction.force;
             piece.moment += reaction.torque_j - arm.cross(reaction.force);

@@ -4,8 +4,7 @@ use super::course::Way;
 use crate::motion::{InputCourse, Progress};
 use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::plane_rows::ParticleMotion;
-use crate::state::{BoundaryState, State};
+use crate::state::{BoundaryState, Particles, State};
 
 /// What a boundary felt at the beginning of a time step.
 #[derive(Clone, Copy, Debug)]
@@ -37,10 +36,10 @@ pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
         let (mut force, mut moment) = (Vector::zero(), Vector::zero());
         for &member in members {
             let slot = state.particles.slot[member as usize] as usize;
-            let ParticleMotion { force: load, torque, .. } = state.particles.motion(slot);
-            let (load, arm) = (Vector::from(load), Vector::from(state.particles.position[slot]) - moved.pivot.into());
+            let Particles { position, force: loads, torque, .. } = &state.particles;
+            let (load, arm) = (Vector::from(loads[slot]), Vector::from(position[slot]) - moved.pivot.into());
             force += load;
-            moment += arm.cross(load) + Vector::from(torque);
+            moment += arm.cross(load) + Vector::from(torque[slot]);
         }
         moved.force = force.to_array();
         moved.moment = moment.to_array();

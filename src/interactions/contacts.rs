@@ -39,10 +39,7 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        match state.particles.plane_rows {
-            false => self.evaluate::<false>(state, context, &mut []),
-            true => self.evaluate::<true>(state, context, &mut []),
-        }
+        self.evaluate(state, context, &mut []);
         Ok(())
     }
 
@@ -52,7 +49,7 @@ impl Pass for ContactPass {
         followed: &mut [Tangent],
         context: &Context,
     ) -> Result<(), RunError> {
-        self.evaluate::<false>(state, context, followed);
+        self.evaluate(state, context, followed);
         Ok(())
     }
 
@@ -131,8 +128,8 @@ impl ContactPass {
         Followed { sides, law: &self.law, table: &self.table, uniform, tangents, step, looks: false }
     }
 
-    /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
-    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) {
+    /// Evaluates the law on all contacts, with their slopes.
+    fn evaluate(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
@@ -141,7 +138,7 @@ impl ContactPass {
         let followed = self.followed((moving, &particles.material), &tangents, Dual::constant(context.step));
         let along = along.then_some(&followed as &dyn Along);
         let batches = Batches {
-            bodies: Pairs::<PLANE> {
+            bodies: Pairs {
                 first: &list.first,
                 second: &list.second,
                 position: &particles.position,
@@ -242,7 +239,7 @@ impl FollowPass for ContactPass {
         let followed = self.followed((moving, &particles.material), &tangents, step);
         let followed = Followed { looks: true, ..followed };
         let batches = Batches {
-            bodies: Pairs::<false> {
+            bodies: Pairs {
                 first: &list.first,
                 second: &list.second,
                 position: &particles.position,

@@ -19,7 +19,6 @@ pub mod nodes;
 mod number;
 pub mod particles;
 mod plain;
-pub(crate) mod plane_rows;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};

@@ -78,8 +78,6 @@ pub struct Simulation {
     turning: bool,
     /// Whether a servo moves a boundary.
     serves: bool,
-    /// [`plane::permits_plane_rows`]
-    permits_plane_rows: bool,
     /// Lane width.
     width: Width,
     /// Threads.
@@ -146,7 +144,6 @@ impl Simulation {
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
-            permits_plane_rows: plane::permits_plane_rows(&scene, turning, flow.is_some()),
             flow,
             search: neighbours::Search::of(&scene),
             suppression: Suppression::of(&scene),
@@ -364,7 +361,6 @@ impl Simulation {
     /// ended early.
     fn run(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
         let (elapsed, result) = self.make_steps(interval, threads);
-        self.leave_plane_rows(&Context { threads, ..self.standing() });
         (elapsed, result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
     }
 
@@ -386,7 +382,6 @@ impl Simulation {
         let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
         while progress.done < progress.count {
             let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
-            self.use_plane_rows(progress.count - progress.done, &standing);
             if let Err(error) = self.check_way(step) {
                 return (elapsed(progress.done), Err(error));
             }
@@ -404,7 +399,6 @@ impl Simulation {
             if !self.is_due(boundaries, step) {
                 continue;
             }
-            self.leave_plane_rows(&standing);
             if let Err(error) = self.check_plane().and_then(|()| self.look(step, &Context { step, ..standing })) {
                 return (elapsed, Err(error));
             }
@@ -426,10 +420,7 @@ impl Simulation {
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
         self.drift_slopes(step);
-        let speed = match self.state.particles.plane_rows {
-            true => integration::plane::kick_and_drift(&mut self.state.particles, step, context),
-            false => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
-        };
+        let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
         let time = self.state.clock.time;
@@ -469,10 +460,7 @@ impl Simulation {
         self.kick_slopes(gravity.is_none(), step);
         self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
-        let speed = match self.state.particles.plane_rows {
-            true => integration::plane::kick_again(&mut self.state.particles, gravity, step, context),
-            false => integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context),
-        };
+        let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let free_groups = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let speed = if free_groups > speed || free_groups.is_nan() { free_groups } else { speed };
         self.state.clock.speed = speed;

@@ -3,7 +3,7 @@
 mod groups;
 mod kick;
 
-pub(crate) use groups::{coming_speed, give_motions, kick_again, place_groups};
+pub(crate) use groups::{coming_speed, kick_again, place_groups};
 
 use super::implicit::{self, Triangle};
 use super::inertia::Matrix;
