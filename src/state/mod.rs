@@ -12,7 +12,6 @@ pub mod exchange;
 pub mod foresight;
 mod history;
 mod in_place;
-mod layout;
 pub mod ledger;
 pub mod losses;
 pub mod nodes;
