@@ -99,9 +99,9 @@ pub struct Inertial {
     pub support: [f64; 6],
     /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
     /// \[N/m, N, N m\].
-    pub stiffness: [f64; 21],
+    pub stiffness: [[f64; 6]; 6],
     /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
-    pub damping: [f64; 21],
+    pub damping: [[f64; 6]; 6],
     /// How many contacts there were when these were found.
     pub contacts: u64,
     /// Impulse of the input loads since time 0 \[N s, N m s\].

@@ -522,7 +522,7 @@ impl BoundaryState {
             &inertial.support_impulse,
             &inertial.added_impulse,
         ];
-        let blocks = inertial.stiffness.iter().chain(&inertial.damping);
+        let blocks = inertial.stiffness.iter().chain(&inertial.damping).flatten();
         let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
