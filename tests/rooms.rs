@@ -47,7 +47,6 @@ const INNER_ROOMS: [&str; 12] = [
     "bond/damping",
     "bond/breakage",
     "interactions/surfaces",
-    "step/derivatives",
     "step/taken_over",
     "surface/mesh",
 ];

@@ -8,7 +8,6 @@ mod after;
 mod batch;
 mod book;
 mod pipeline_buffer;
-mod slopes;
 pub(crate) mod walls;
 
 pub(crate) use book::{Done, book};

@@ -3,7 +3,6 @@
 mod braking;
 mod damped;
 mod fields;
-mod slopes;
 
 pub(crate) use fields::Fields;
 

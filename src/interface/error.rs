@@ -1,6 +1,6 @@
 //! Why a variable was not set.
 
-use crate::step::{NoDerivative, TuneError};
+use crate::step::TuneError;
 
 /// Why a variable was not set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -76,9 +76,6 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
-    /// The scene or the moment has no derivatives.
-    #[error(transparent)]
-    NoDerivative(#[from] NoDerivative),
     /// Values of tunable parameters that contradict each other.
     #[error(transparent)]
     Tune(#[from] TuneError),

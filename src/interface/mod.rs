@@ -14,7 +14,6 @@ mod rows;
 mod texts;
 mod writing;
 
-pub use derivatives::Derivatives;
 pub use error::InterfaceError;
 pub use findings::Findings;
 pub use quantity::{Quantity, Type};

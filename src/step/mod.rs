@@ -3,7 +3,6 @@
 mod assemble;
 mod coefficients;
 mod depth;
-mod derivatives;
 mod exchange;
 mod limits;
 mod losses;
@@ -23,8 +22,6 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
-use derivatives::Habit;
-pub use derivatives::{BoundaryDerivatives, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -46,7 +43,6 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{Foresight, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -86,10 +82,6 @@ pub struct Simulation {
     room: Room,
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
-    /// How the state changes with some inputs, while that is followed.
-    followed: Vec<Tangent>,
-    /// When and for which derivatives the host asks.
-    habit: Habit,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -153,8 +145,6 @@ impl Simulation {
             state,
             room: Room::default(),
             way_back: WayBack::default(),
-            followed: Vec::new(),
-            habit: Habit::default(),
             stop: None,
             watch: None,
         };
@@ -419,7 +409,6 @@ impl Simulation {
         self.state.clock.last_step = step;
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
-        self.drift_slopes(step);
         let speed = integration::kick_and_drift(&mut self.state.particles, step, self.turning, context);
         integration::turn(&mut self.state.particles, step, context);
         self.done("kick and drift");
@@ -454,10 +443,8 @@ impl Simulation {
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone();
-        self.lead_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
-        self.kick_slopes(gravity.is_none(), step);
         self.book_second(gravity, step, context);
         books::losses::book_bodies(&mut self.state, &self.fields, &self.bodies, step);
         let speed = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
@@ -483,10 +470,7 @@ impl Simulation {
         self.room.between.begin();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(match self.followed.is_empty() {
-                true => pass.apply(&mut self.state, context),
-                false => pass.apply_with_slopes(&mut self.state, &mut self.followed, context),
-            });
+            result = result.and(pass.apply(&mut self.state, context));
             let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
             if next != Some(source) {
                 self.room.between.note(&mut self.state, &self.bodies, source, next);

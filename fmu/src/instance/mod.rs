@@ -10,7 +10,7 @@ use crate::refusal::Refusal;
 use crate::saved::{Course, Saved};
 use crate::types::Status;
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Derivatives, Findings, Interface, Value};
+use cograin::interface::{Findings, Interface, Value};
 use cograin::scene::{Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
@@ -186,8 +186,6 @@ pub(crate) struct Instance {
     kept: BTreeMap<usize, Kept>,
     /// What has been found of the simulation since it last changed.
     findings: Findings,
-    /// What has been found of the derivatives of its last communication step.
-    derivatives: Derivatives,
     /// The values that are being handed out.
     values: Vec<Value>,
     /// What it writes beside its work.
@@ -213,7 +211,6 @@ impl Instance {
             course,
             kept: BTreeMap::new(),
             findings: Findings::default(),
-            derivatives: Derivatives::default(),
             values: Vec::new(),
             frames,
             stop,
@@ -230,7 +227,6 @@ impl Instance {
     /// Forgets what has been found of the simulation.
     fn changed(&mut self) {
         self.findings = Findings::default();
-        self.derivatives.forget();
     }
 
     /// Before anything was set.

@@ -158,21 +158,8 @@ impl Instance {
         knowns: Items<Reference>,
         direction: Items<f64>,
     ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_derivatives(&self.unit.scene)?;
-        let index = |reference| Ok(self.variable(reference, "Real")?.0);
-        let inputs = knowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
-        let outputs = unknowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
-        let Self { unit, simulation, derivatives, .. } = self;
-        unit.interface.find_derivatives(simulation, derivatives, &inputs)?;
-        let mut changes = Vec::new();
-        for output in outputs {
-            let mut change = 0.0;
-            for (&input, share) in inputs.iter().zip(direction.iter()) {
-                change += share * unit.interface.derivative(simulation, derivatives, [output, input])?;
-            }
-            changes.push(change);
-        }
-        Ok(changes)
+        let _ = (knowns, direction);
+        self.refuse_derivatives(unknowns)
     }
 
     /// `fmi2GetRealOutputDerivatives`: of order 1.
@@ -181,15 +168,16 @@ impl Instance {
         references: Items<Reference>,
         orders: Items<i32>,
     ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_rates(&self.unit.scene)?;
-        let mut rates = Vec::new();
-        for (reference, order) in references.iter().zip(orders.iter()) {
+        let _ = orders;
+        self.refuse_derivatives(references)
+    }
+
+    /// Refuses derivatives of outputs.
+    fn refuse_derivatives(&self, references: Items<Reference>) -> Result<Vec<f64>, Refusal> {
+        for reference in references.iter() {
             let (index, variable) = self.variable(reference, "Real")?;
-            if order != 1 {
-                return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
-            }
-            rates.push(self.unit.interface.rate(&mut self.simulation, &mut self.derivatives, index)?);
+            return Err(InterfaceError::NoSlope { index, name: variable.name.clone() }.into());
         }
-        Ok(rates)
+        Ok(Vec::new())
     }
 }

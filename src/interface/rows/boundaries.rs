@@ -142,8 +142,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         follows_inputs_at_start: false,
         exists: |scene, at| moves_by_itself(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).displacement[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis()]),
-        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -162,7 +160,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         follows_inputs_at_start: false,
         exists: |scene, at| is_free(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).velocity[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -179,8 +176,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "force of the particles on {boundary} along {axis}",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).force[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis()]),
-        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -188,8 +183,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "moment of the particles on {boundary} about {axis} through its moved reference point",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).moment[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis()]),
-        has_rate: true,
         ..OF_AXIS
     },
     Row {
@@ -205,7 +198,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -223,7 +215,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis()]),
         ..OF_AXIS
     },
     Row {

@@ -16,7 +16,7 @@ use boundaries::{OF_BOUNDARIES, OF_NODES};
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use regions::OF_REGIONS;
 use row::Each;
-pub(super) use row::{At, Present, ReadSlopes, Row};
+pub(super) use row::{At, Present, Row};
 use scene::{OF_LOSSES, OF_SCENE};
 
 /// Where a variable's row stands, and which of the row's variables it is.

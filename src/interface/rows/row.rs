@@ -5,7 +5,7 @@ use crate::interface::{Findings, Quantity, Value, Variability};
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{BondList, BoundaryState, Exchange, Nodes, State};
-use crate::step::{BoundaryDerivatives, Simulation};
+use crate::step::Simulation;
 
 /// Names of the axes in variables.
 pub(in crate::interface) const AXES: [&str; 3] = ["x", "y", "z"];
@@ -157,9 +157,6 @@ pub(in crate::interface) struct Write {
     pub(in crate::interface) axis: fn(At) -> Option<(BoundaryIndex, usize)>,
 }
 
-/// Reads how a variable of a boundary changes with inputs.
-pub(in crate::interface) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> f64;
-
 /// A kind of variable.
 pub(in crate::interface) struct Row {
     /// Its name, behind that of what it belongs to.
@@ -184,10 +181,6 @@ pub(in crate::interface) struct Row {
     pub(in crate::interface) write: Option<Write>,
     /// Its present value.
     pub(in crate::interface) read: fn(Present, At) -> Value,
-    /// How it changes with inputs, where that is followed.
-    pub(in crate::interface) slopes: Option<ReadSlopes>,
-    /// Whether its rate is known.
-    pub(in crate::interface) has_rate: bool,
 }
 
 /// What most rows have in common: an output that every scene has.
@@ -203,8 +196,6 @@ pub(in crate::interface) const OUTPUT: Row = Row {
     constant: None,
     write: None,
     read: |_, _| Value::Real(0.0),
-    slopes: None,
-    has_rate: false,
 };
 
 /// An output of each boundary and axis.
