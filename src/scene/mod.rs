@@ -26,7 +26,7 @@ pub use body::Body;
 pub use boundary::Boundary;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::Known;
-pub use exchange::{FlowMeter, Insertion, Outlet, Way};
+pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;

@@ -1,6 +1,6 @@
 //! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
 
-use super::course::Way;
+use super::course::BoundaryTravel;
 use crate::motion::{InputCourse, Progress};
 use crate::number::Vector;
 use crate::scene::Scene;
@@ -8,7 +8,7 @@ use crate::state::{BoundaryState, Particles, State};
 
 /// What a boundary felt at the beginning of a time step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Felt {
+pub(crate) struct BoundaryLoads {
     /// Force \[N\].
     force: [f64; 3],
     /// Moment \[N m\].
@@ -18,10 +18,10 @@ pub(crate) struct Felt {
 }
 
 /// Sets the loads of all boundaries to zero, and notes what they were.
-pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<Felt>) {
+pub(crate) fn clear(state: &mut State, before: &mut Vec<BoundaryLoads>) {
     before.clear();
     for BoundaryState { force, moment, conveying_power, .. } in &mut state.boundaries {
-        before.push(Felt { force: *force, moment: *moment, conveying_power: *conveying_power });
+        before.push(BoundaryLoads { force: *force, moment: *moment, conveying_power: *conveying_power });
         (*force, *moment, *conveying_power) = ([0.0; 3], [0.0; 3], 0.0);
     }
 }
@@ -48,11 +48,17 @@ pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
 
 /// Books impulse and work of a time step: the kicks of both its halves, times the way. Free axes do no work, and what
 /// crosses them stays inside.
-pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Way], progress: &Progress) {
+pub(crate) fn book(
+    scene: &Scene,
+    state: &mut State,
+    before: &[BoundaryLoads],
+    travels: &[BoundaryTravel],
+    progress: &Progress,
+) {
     let step = progress.step;
-    let moves = before.iter().zip(ways).zip(&scene.boundaries);
-    for (moved, ((felt, way), boundary)) in state.boundaries.iter_mut().zip(moves) {
-        let Felt { force, moment, conveying_power } = felt;
+    let moves = before.iter().zip(travels).zip(&scene.boundaries);
+    for (moved, ((loads, travel), boundary)) in state.boundaries.iter_mut().zip(moves) {
+        let BoundaryLoads { force, moment, conveying_power } = loads;
         moved.work += 0.5 * step * (conveying_power + moved.conveying_power);
         for axis in 0..3 {
             let impulse = 0.5 * step * (force[axis] + moved.force[axis]);
@@ -64,8 +70,8 @@ pub(crate) fn book(scene: &Scene, state: &mut State, before: &[Felt], ways: &[Wa
                 moved.total_impulse[axis] += impulse;
             }
             moved.angular_impulse[axis] += 0.5 * step * (moment[axis] + moved.moment[axis]);
-            moved.work -= 0.5 * (force[axis] + moved.force[axis]) * way.led[axis];
-            moved.work -= 0.5 * (moment[axis] + moved.moment[axis]) * way.led[3 + axis];
+            moved.work -= 0.5 * (force[axis] + moved.force[axis]) * travel.led[axis];
+            moved.work -= 0.5 * (moment[axis] + moved.moment[axis]) * travel.led[3 + axis];
         }
     }
 }
