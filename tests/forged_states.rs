@@ -275,14 +275,14 @@ fn a_state_is_refused_with_the_part_that_cannot_be() {
 }
 
 #[test]
-fn bytes_of_another_layout_are_refused_in_words() {
+fn bytes_of_another_schema_are_refused_in_words() {
     let scene = scene();
     let mut bytes = Simulation::new(Arc::clone(&scene)).unwrap().state().to_bytes(scene.fingerprint);
     bytes[15] ^= 1;
     let refusal = State::from_bytes(&bytes, scene.fingerprint).unwrap_err().to_string();
     assert!(
         refusal.starts_with(
-            "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout "
+            "state of another build of this program, which keeps other numbers of particles, contacts or bonds: schema "
         ),
         "{refusal}"
     );

@@ -93,11 +93,6 @@ impl Keys {
             "damping",
             "engine_exact has only the engine's damping; sign, smooth or none is right",
         );
-        add(
-            self.damping.is_some_and(|damping| damping.split().is_some()) && !(self.tension && self.compression),
-            "damping.viscous.integration",
-            "\"split\" needs a bond that both pulls and pushes; \"scheme\", or tension and compression true, is right",
-        );
         if let Some(breakage) = &self.breakage {
             breakage.check(self.formulation, &mut wrong);
         }

@@ -67,12 +67,12 @@ pub struct Outlet {
     /// Its name in the scene and in the unit's variables.
     pub name: String,
     /// Which they are.
-    pub place: Way,
+    pub place: OutletPlace,
 }
 
 /// Which particles an outlet takes away, by their centres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum OutletPlace {
     /// Those in one of the scene's regions.
     Region(usize),
     /// Those behind a plane: a point of it \[m\] and its unit normal, which points to what stays.
@@ -163,10 +163,10 @@ impl Outlet {
         refuse: &mut dyn FnMut(&str, Mistake),
     ) -> Option<Self> {
         let place = match (&keys.region, &keys.beyond) {
-            (Some(region), None) => Way::Region(known.region(region, refuse)?),
-            (None, Some(BeyondKeys::Boundary(name))) => Way::Behind(known.plane(name, refuse)?),
+            (Some(region), None) => OutletPlace::Region(known.region(region, refuse)?),
+            (None, Some(BeyondKeys::Boundary(name))) => OutletPlace::Behind(known.plane(name, refuse)?),
             (None, Some(BeyondKeys::Plane(plane))) => {
-                Way::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
+                OutletPlace::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
             }
             (None, None) => {
                 let right =

@@ -28,7 +28,7 @@ pub use boundary::Boundary;
 pub use checked::Scene;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::Known;
-pub use exchange::{FlowMeter, Insertion, Outlet, Way};
+pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
 pub use output::Output;
 pub(crate) use parameters::range_of;
@@ -241,17 +241,6 @@ impl Bond {
     /// Whether the law is for particles of these two sets.
     pub(crate) fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
         self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
-    }
-}
-
-impl SceneDraft {
-    /// The boundaries that bonds of a law may hold: its plane, and groups with particles of its sets.
-    pub(crate) fn held_by<'a>(&'a self, bond: &'a Bond) -> impl Iterator<Item = &'a Boundary> {
-        let is_of = |member: &u32| bond.between.contains(&self.particles[*member as usize].set);
-        let holds = move |(place, boundary): &(usize, &Boundary)| {
-            bond.plane.is_some_and(|plane| plane.index() == *place) || boundary.shape.members().iter().any(is_of)
-        };
-        self.boundaries.iter().enumerate().filter(holds).map(|(_, boundary)| boundary)
     }
 }
 

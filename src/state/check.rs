@@ -483,7 +483,7 @@ impl BoundaryState {
         } = self;
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
-        let Self { target_acceleration, acceleration, first_moment, force_slope, swept: [push, twist], .. } = self;
+        let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
         let Self { force_before, moment_before, .. } = self;
         let triples = [
             displacement,
@@ -505,8 +505,6 @@ impl BoundaryState {
             force_slope,
             force_before,
             moment_before,
-            push,
-            twist,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,
@@ -527,7 +525,7 @@ impl BoundaryState {
             &inertial.support_impulse,
             &inertial.added_impulse,
         ];
-        let blocks = inertial.stiffness.iter().chain(&inertial.damping);
+        let blocks = inertial.stiffness.iter().chain(&inertial.damping).flatten();
         let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())

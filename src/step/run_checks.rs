@@ -5,7 +5,6 @@ use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
 use crate::scene::{Outside, Scene};
-use crate::state::plane_rows::ParticleMotion;
 use crate::state::{Clock, GONE, Particles};
 use crate::surface;
 
@@ -35,7 +34,7 @@ impl Simulation {
         }
         let particles = &self.state.particles;
         for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
-            let ParticleMotion { velocity, force, .. } = particles.motion(slot);
+            let (velocity, force) = (particles.velocity[slot], particles.force[slot]);
             let next = |axis: usize| velocity[axis] + 0.5 * step / velocity[3] * force[axis];
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
@@ -122,13 +121,12 @@ impl Simulation {
         let particles = &self.state.particles;
         let finite = |row: &[f64; 4]| row.iter().all(|number| number.is_finite());
         for slot in 0..particles.len() {
-            let ParticleMotion { velocity, spin, force, torque } = particles.motion(slot);
             let quantities = [
                 ("position", &particles.position[slot]),
-                ("force", &force),
-                ("torque", &torque),
-                ("velocity", &velocity),
-                ("angular velocity", &spin),
+                ("force", &particles.force[slot]),
+                ("torque", &particles.torque[slot]),
+                ("velocity", &particles.velocity[slot]),
+                ("angular velocity", &particles.angular_velocity[slot]),
             ];
             if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
                 let (time, cause) = (self.time(), self.step_or_unseen());

@@ -65,33 +65,6 @@ fn cases() -> [Case; 4] {
     ]
 }
 
-/// The same scene with dashpots that are integrated by themselves.
-fn split(formulation: &str, ratio: f64, foot: bool) -> SceneDraft {
-    let text = format!("{SCENE}{}", if foot { FLOOR } else { "" }).replace("LAW", LAW);
-    let text = text.replace("SCHEME", "engine").replace("FORMULATION", formulation);
-    let text = text.replace("normal_torque = RATIO,", "normal_torque = RATIO, integration = \"split\",");
-    let source = Source {
-        name: "scene.toml".into(),
-        text: text.replace("RATIO", &format!("{ratio:?}")),
-        files: Default::default(),
-    };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).into_draft()
-}
-
-#[test]
-fn split_dashpots_of_bonds_are_of_second_order() {
-    let case = |name, scene| Case { name, scene, time: 0.01, steps: 400, phases: 1 };
-    for case in [
-        case("split, finite_rotation, ratio 0.05", |_, _| split("finite_rotation", 0.05, false)),
-        case("split, finite_rotation, ratio 1", |_, _| split("finite_rotation", 1.0, false)),
-        case("split, incremental, ratio 0.3", |_, _| split("incremental", 0.3, false)),
-        case("split, finite_rotation, ratio 0.3, plane", |_, _| split("finite_rotation", 0.3, true)),
-    ] {
-        let found = order(&case, Scheme::Engine);
-        assert!(found >= 1.9, "{}: {found:.2}", case.name);
-    }
-}
-
 #[test]
 fn predicted_dashpots_of_bonds_are_of_second_order() {
     for case in cases() {

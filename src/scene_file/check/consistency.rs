@@ -6,13 +6,12 @@ use crate::bond::creation::ContactPolicy;
 use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
 use crate::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Bond, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
 use std::collections::BTreeSet;
 
 /// Whether each two materials that can touch have a law, and the law its properties.
 pub(super) fn laws(scene: &SceneDraft) -> Vec<Finding> {
     let mut findings: Vec<Finding> = scene.contacts.iter().filter_map(objection).collect();
-    findings.extend(scene.bonds.iter().filter_map(|bond| cannot_be_split(scene, bond)));
     if scene.contacts.is_empty() {
         return findings;
     }
@@ -75,20 +74,6 @@ fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding>
         law.normal.name()
     );
     Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
-}
-
-/// What speaks against dashpots that are integrated by themselves: the bonded bodies must be particles, or led.
-fn cannot_be_split(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
-    bond.law.split?;
-    let moves = |boundary: &&Boundary| boundary.axes.iter().any(|axis| axis.is_free() || axis.servo().is_some());
-    let boundary = scene.held_by(bond).find(moves)?;
-    let message = format!(
-        "\"split\" found, but forces or a servo move [boundary.{}], which may be bonded; \"scheme\", or a boundary that is driven, \
-         prescribed or fixed, is right",
-        boundary.name
-    );
-    let key = "damping.viscous.integration";
-    Some(Finding::at(format!("bond.{}", bond.name), key, Mistake::Refused { message }))
 }
 
 /// What speaks against the combination of a law's sub-models and switches.

@@ -3,7 +3,7 @@
 
 use super::named_tables::is_name;
 use crate::document::{Faults, Mistake};
-use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, SceneDraft, Step, Way};
+use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, SceneDraft, Step, OutletPlace};
 use crate::scene_file::tables::is_positive_definite;
 use std::collections::BTreeSet;
 
@@ -322,8 +322,8 @@ fn comes(insertion: &Insertion, draft: &SceneDraft, at: &mut Table) {
 /// An outlet by itself.
 fn goes(outlet: &Outlet, draft: &SceneDraft, at: &mut Table) {
     match &outlet.place {
-        Way::Region(region) => at.points("region", *region, draft.regions.len()),
-        Way::Beyond(plane) => at.finite("beyond", plane.as_flattened()),
-        Way::Behind(boundary) => at.points("beyond", boundary.index(), draft.boundaries.len()),
+        OutletPlace::Region(region) => at.points("region", *region, draft.regions.len()),
+        OutletPlace::Beyond(plane) => at.finite("beyond", plane.as_flattened()),
+        OutletPlace::Behind(boundary) => at.points("beyond", boundary.index(), draft.boundaries.len()),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::motion::Axis;
 use crate::quantity::{NonNegative, Triple};
+use nalgebra::Matrix3;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
@@ -39,10 +40,8 @@ impl<'de> Deserialize<'de> for Inertia {
     }
 }
 
-/// Whether a matrix is symmetric and positive definite (Sylvester's criterion).
+/// Whether a matrix is symmetric and positive definite.
 pub(in crate::scene_file) fn is_positive_definite(rows: &[[f64; 3]; 3]) -> bool {
-    let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
-    let symmetric = b == d && c == g && f == h;
-    let minor = a * e - b * b;
-    symmetric && a > 0.0 && minor > 0.0 && i * minor - f * (a * f - b * c) + c * (b * f - c * e) > 0.0
+    let matrix = Matrix3::from(*rows);
+    matrix == matrix.transpose() && matrix.cholesky().is_some()
 }
