@@ -108,10 +108,7 @@ fn chosen(arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
         }
         let path = Path::new(name);
         if path.extension().is_none_or(|ending| ending != "toml") {
-            return Err(Ending::refused(format_args!(
-                "{name} is not a chart; one of {}, or a scene file, is right",
-                all()
-            )));
+            return Err(Ending::refused(format_args!("expected a scene file or one of {}, found {name}", all())));
         }
         let chart = SceneChart::of(path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
         let stem = path.file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());

@@ -102,7 +102,7 @@ fn what_has_no_derivative_is_refused_by_name() {
     let output = host.change(&["floor.force.z"], &["floor.force.x"], &[1.0]);
     host.refused(output.expect_err("it is not an input"), &["floor.force.x", "inputs"]);
     host.refused(host.rate("floor.mean_force.z", 1).expect_err("a mean has none"), &["floor.mean_force.z"]);
-    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "order 1 is right"]);
+    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "expected order 1"]);
 
     let drum = BED.replace(
         "[boundary.grip]",

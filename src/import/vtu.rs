@@ -92,6 +92,6 @@ fn numbers(buffer: &IOBuffer, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib or lz4,".to_owned();
+    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib or lz4".to_owned();
     vec![FileFault::whole(Mistake::Wrong { found, right })]
 }

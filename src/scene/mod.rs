@@ -1,7 +1,7 @@
 //! The scene: its particles, laws, boundaries and settings, checked, in SI units.
 //!
-//! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
-//! tables; [`Scene::check`] checks scenes that are built in code. Later code need not check again.
+//! A scene that was read is right as a whole: `scene_file` reads single values by their type and checks relations between
+//! tables. A scene that is built or changed in code is right when [`Scene::check`] says so. Later code need not check again.
 
 mod accuracy;
 mod body;

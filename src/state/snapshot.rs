@@ -49,7 +49,7 @@ pub enum SnapshotError {
     #[error("not a cograin state: the first bytes are other than \"cograin\"")]
     Foreign,
     /// Another layout.
-    #[error("state of layout version {found}; this program reads version {expected}")]
+    #[error("expected a state of layout version {expected}, found one of version {found}")]
     Version {
         /// Version in the bytes.
         found: u32,
@@ -58,7 +58,8 @@ pub enum SnapshotError {
     },
     /// Of a program whose state has other fields.
     #[error(
-        "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout {found:016x} found, {expected:016x} is right"
+        "expected the layout {expected:016x} of particles, contacts and bonds, found {found:016x}, that of another \
+         build of this program"
     )]
     Layout {
         /// Layout in the bytes.
@@ -70,7 +71,7 @@ pub enum SnapshotError {
     #[error(transparent)]
     Fault(#[from] StateFault),
     /// Another scene.
-    #[error("state of another scene: fingerprint {found:016x} found, {expected:016x} is right")]
+    #[error("expected the fingerprint {expected:016x} of this scene, found {found:016x}, that of another scene")]
     Scene {
         /// Fingerprint in the bytes.
         found: u64,

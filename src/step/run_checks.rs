@@ -83,7 +83,17 @@ impl Simulation {
     /// The step as the cause, or none that is seen.
     fn step_or_unseen(&self) -> Cause {
         let Clock { last_step: step, stable, .. } = self.state.clock;
-        self.step_as_cause().unwrap_or(Cause::Unseen { step, stable })
+        self.step_as_cause().or_else(|| self.coincident()).unwrap_or(Cause::Unseen { step, stable })
+    }
+
+    /// Two particles that touch and whose centres coincide, if there are such.
+    fn coincident(&self) -> Option<Cause> {
+        let particles = &self.state.particles;
+        let centre = |slot: u32| particles.position.get(slot as usize).map(|[x, y, z, _]| [*x, *y, *z]);
+        let pairs = self.state.contacts.iter().flat_map(|list| list.first.iter().zip(&list.second));
+        let (&i, &j) = pairs.into_iter().find(|&(&i, &j)| centre(i).is_some() && centre(i) == centre(j))?;
+        let [first, second] = [i, j].map(|slot| self.number(particles.id[slot as usize]));
+        Some(Cause::Coincident { first, second })
     }
 
     /// Stops where particles are so deep in each other that no law holds, and before energy comes out of nothing.
@@ -164,7 +174,7 @@ impl Simulation {
         let relative = Vector::from(self.state.particles.velocity[slot as usize])
             - Vector::from(self.state.boundaries[at].velocity);
         let closing = -relative.dot(normal.into());
-        if closing > 0.0 { Cause::Impact { speed: closing } } else { Cause::Load }
+        self.impact_or_load(closing, self.state.particles.position[slot as usize][3])
     }
 
     /// The number of a particle by its index; of none, that of the next to come.

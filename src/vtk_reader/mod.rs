@@ -27,7 +27,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vtk, String> {
         Ok(Ok(file)) => return Ok(file),
         Ok(Err(_)) if holds(bytes, b"encoding=\"raw\"") => "raw appended data (encoding=\"raw\")",
         Ok(Err(_)) if holds(bytes, b"vtkLZMADataCompressor") => "data packed by lzma",
-        Ok(Err(_)) => "a file that is no VTK file, or a damaged one,",
+        Ok(Err(_)) => "a file that is no VTK file, or a damaged one",
         Err(Panicked) => "a file with damaged data arrays",
     };
     Err(found.to_owned())

@@ -13,7 +13,7 @@ impl CreationWay for Way {
     }
 
     fn contradiction((number,): (&u64,)) -> Option<&'static str> {
-        (*number == 0).then_some("step 0 found; the first step that can bond is 1, and \"start\" bonds before it")
+        (*number == 0).then_some("expected a step from 1 on, found 0; \"start\" bonds before the first step")
     }
 
     fn due((number,): (&u64,)) -> Due {

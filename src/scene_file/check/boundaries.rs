@@ -39,9 +39,12 @@ pub(super) fn boundaries(
         }
         let input = boundary.input.unwrap_or_default();
         if input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {
-            let what = format!("quadratic motion of {}", if driven { "nodes" } else { "rotations" });
-            let right = "ramp, smooth or hold; quadratic is for displacements of the whole boundary".to_owned();
-            faults.add(&table, "input", Mistake::Senseless { what, right });
+            let found = format!(
+                "\"quadratic\", which is for displacements of the whole boundary, with driven {}",
+                if driven { "nodes" } else { "rotations" }
+            );
+            let right = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
+            faults.add(&table, "input", Mistake::Wrong { found, right });
         }
         let body = body::body(boundary, &axes, (&*shape, reference), &table, faults);
         // What moves and turns by forces does so about its mass centre.
@@ -59,8 +62,8 @@ fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table:
         return false;
     }
     if shape.vertices().is_empty() {
-        let (what, right) = (format!("a {} has no nodes", shape.key()), "a mesh has nodes".to_owned());
-        faults.add(table, "nodes", Mistake::Senseless { what, right });
+        let (found, right) = (format!("a {}, which has none", shape.key()), "a mesh, which has nodes".to_owned());
+        faults.add(table, "nodes", Mistake::Wrong { found, right });
     } else if let Some(axis) = axes.iter().position(|axis| !axis.is_fixed() || axis.conveys() != 0.0) {
         let what = format!("driven nodes, and {} moves, too", AxisMotion::WORDS[axis]);
         let right = "leave motion out: the displacements of the nodes say it all".to_owned();
