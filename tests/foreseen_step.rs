@@ -220,8 +220,8 @@ fn spheres_that_are_squeezed_slowly_are_not_told_that_they_met_too_fast() {
                 { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.0, 0.0, 0.03], radius = 0.01 },\n]\n\
                 [boundary.floor]\nmaterial = \"a\"\nplane = { point = [0, 0, 0], normal = [0, 0, 1] }\n\
                 [boundary.lid]\nmaterial = \"a\"\nplane = { point = [0, 0, 0.04], normal = [0, 0, -1] }\n\
-                motion = { prescribed = { z = -0.1 } }\n";
-    let error = start(text).advance(0.4).expect_err("the lid comes down to the floor");
+                motion = { prescribed = { z = -0.01 } }\n";
+    let error = start(text).advance(4.0).expect_err("the lid comes down to the floor");
     assert!(matches!(error, RunError::Crushed { cause: Cause::Load, .. }), "{error}");
 }
 

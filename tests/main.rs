@@ -11,7 +11,6 @@ mod bonded_exchange;
 mod bonds;
 mod books;
 mod coefficients;
-mod derivatives;
 mod every_law;
 mod every_surface;
 mod exchange;

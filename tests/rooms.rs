@@ -37,7 +37,7 @@ const LONG: [(&str, &str); 22] = [
 ];
 
 /// Folders that are rooms of their own though they stand inside of another.
-const INNER_ROOMS: [&str; 13] = [
+const INNER_ROOMS: [&str; 12] = [
     "contact/law",
     "contact/normal",
     "contact/tangential",
@@ -48,7 +48,6 @@ const INNER_ROOMS: [&str; 13] = [
     "bond/breakage",
     "bond/creation",
     "interactions/surfaces",
-    "step/derivatives",
     "step/taken_over",
     "surface/mesh",
 ];

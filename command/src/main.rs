@@ -12,8 +12,10 @@ use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgre
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -48,7 +50,7 @@ enum Command {
     Export(ExportArguments),
     /// Replay reference cases of other engines and compare
     Verify(VerifyArguments),
-    /// Chart speed against accuracy, and where methods fail: tables and pictures
+    /// Chart the outputs of a scene over its time step, and recommend one: a table and a picture
     Chart(ChartArguments),
 }
 
@@ -255,9 +257,12 @@ fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
 
 /// Reads a scene to be computed here. Its files are not needed any more.
 fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (mut scene, mut source) = read(&arguments.scene)?;
+    let (scene, mut source) = read(&arguments.scene)?;
     source.files.clear();
-    scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
+    let scene = match arguments.threads {
+        Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
+        None => scene,
+    };
     Ok((Arc::new(scene), source))
 }
 
@@ -381,9 +386,10 @@ fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
         formulation: arguments.formulation,
     };
     let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
+    let reports: Vec<_> = cases.par_iter().with_max_len(1).map(|case| verify::replay(case, &options)).collect();
     let mut failed = 0;
-    for case in &cases {
-        let report = verify::replay(case, &options).map_err(Ending::refused)?;
+    for report in reports {
+        let report = report.map_err(Ending::refused)?;
         failed += usize::from(!report.passed());
         say(report);
     }

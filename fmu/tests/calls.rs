@@ -1,7 +1,6 @@
 //! The C functions themselves: call orders, refusals, saved states, several instances.
 
 mod cost;
-mod derivatives;
 mod environment;
 mod frames;
 mod host;

@@ -115,12 +115,13 @@ impl TakeFormulation for TakeRemembered {
 
 /// How many rows of state a bond of this formulation has.
 pub fn rows(formulation: FormulationChoice) -> usize {
-    formulation.visit_whole(TakeFunctions).rows
+    formulation.visit(Asked::ALL, TakeFunctions).rows
 }
 
 /// What each formulation of the program remembers of a bond, as text.
 pub fn remembered() -> String {
-    let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit_whole(TakeRemembered));
+    let line =
+        |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(Asked::ALL, TakeRemembered));
     FormulationChoice::ALL.iter().map(line).collect()
 }
 

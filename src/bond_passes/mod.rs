@@ -9,7 +9,6 @@ mod batch;
 mod book;
 mod pipeline_buffer;
 mod plane_sweeps;
-mod slopes;
 mod sweep_slabs;
 mod sweeps;
 pub(crate) mod walls;

@@ -84,11 +84,13 @@ pub(crate) fn show_swept(state: &mut State, loads: &[Swept]) {
 /// Sets the loads of all boundaries to zero, and notes what they were, without those of dashpots that are integrated by themselves.
 pub(crate) fn clear_loads(state: &mut State, before: &mut Vec<Felt>) {
     before.clear();
-    for BoundaryState { force, moment, swept, conveying_power, .. } in &mut state.boundaries {
+    for moved in &mut state.boundaries {
+        let BoundaryState { force, moment, swept, conveying_power, force_before, moment_before, .. } = moved;
         for axis in 0..3 {
             force[axis] -= swept[0][axis];
             moment[axis] -= swept[1][axis];
         }
+        (*force_before, *moment_before) = (*force, *moment);
         before.push(Felt { force: *force, moment: *moment, conveying_power: *conveying_power });
         (*force, *moment, *swept, *conveying_power) = ([0.0; 3], [0.0; 3], [[0.0; 3]; 2], 0.0);
     }

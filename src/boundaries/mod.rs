@@ -7,6 +7,5 @@ mod inertia;
 pub(crate) mod nodes;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
-pub(crate) mod slopes;
 
 pub(crate) use rigid_body::{RigidBody, Turning};

@@ -33,7 +33,7 @@ pub(super) fn and_more(more: usize, what: &str) -> String {
 }
 
 /// Names the nearest known word, or all of them.
-pub(super) fn proposal(found: &str, known: &[String], all: &str) -> String {
+pub(crate) fn proposal(found: &str, known: &[String], all: &str) -> String {
     match nearest(found, known.iter().map(String::as_str)) {
         Some(near) => format!("the nearest is {near}"),
         None if known.is_empty() => "none is known here".to_owned(),

@@ -1,6 +1,6 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
-use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed};
+use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed, twice};
 use crate::document::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
@@ -70,7 +70,8 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
         }
         let wanted = [&NEEDED[..], &POSSIBLE].concat().contains(&header.as_str()) || extra.contains(header);
         uses.push(match header.as_str() {
-            "material" | "type" if !labelled => {
+            "material" | "type" if labelled => return Err(twice(["material", "type"], Some(1))),
+            "material" | "type" => {
                 labelled = true;
                 Use::Label
             }

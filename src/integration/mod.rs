@@ -4,7 +4,6 @@ mod braking;
 mod damped;
 mod fields;
 pub(crate) mod plane;
-mod slopes;
 
 pub(crate) use fields::Fields;
 

@@ -2,9 +2,7 @@
 
 mod ahead;
 pub(crate) mod contacts;
-mod followed;
 mod listed;
-mod pair_slopes;
 mod pairs;
 mod pass;
 mod records;

@@ -5,12 +5,10 @@ use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
 use crate::boundaries::felt::Swept;
 use crate::contact::Response;
-use crate::dual::Dual;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::tangent::{FollowPass, Tangent};
 use crate::threads::Context;
 
 /// A sweep over dashpots that are integrated by themselves.
@@ -23,23 +21,10 @@ pub(crate) struct Sweep {
 }
 
 /// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: FollowPass + Send + Sync {
+pub(crate) trait Pass: Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
-
-    /// The same, and adds the slopes of what it does.
-    fn apply_with_slopes(
-        &self,
-        state: &mut State,
-        followed: &mut [Tangent],
-        context: &Context,
-    ) -> Result<(), RunError> {
-        for tangent in followed {
-            self.add_slopes(state, tangent, Dual::constant(context.step));
-        }
-        self.apply(state, context)
-    }
 
     /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
     /// whether anything was made: the lists are then made anew.

@@ -3,7 +3,7 @@
 use super::{Causality, Interface, InterfaceError, Source, Value, Variable, rows};
 use crate::quantity::BoundaryIndex;
 use crate::scene::{self, InputCourse, Scene, SceneErrors};
-use crate::step::Simulation;
+use crate::step::{Input, Simulation};
 use std::collections::BTreeMap;
 
 impl Interface {
@@ -91,7 +91,10 @@ impl Interface {
         self.check_rate(index, acceleration)?;
         let variable = self.variable(index)?;
         let axis = match &variable.source {
-            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => (write.axis)(*at),
+            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => match (write.input)(*at) {
+                Input::Axis(boundary, axis) => Some((boundary, axis)),
+                Input::Node(..) | Input::Rate(_) => None,
+            },
             _ => None,
         };
         let quadratic = |&(boundary, axis): &(BoundaryIndex, usize)| {

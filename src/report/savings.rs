@@ -6,7 +6,7 @@ use crate::contact::rolling::RollingChoice;
 use crate::contact::tangential::TangentialChoice;
 use crate::contact::{NoKeys, PairProperties};
 use crate::quantity::NonNegative;
-use crate::scene::{ContactLaw, MotionPlane, Scene, Step, plane_objections};
+use crate::scene::{ContactLaw, MotionPlane, Scene, SceneDraft, Step, plane_objections};
 use crate::step::Simulation;
 use std::sync::Arc;
 use std::time::Duration;
@@ -31,7 +31,7 @@ struct Spare {
     /// What it is and why.
     what: String,
     /// The scene without it.
-    without: Scene,
+    without: SceneDraft,
 }
 
 /// What the scene could drop, a line each.
@@ -39,7 +39,8 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
     let mut lines = Vec::new();
     let spares = spares(scene).into_iter().map(|spare| (spare, "without it")).chain(third_dimension(scene));
     for (Spare { what, without }, change) in spares {
-        if let Some([with, less]) = costs(scene, &Arc::new(without)) {
+        let without = without.build().ok().map(Arc::new);
+        if let Some([with, less]) = without.and_then(|without| costs(scene, &without)) {
             let saved = 1.0 - less / with;
             lines.push(if saved > LEAST {
                 format!("{what}: {change} a step takes {:.0} % less time", 100.0 * saved)
@@ -90,7 +91,7 @@ fn spares(scene: &Scene) -> Vec<Spare> {
     for (index, law) in scene.contacts.iter().enumerate() {
         let zero = |of: fn(&PairProperties) -> Option<NonNegative>| is_zero(scene, law, of);
         let mut add = |part: &str, model: &str, property: &str, drop: fn(&mut ContactLaw)| {
-            let mut without = scene.clone();
+            let mut without = SceneDraft::clone(scene);
             drop(&mut without.contacts[index]);
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             spares.push(Spare { what, without });
@@ -109,14 +110,14 @@ fn spares(scene: &Scene) -> Vec<Spare> {
     }
     for (index, damping) in scene.damping.iter().enumerate() {
         if damping.linear.iter().chain(&damping.angular).all(|fraction| *fraction == 0.0) {
-            let mut without = scene.clone();
+            let mut without = SceneDraft::clone(scene);
             without.damping.remove(index);
             spares.push(Spare { what: format!("[damping.{}]: damps no particle", damping.name), without });
         }
     }
     if scene.output.energy && scene.output.history_interval.is_none() {
         let what = "[output] energy: the book is kept, and without history_interval only summary.json tells of it";
-        let mut without = scene.clone();
+        let mut without = SceneDraft::clone(scene);
         without.output.energy = false;
         spares.push(Spare { what: what.to_owned(), without });
     }
@@ -126,12 +127,12 @@ fn spares(scene: &Scene) -> Vec<Spare> {
 /// The third dimension, where all particles are in one plane, nothing in the text takes them out of it, and the word for that spares
 /// work.
 fn third_dimension(scene: &Scene) -> Option<(Spare, &'static str)> {
-    let mut plane = scene.clone();
+    let mut plane = SceneDraft::clone(scene);
     plane.run.plane = Some(MotionPlane::Xz);
     if scene.particles.len() < FEW || scene.run.plane.is_some() || !plane_objections(&plane).is_empty() {
         return None;
     }
-    let simulation = Simulation::new(Arc::new(plane.clone())).ok()?;
+    let simulation = Simulation::new(Arc::new(plane.clone().build().ok()?)).ok()?;
     let what = "the third dimension: all particles are in one plane, xz".to_owned();
     let spare = Spare { what, without: plane };
     simulation.spares_third_dimension().then_some((spare, "with [run] plane = \"xz\""))

@@ -1,6 +1,7 @@
 //! Why a command did not do its work.
 
 use super::vtk::EncodeError;
+use crate::document::proposal;
 use crate::interface::InterfaceError;
 use crate::state::snapshot::SnapshotError;
 use crate::step::RunError;
@@ -166,6 +167,24 @@ pub enum InputsError {
         /// What would be right.
         right: String,
     },
+    /// A column that stands for nothing.
+    #[error("{}, line 1: expected time and variables of the unit, found a column {column:?}{}", path.display(), nearest_of(column, known))]
+    Unknown {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The inputs.
+        known: Vec<String>,
+    },
+    /// A column that stands twice.
+    #[error("{}, line 1: expected one column {column}, found two", path.display())]
+    Twice {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+    },
     /// A field is not a number.
     #[error("{}, line {line}, {column}: expected a finite number, found {found:?}", path.display())]
     Number {
@@ -200,4 +219,9 @@ pub enum InputsError {
         /// What was found.
         found: String,
     },
+}
+
+/// The known word that a column most likely stands for, in a message.
+fn nearest_of(column: &str, known: &[String]) -> String {
+    format!("; {}", proposal(column, known, "inputs are"))
 }

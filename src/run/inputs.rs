@@ -30,13 +30,24 @@ struct Column {
 }
 
 impl Inputs {
-    /// Reads a table: a column `time`, and columns with the names of inputs; others are skipped.
+    /// Reads a table: a column `time`, and columns with the names of inputs. Those of other variables are skipped: a master
+    /// notes them, too.
     pub(crate) fn read(path: &Path, interface: &Interface) -> Result<Self, InputsError> {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let names = reader.headers().map_err(unreadable)?.clone();
         let missing = |right| InputsError::Column { path: path.to_owned(), right };
         let time = names.iter().position(|name| name == "time").ok_or_else(|| missing("time".to_owned()))?;
+        for (place, name) in names.iter().enumerate() {
+            let column = || name.to_owned();
+            if name != "time" && !interface.variables().iter().any(|variable| variable.name == name) {
+                let known = interface.inputs().map(|(_, variable)| variable.name.clone()).collect();
+                return Err(InputsError::Unknown { path: path.to_owned(), column: column(), known });
+            }
+            if names.iter().take(place).any(|before| before == name) {
+                return Err(InputsError::Twice { path: path.to_owned(), column: column() });
+            }
+        }
         let inputs = interface.inputs().filter_map(|(index, variable)| {
             let column = names.iter().position(|name| name == variable.name)?;
             Some((column, index))

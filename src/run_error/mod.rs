@@ -232,6 +232,21 @@ pub enum RunError {
         /// How far it would jump \[m\].
         way: f64,
     },
+    /// A number of the state cannot be.
+    #[error(
+        "expected {right} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \
+         numbers of 64 bits"
+    )]
+    Invalid {
+        /// Which part of the state.
+        part: &'static str,
+        /// Which entry of that part.
+        place: usize,
+        /// What would be right.
+        right: &'static str,
+        /// Time \[s\].
+        time: f64,
+    },
     /// The caller has asked to stop.
     #[error("stopped at t = {time} s, as asked for")]
     Stopped {

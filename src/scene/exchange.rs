@@ -1,6 +1,6 @@
 //! How the number of particles changes, as parts of a scene.
 
-use super::{Boundary, ParticleShape, Scene};
+use super::{Boundary, ParticleShape, SceneDraft};
 use crate::document::Mistake;
 use crate::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
 use crate::quantity::{BoundaryIndex, MaterialIndex};
@@ -30,6 +30,14 @@ impl Insertion {
     /// Mass of a new sphere of this radius \[m\] \[kg\].
     pub fn mass(&self, radius: f64) -> f64 {
         ParticleShape::Sphere.volume(radius) * self.density
+    }
+
+    /// What one sphere adds at least to what its rate counts: 1, or the mass of the smallest \[kg\].
+    pub(crate) fn least_amount(&self) -> f64 {
+        match self.amount {
+            Amount::CountRate(_) => 1.0,
+            Amount::MassRate(_) | Amount::Mass(_) => self.mass(self.sizes.bounds()[0]),
+        }
     }
 
     /// Largest speed of a new sphere \[m/s\].
@@ -184,7 +192,7 @@ impl FlowMeter {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Whether particles come or go.
     pub fn changes_number(&self) -> bool {
         !self.insertions.is_empty() || self.removes()

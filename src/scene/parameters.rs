@@ -3,7 +3,7 @@
 //! A parameter is a number that stands in the text of the scene. Its name is the dotted key, as `--set` takes it, and it is
 //! checked by the type that reads the key.
 
-use super::Scene;
+use super::SceneDraft;
 use crate::bond::Law;
 use crate::bond::keys::KeyError;
 use crate::contact::PairProperties;
@@ -60,7 +60,7 @@ impl Range {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// The parameters that may be changed between communication steps, in their order.
     pub fn tunables(&self) -> impl Iterator<Item = &Parameter> {
         self.parameters.iter().filter(|parameter| parameter.tunable)

@@ -1,6 +1,6 @@
 //! Scenes whose particles stay in one plane.
 
-use super::{Mistake, Particle, Scene};
+use super::{Mistake, Particle, SceneDraft};
 use crate::contact::rolling::RollingChoice;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -50,7 +50,7 @@ impl ParticleShape {
 pub(crate) type Objection = (String, &'static str, Mistake);
 
 /// What speaks against `[run] plane` in this scene.
-pub(crate) fn objections(scene: &Scene) -> Vec<Objection> {
+pub(crate) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     let Some(MotionPlane::Xz) = scene.run.plane else { return Vec::new() };
     let mut objections = Vec::new();
     let mut leaves = |table: String, key: &'static str, found: String, right: &str| {
@@ -79,7 +79,7 @@ pub(crate) fn objections(scene: &Scene) -> Vec<Objection> {
 }
 
 /// The first particle that is not in the plane of the first one or leaves it; what it has, and what is right.
-fn first_outside(scene: &Scene) -> Option<(&Particle, String, &'static str)> {
+fn first_outside(scene: &SceneDraft) -> Option<(&Particle, String, &'static str)> {
     let level = scene.particles.first()?.position[1];
     scene.particles.iter().find_map(|particle| {
         let ([.., v, _], [a, _, c]) = (particle.velocity, particle.angular_velocity);
@@ -99,7 +99,7 @@ fn first_outside(scene: &Scene) -> Option<(&Particle, String, &'static str)> {
 }
 
 /// What reckons with the volume or the moment of inertia of spheres.
-fn discs(scene: &Scene) -> Vec<Objection> {
+fn discs(scene: &SceneDraft) -> Vec<Objection> {
     let refused = |table: String, found: &str, right: &str| {
         (
             table,

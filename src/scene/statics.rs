@@ -1,9 +1,9 @@
 //! What has no static stiffness.
 
-use super::Scene;
+use super::SceneDraft;
 use crate::bond::damping::DampingChoice;
 
-impl Scene {
+impl SceneDraft {
     /// What depends on speed or time, however slow, or moves by itself, if anything; and what would be right.
     pub fn without_statics(&self) -> Option<(String, &'static str)> {
         if let Some(law) = self.contacts.iter().find(|law| law.rolling.name() == "cdt") {

@@ -46,6 +46,10 @@ pub struct BoundaryState {
     pub force: [f64; 3],
     /// Moment about the moved reference point at the present time \[N m\].
     pub moment: [f64; 3],
+    /// Force one time step ago; the present one before the first \[N\].
+    pub force_before: [f64; 3],
+    /// Moment one time step ago \[N m\].
+    pub moment_before: [f64; 3],
     /// What of both is of bond dashpots that are integrated by themselves, where that is shown: at the end of a communication step
     /// \[N, N m\].
     pub swept: [[f64; 3]; 2],
@@ -71,6 +75,18 @@ pub struct BoundaryState {
 }
 
 impl BoundaryState {
+    /// Rates of force and moment after a time step of this length \[s\], 0 before the first \[N/s, N m/s\].
+    pub(crate) fn rates(&self, step: f64) -> [[f64; 3]; 2] {
+        let Self { force, moment, swept, force_before, moment_before, .. } = self;
+        let rate = |axis: usize, now: &[f64; 3], swept: &[f64; 3], before: &[f64; 3]| {
+            if step > 0.0 { (now[axis] - swept[axis] - before[axis]) / step } else { 0.0 }
+        };
+        [
+            [0, 1, 2].map(|axis| rate(axis, force, &swept[0], force_before)),
+            [0, 1, 2].map(|axis| rate(axis, moment, &swept[1], moment_before)),
+        ]
+    }
+
     /// Counts impulse and work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.total_impulse, self.work) = ([0.0; 3], 0.0);

@@ -484,6 +484,7 @@ impl BoundaryState {
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
         let Self { target_acceleration, acceleration, first_moment, force_slope, swept: [push, twist], .. } = self;
+        let Self { force_before, moment_before, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -502,6 +503,8 @@ impl BoundaryState {
             acceleration,
             first_moment,
             force_slope,
+            force_before,
+            moment_before,
             push,
             twist,
             &inertial.angular_momentum,

@@ -24,8 +24,7 @@ pub use crate::interactions::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::run_error::{Cause, RunError};
 pub use crate::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use coefficients::TuneError;
-use derivatives::Habit;
-pub use derivatives::{BoundaryDerivatives, NoDerivative};
+pub use derivatives::{Input, NoDerivative};
 pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
@@ -47,7 +46,6 @@ use crate::motion::Progress;
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{BoundaryState, Foresight, State, StateFault};
-use crate::tangent::Tangent;
 use crate::threads::{Context, Threads, Workers};
 use crate::{books, neighbours};
 use std::sync::Arc;
@@ -93,10 +91,6 @@ pub struct Simulation {
     room: Room,
     /// What is needed to return to the beginning of a communication step that fails.
     way_back: WayBack,
-    /// How the state changes with some inputs, while that is followed.
-    followed: Vec<Tangent>,
-    /// When and for which derivatives the host asks.
-    habit: Habit,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -168,8 +162,6 @@ impl Simulation {
             state,
             room: Room::default(),
             way_back: WayBack::default(),
-            followed: Vec::new(),
-            habit: Habit::default(),
             stop: None,
             watch: None,
         };
@@ -439,7 +431,6 @@ impl Simulation {
         self.sweep_before(Progress { time: self.state.clock.time, ..progress }, context);
         books::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         books::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
-        self.drift_slopes(step);
         let speed = match self.state.particles.plane_rows {
             true => integration::plane::kick_and_drift(&mut self.state.particles, step, context),
             false => integration::kick_and_drift(&mut self.state.particles, step, self.turning, context),
@@ -477,10 +468,8 @@ impl Simulation {
         nodes::clear_loads(&mut self.state, &mut self.room.nodes);
         let damping_before = self.state.damping_force;
         let gravity = self.fields.weight_alone().filter(|_| !self.books_after_sweeps());
-        self.lead_slopes(&progress);
         result = result.and(self.evaluate(gravity.is_none(), context));
         self.follow_contacts(step);
-        self.kick_slopes(gravity.is_none(), step);
         match self.books_after_sweeps() {
             false => self.book_second(gravity, step, context),
             true => books::work::book_bodies(&mut self.state, &self.fields, &self.bodies, step),
@@ -513,10 +502,7 @@ impl Simulation {
         self.room.between.begin();
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
-            result = result.and(match self.followed.is_empty() {
-                true => pass.apply(&mut self.state, context),
-                false => pass.apply_with_slopes(&mut self.state, &mut self.followed, context),
-            });
+            result = result.and(pass.apply(&mut self.state, context));
             let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
             if next != Some(source) {
                 self.room.between.note(&mut self.state, &self.bodies, source, next);
@@ -569,7 +555,7 @@ impl Simulation {
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
-        Ok(())
+        self.check_present()
     }
 }
 

@@ -23,11 +23,10 @@ impl Simulation {
         self.permits_plane_rows
     }
 
-    /// Lets the particles stand in plane rows if the scene permits that, no derivative is followed through the steps to come, and
-    /// there are enough of them.
+    /// Lets the particles stand in plane rows if the scene permits that and there are enough steps to come.
     pub(super) fn use_plane_rows(&mut self, steps: u64, context: &Context) {
         let particles = &mut self.state.particles;
-        if self.permits_plane_rows && self.followed.is_empty() && steps >= WORTH && !particles.plane_rows {
+        if self.permits_plane_rows && steps >= WORTH && !particles.plane_rows {
             plane::to_plane(particles, context);
         }
     }

@@ -86,10 +86,14 @@ impl Simulation {
         self.step_as_cause().or_else(|| self.coincident()).unwrap_or(Cause::Unseen { step, stable })
     }
 
-    /// Two particles that touch and whose centres coincide, if there are such.
+    /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more.
     fn coincident(&self) -> Option<Cause> {
         let particles = &self.state.particles;
-        let centre = |slot: u32| particles.position.get(slot as usize).map(|[x, y, z, _]| [*x, *y, *z]);
+        let centre = |slot: u32| {
+            let [x, y, z, _] = *particles.position.get(slot as usize)?;
+            let start = || Some(self.scene.particles.get(particles.id[slot as usize] as usize)?.position);
+            if (x + y + z).is_finite() { Some([x, y, z]) } else { start() }
+        };
         let pairs = self.state.contacts.iter().flat_map(|list| list.first.iter().zip(&list.second));
         let (&i, &j) = pairs.into_iter().find(|&(&i, &j)| centre(i).is_some() && centre(i) == centre(j))?;
         let [first, second] = [i, j].map(|slot| self.number(particles.id[slot as usize]));
@@ -209,6 +213,7 @@ impl Simulation {
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
+            | RunError::Invalid { .. }
             | RunError::Stopped { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }

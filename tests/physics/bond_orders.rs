@@ -5,7 +5,7 @@
 
 use super::orders::{Case, order};
 use cograin::contact::Scheme;
-use cograin::scene::{Scene, Source};
+use cograin::scene::{Scene, SceneDraft, Source};
 
 /// Three bonded spheres, of which the last may be bonded to a plane, stretched, sheared, bent and twisted as they spin.
 const SCENE: &str = r#"
@@ -46,12 +46,12 @@ tangential_stiffness = 5.0e6
 damping.viscous = { normal_force = RATIO, tangential_force = RATIO, normal_torque = RATIO, tangential_torque = RATIO }"#;
 
 /// A scene with this scheme, formulation and damping ratio; with a foot, if asked for.
-fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> Scene {
+fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> SceneDraft {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" });
     let text = text.replace("LAW", LAW).replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
     let text = text.replace("RATIO", &format!("{ratio:?}"));
     let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).into_draft()
 }
 
 /// The motions: formulations and damping ratios.
@@ -66,7 +66,7 @@ fn cases() -> [Case; 4] {
 }
 
 /// The same scene with dashpots that are integrated by themselves.
-fn split(formulation: &str, ratio: f64, foot: bool) -> Scene {
+fn split(formulation: &str, ratio: f64, foot: bool) -> SceneDraft {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" }).replace("LAW", LAW);
     let text = text.replace("SCHEME", "engine").replace("FORMULATION", formulation);
     let text = text.replace("normal_torque = RATIO,", "normal_torque = RATIO, integration = \"split\",");
@@ -75,7 +75,7 @@ fn split(formulation: &str, ratio: f64, foot: bool) -> Scene {
         text: text.replace("RATIO", &format!("{ratio:?}")),
         files: Default::default(),
     };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).into_draft()
 }
 
 #[test]

@@ -21,10 +21,10 @@ const LEAST: f64 = 0.90;
 
 /// The scene with this time step, unstable or not.
 fn with_step(scene: &Scene, step: f64) -> Simulation {
-    let mut scene = scene.clone();
+    let mut scene = scene.clone().into_draft();
     scene.run.step = Step::Given(step);
     scene.run.allow_unstable = true;
-    Simulation::new(Arc::new(scene)).expect("it starts")
+    Simulation::new(Arc::new(scene.build().expect("the scene is right"))).expect("it starts")
 }
 
 /// Whether the motion grows by more than ten thousand in energy at this step.
@@ -41,9 +41,9 @@ fn grows(scene: &Scene, step: f64, steps: u32) -> bool {
 
 /// The stated stable step \[s\].
 fn stated(scene: &Scene) -> f64 {
-    let mut free = scene.clone();
+    let mut free = scene.clone().into_draft();
     free.run.step = Step::Automatic { safety: 0.2 };
-    Simulation::new(Arc::new(free)).expect("it starts").state().clock.stable
+    Simulation::new(Arc::new(free.build().expect("the scene is right"))).expect("it starts").state().clock.stable
 }
 
 /// The stated stable step over the true one, by bisection on the engine, to one in two hundred.

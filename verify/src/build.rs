@@ -9,7 +9,7 @@ use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
     AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, ParticleShape,
-    Run, Scene, Shape, Step,
+    Run, Scene, SceneDraft, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
     };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
-    Ok(Scene {
+    let draft = SceneDraft {
         run: Run { step: Step::Given(step), allow_unstable: true, threads: Some(1), ..Run::default() },
         gravity: finite("gravity", case.gravity)?,
         materials,
@@ -57,8 +57,9 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
         particles,
-        ..Scene::default()
-    })
+        ..SceneDraft::default()
+    };
+    draft.build().map_err(|errors| Mistake::new("scene", errors.to_string()))
 }
 
 /// A number above 0.

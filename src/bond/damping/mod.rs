@@ -146,8 +146,8 @@ impl<N: Number> Damped<N> {
         let twist = self.torsion + self.bending;
         DampingLoad {
             force: self.normal + self.shear,
-            torque_i: couple.scaled(pair.share_i) + twist,
-            torque_j: couple.scaled(pair.share_j) - twist,
+            torque_i: couple * pair.share_i + twist,
+            torque_j: couple * pair.share_j - twist,
         }
     }
 }

@@ -99,7 +99,7 @@ pub(super) fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N
     }
     let moves = inverse_mass.greater(N::zero());
     let square = stiffness / N::select(moves, inverse_mass, N::splat(1.0));
-    N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0 * ratio))
+    N::select(moves, square, N::zero()).sqrt() * N::splat(2.0 * ratio)
 }
 
 /// 1/m_i, 1/m_j, 1/I_i, 1/I_j of a pair.
@@ -116,7 +116,7 @@ pub(super) fn inverse_masses<N: Number>(
     [arm_i, arm_j]: [N; 2],
 ) -> Parts<N> {
     let along = along_i + along_j;
-    let across = along + (arm_i * arm_i).scaled(about_i) + (arm_j * arm_j).scaled(about_j);
+    let across = along + (arm_i * arm_i) * about_i + (arm_j * arm_j) * about_j;
     let turning = about_i + about_j;
     [along, across, turning, turning]
 }
@@ -124,7 +124,7 @@ pub(super) fn inverse_masses<N: Number>(
 /// Arms of both bodies of a bond of this length \[m\].
 #[inline(always)]
 pub(super) fn arms<N: Number>(pair: &Pair<N>, distance: N) -> [N; 2] {
-    [distance.scaled(pair.share_i), distance.scaled(pair.share_j)]
+    [distance * pair.share_i, distance * pair.share_j]
 }
 
 impl Damping for Viscous {
@@ -143,11 +143,11 @@ impl Damping for Viscous {
         let [normal, shear, torsion, bending] = self.ratios;
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
-            normal: motion.axis * -motion.normal_velocity.scaled(dashpot(normal, axial, along)),
+            normal: motion.axis * -(motion.normal_velocity * dashpot(normal, axial, along)),
             shear: motion.slip * -dashpot(shear, law.elastic.shear * section.area, across),
             torsion: motion.axis
-                * -motion.twist_rate.scaled(dashpot(torsion, law.elastic.torsion * section.polar, turning)),
-            bending: motion.bending_rate.scaled(-dashpot(bending, law.elastic.bending * section.axial, turning)),
+                * -(motion.twist_rate * dashpot(torsion, law.elastic.torsion * section.polar, turning)),
+            bending: motion.bending_rate * -dashpot(bending, law.elastic.bending * section.axial, turning),
         }
     }
 

@@ -77,18 +77,6 @@ impl RigidBody {
         Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [x, y, z, a, b, c] }
     }
 
-    /// The change of velocity that half a kick with this load gives a body that does not turn: in proportion to the load.
-    pub(crate) fn shift(&self, moved: &BoundaryState, load: [f64; 3], step: f64) -> [f64; 3] {
-        let mut alone = BoundaryState { velocity: [0.0; 3], ..*moved };
-        (alone.inertial.load, alone.inertial.couple, alone.inertial.angular_momentum) = (load, [0.0; 3], [0.0; 3]);
-        self.kicked(&alone, step).motion[0].to_array()
-    }
-
-    /// Stiffness and damping of the springs and dashpots to the ground along an axis \[N/m, N s/m\].
-    pub(crate) fn ground(&self, axis: usize) -> [f64; 2] {
-        [self.stiffness[axis], self.damping[axis]]
-    }
-
     /// The change of velocity and of angular velocity by half a kick, and the impulse of what is added to the mass.
     fn kicked_implicitly(&self, moved: &BoundaryState, added: &Triangle, step: f64) -> [Vector; 3] {
         let free = self.freedoms();

@@ -6,7 +6,6 @@ use crate::interactions::pairs::plane_velocities;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
 use crate::state::{Particles, Row, plane_rows};
-use crate::tangent::Moving;
 use std::f64::consts::PI;
 
 /// A sphere that touches a surface.
@@ -24,7 +23,7 @@ impl<N: Number> SphereAt<N> {
     /// Arm at the particle: to half an overlap behind the surface, where the loads act \[m\].
     #[inline(always)]
     pub(super) fn arm(&self) -> N {
-        self.radius - (self.radius - self.distance).scaled(N::splat(0.5))
+        self.radius - (self.radius - self.distance) * N::splat(0.5)
     }
 
     /// Area of the circle in which the sphere stands in the surface \[m²\].
@@ -120,11 +119,6 @@ impl<'a> Loaded<'a> {
             force: Shared::new(&mut []),
             torque: Shared::new(&mut []),
         }
-    }
-
-    /// How they move.
-    pub(super) fn moving(&self) -> Moving<'a> {
-        Moving::of(self.position, self.velocity, self.angular_velocity)
     }
 
     /// Velocities and, where there is torque, angular velocities of some particles.

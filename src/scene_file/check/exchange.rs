@@ -6,7 +6,7 @@ use crate::contact::Material;
 use crate::document::{Faults, Mistake};
 use crate::exchange::Amount;
 use crate::packing::generator::{generator_after, uniform};
-use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, Scene};
+use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, SceneDraft};
 
 /// What a scene has of particles that come and go.
 pub(super) struct Parts {
@@ -63,12 +63,12 @@ fn names(written: &RawTables, faults: &mut Faults) {
 }
 
 /// What speaks against particles that come and go in this scene.
-pub(super) fn objections(scene: &Scene) -> Vec<Finding> {
+pub(super) fn objections(scene: &SceneDraft) -> Vec<Finding> {
     scene.insertions.iter().flat_map(|insertion| of_insertion(scene, insertion)).collect()
 }
 
 /// What speaks against an insertion.
-fn of_insertion(scene: &Scene, insertion: &Insertion) -> Vec<Finding> {
+fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
     let (mut findings, table) = (Vec::new(), format!("insertion.{}", insertion.name));
     let ([least, most], region) = (insertion.sizes.bounds(), &scene.regions[insertion.region]);
     let mut random = generator_after(scene.run.seed, &table, 0);

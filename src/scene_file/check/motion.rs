@@ -26,9 +26,8 @@ pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Fau
     axes
 }
 
-/// Reports what the axes of a boundary cannot do together, or not with its shape. `referred`: the scene gives its
-/// point of reference.
-pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool, table: &str, faults: &mut Faults) {
+/// Reports what the axes of a boundary cannot do together, or not with its shape.
+pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
         let found = format!("{} of a {}", AxisMotion::WORDS[axis], shape.key());
         faults.add(table, "motion", Mistake::Wrong { found, right: "rotations of a shape that turns".to_owned() });
@@ -41,7 +40,6 @@ pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool,
     }
     conveying(axes, shape, table, faults);
     rotations(axes, table, faults);
-    reference(axes, referred, table, faults);
 }
 
 /// A surface that runs in itself has one, and runs along it.
@@ -98,8 +96,8 @@ pub(super) fn turns_about_its_centre(axes: &[AxisMotion; 6]) -> bool {
     any(along, free) && any(about, held) || any(about, free) && any(along, held)
 }
 
-/// A body that moves and turns, and does one of it freely, does so about its mass centre.
-fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
+/// A body that moves and turns, and does one of it freely, does so about its mass centre; `referred`: the scene gives another point.
+pub(super) fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
     if referred && turns_about_its_centre(axes) {
         let what = "what moves and turns, one of both freely, turns about its mass centre".to_owned();
         faults.add(table, "reference", Mistake::Senseless { what, right: "leave it out".to_owned() });

@@ -31,7 +31,7 @@ impl<'de> Deserialize<'de> for Inertia {
             Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
             Written::Rows(rows) => rows.map(|row| row.0),
         };
-        if is_positive(&rows) {
+        if is_positive_definite(&rows) {
             Ok(Self(rows))
         } else {
             Err(D::Error::custom(format!("expected {RIGHT}, found {rows:?}")))
@@ -40,7 +40,7 @@ impl<'de> Deserialize<'de> for Inertia {
 }
 
 /// Whether a matrix is symmetric and positive definite (Sylvester's criterion).
-fn is_positive(rows: &[[f64; 3]; 3]) -> bool {
+pub(in crate::scene_file) fn is_positive_definite(rows: &[[f64; 3]; 3]) -> bool {
     let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
     let symmetric = b == d && c == g && f == h;
     let minor = a * e - b * b;

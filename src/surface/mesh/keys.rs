@@ -71,6 +71,12 @@ impl Keys {
                 return None;
             }
         };
+        let farthest = triangles.iter().flatten().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
+        if farthest * f64::EPSILON > topology.tolerance {
+            let found = format!("corners at {farthest:.3e} m, where numbers are too far apart for its triangles");
+            refuse(found, "a surface nearer to the origin");
+            return None;
+        }
         if let (Err(triangle), true) = (topology.turn_alike(), front) {
             let right = if self.sides.is_some() { "sides = 2" } else { "a surface with an inside" };
             refuse(format!("a surface that has one side only, seen at triangle {triangle}"), right);

@@ -103,6 +103,32 @@ mod tests {
     }
 
     #[test]
+    fn files_that_other_programs_wrote_give_the_same_square_of_eight_triangles() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/foreign/meshes");
+        let mut count = 0;
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if name == "readme" {
+                continue;
+            }
+            count += 1;
+            let triangles =
+                read(name, &std::fs::read(&path).unwrap()).unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+            assert_eq!(triangles.len(), 8, "{name}");
+            // Each is half of a square of 0.02 m, and looks along z.
+            for triangle in &triangles {
+                let [a, b, c] = triangle.map(Vector::from);
+                let area = (b - a).cross(c - a) * 0.5;
+                assert!((area - Vector::from([0.0, 0.0, 2e-4])).length() < 1e-10, "{name}: {area:?}");
+            }
+            let sum =
+                triangles.as_flattened().iter().fold([0.0; 3], |sum, it| [0, 1, 2].map(|axis| sum[axis] + it[axis]));
+            assert!(sum.iter().all(|part| part.abs() < 1e-7), "{name}: {sum:?}");
+        }
+        assert!(count > 15, "{count}");
+    }
+
+    #[test]
     fn damaged_vtk_files_are_refused_in_words() {
         assert!(read("a.vtp", b"<VTKFile type=\"PolyData\"").unwrap_err().0.starts_with("a file that is no VTK file"));
         assert!(read("a.ply", b"").unwrap_err().0.ends_with(".ply"));
