@@ -229,10 +229,9 @@ fn a_scene_built_in_code_is_checked_too() {
     let message = scene.build().unwrap_err().to_string();
     assert_eq!(
         message,
-        "[domain] box: particle 12 at [0.0, 0.0, 0.02] m is outside, and 4 more particles; \
-         a box that holds every centre is right\n\
-         [particles.few]: particles 12 and 13 overlap by 2.000 of the smaller radius; \
-         at most 0.1 is right ([run] max_overlap)"
+        "[domain] box: expected a box that holds every centre, found particle 12 outside at [0.0, 0.0, 0.02] m, and \
+         4 more particles\n[particles.few]: expected overlaps of at most 0.1 of the smaller radius ([run] \
+         max_overlap), found 2.000 between particles 12 and 13"
     );
 }
 
@@ -359,7 +358,7 @@ fn a_table_or_a_script_given_as_a_scene_is_one_mistake() {
     let source = Source { name: "bed.csv".to_owned(), text: table, ..Source::default() };
     assert_eq!(
         Scene::from_source(&source).unwrap_err().to_string(),
-        "bed.csv: a table of numbers found; a scene in TOML whose [particles.<name>] names this file is right"
+        "bed.csv: expected a scene in TOML whose [particles.<name>] names this file, found a table of numbers"
     );
 }
 
@@ -369,7 +368,7 @@ fn thousands_of_materials_are_refused_before_memory_is_asked_for() {
     let source = Source { name: "scene.toml".to_owned(), text, ..Source::default() };
     assert_eq!(
         Scene::from_source(&source).unwrap_err().to_string(),
-        "scene.toml, line 1, [material]: 5000 materials found; 256 at most is right"
+        "scene.toml, line 1, [material]: expected at most 256 materials, found 5000"
     );
 }
 

@@ -169,7 +169,7 @@ struct VerifyArguments {
 /// A formulation by its name.
 fn formulation(name: &str) -> Result<FormulationChoice, String> {
     let names = || FormulationChoice::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
-    FormulationChoice::named(name).ok_or_else(|| format!("one of {} is right", names()))
+    FormulationChoice::named(name).ok_or_else(|| format!("expected one of {}, found {name}", names()))
 }
 
 /// How a command ended that did not do its work.
@@ -288,7 +288,8 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
     };
     if start == Start::LastCheckpoint && arguments.overwrite {
         return Err(Ending::refused(
-            "--overwrite replaces the results that --resume goes on with; one of them is right",
+            "expected one of --resume and --overwrite, found both: --overwrite replaces the results that --resume \
+             goes on with",
         ));
     }
     stop_at_interruption()?;

@@ -138,7 +138,7 @@ impl Reader {
             let row = words.first().and_then(|id| id.parse().ok()).and_then(|id: u64| row_of.get(&id).copied());
             let Some(row) = row.filter(|_| words.len() == 4 || words.len() == VELOCITIES.len()) else {
                 let found = format!("{content:?}");
-                let right = "the number of an atom of this file, and vx vy vz wx wy wz,".to_owned();
+                let right = "the number of an atom of this file, and vx vy vz wx wy wz".to_owned();
                 self.faults.push(FileFault::at(*number, "", Mistake::Wrong { found, right }));
                 continue;
             };
@@ -160,8 +160,7 @@ impl Reader {
         let count = self.rows.lines.len();
         match self.announced {
             Some((announced, line)) if announced != count && self.faults.is_empty() => {
-                let (found, right) =
-                    (format!("{announced} atoms announced and {count}"), "as many as announced".to_owned());
+                let (found, right) = (count.to_string(), format!("{announced} atoms, as announced"));
                 self.faults.push(FileFault::at(line, "", Mistake::Wrong { found, right }));
             }
             None if count == 0 => {

@@ -36,8 +36,12 @@ pub(crate) fn read(text: &str, request: &Request) -> Result<(Rows, Option<String
         let steps: Vec<String> =
             snapshots.iter().filter_map(|snapshot| snapshot.timestep.map(|step| step.to_string())).collect();
         let found =
-            request.timestep.map_or("no snapshot".to_owned(), |step| format!("no snapshot of time step {step}"));
-        let right = if steps.is_empty() { "a dump file".to_owned() } else { format!("one of {}", steps.join(", ")) };
+            request.timestep.filter(|_| !steps.is_empty()).map_or("no snapshot".to_owned(), |step| step.to_string());
+        let right = if steps.is_empty() {
+            "a dump file".to_owned()
+        } else {
+            format!("one of the time steps {}", steps.join(", "))
+        };
         return Err(vec![FileFault::whole(Mistake::Wrong { found, right })]);
     };
     chosen.read(request).map(|rows| (rows, units))
@@ -114,8 +118,10 @@ impl Snapshot<'_> {
             return Err(non_spherical(line));
         }
         if self.announced != Some(self.atoms.len()) {
-            let found = format!("{} lines of atoms", self.atoms.len());
-            let right = self.announced.map_or("ITEM: NUMBER OF ATOMS".to_owned(), |count| count.to_string());
+            let found = self.announced.map_or("none before the atoms".to_owned(), |_| self.atoms.len().to_string());
+            let right = self
+                .announced
+                .map_or("ITEM: NUMBER OF ATOMS".to_owned(), |count| format!("{count} lines of atoms, as announced"));
             let line = Some(line).filter(|line| *line > 0).or(self.last);
             return Err(vec![FileFault { line, column: String::new(), mistake: Mistake::Wrong { found, right } }]);
         }
@@ -198,8 +204,7 @@ impl Snapshot<'_> {
                 }
             }
             if count != names.len() || text.split_whitespace().count() != count {
-                let (found, right) =
-                    (format!("{} numbers", text.split_whitespace().count()), format!("{}", names.len()));
+                let (found, right) = (text.split_whitespace().count().to_string(), format!("{} numbers", names.len()));
                 faults.push(FileFault::at(*line, "", Mistake::Wrong { found, right }));
             }
             if faults.len() >= REPORTED {

@@ -223,7 +223,7 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
 fn has_room(count: usize, each: u64) -> Result<(), Vec<FileFault>> {
     let needed = each.saturating_mul(count as u64);
     memory::lacking(needed).map_or(Ok(()), |right| {
-        let found = format!("{count} particles, which need about {:.2} GB of memory,", needed as f64 / 1e9);
+        let found = format!("{count} particles, which need about {:.2} GB of memory", needed as f64 / 1e9);
         Err(vec![FileFault::whole(Mistake::Wrong { found, right })])
     })
 }
@@ -328,16 +328,14 @@ fn needed(found: &[String], line: Option<usize>) -> Result<(), Vec<FileFault>> {
 
 /// Refuses particles that crossed the face of a periodic cell, or the cell itself.
 fn periodic(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::NotThere {
-        what: "periodic cells",
-        instead: "positions in a box with fixed or shrink-wrapped faces are",
-    };
+    let mistake =
+        Mistake::NotThere { what: "periodic cells", instead: "positions in a box with fixed or shrink-wrapped faces" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 
 /// Refuses bodies that are not spheres.
 fn non_spherical(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres are" };
+    let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 

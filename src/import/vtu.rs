@@ -85,6 +85,6 @@ fn finite(values: Vec<f64>, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "points of a VTK file (.vtu, .vtp, .vtk), plain or packed by zlib or lz4,".to_owned();
+    let right = "points of a VTK file (.vtu, .vtp, .vtk), plain or packed by zlib or lz4".to_owned();
     vec![FileFault::whole(Mistake::Wrong { found, right })]
 }

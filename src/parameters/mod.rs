@@ -128,8 +128,8 @@ mod tests {
     #[test]
     fn a_number_out_of_range_is_refused_in_the_words_of_the_scene() {
         let refused = |range: &Range, value: f64| range.check(value).unwrap_err();
-        assert_eq!(refused(&NON_NEGATIVE, -0.1), "-0.1 found; a number of 0 or above is right");
-        assert_eq!(refused(&SAFETY, 1.0), "1.0 found; a number above 0 and below 1 is right");
+        assert_eq!(refused(&NON_NEGATIVE, -0.1), "expected a number of 0 or above, found -0.1");
+        assert_eq!(refused(&SAFETY, 1.0), "expected a number above 0 and below 1, found 1.0");
         for row in ROWS {
             let Range { minimum, maximum, .. } = row.range;
             for bound in minimum.into_iter().chain(maximum) {

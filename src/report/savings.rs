@@ -54,7 +54,7 @@ fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
     let (safety, stable) = (crate::scene::Run::SAFETY, present.state().clock.stable);
     let part = step / (safety * stable);
-    (part < SHORT).then(|| {
+    (stable.is_finite() && part < SHORT).then(|| {
         format!(
             "[run] step = {step:e}: {:.3} of the stable one; \"auto\" makes {:.2} times as many steps at the start",
             step / stable,

@@ -74,7 +74,7 @@ pub enum ResumeError {
         source: SnapshotError,
     },
     /// It is not a checkpoint.
-    #[error("{}: is not a checkpoint; a file that run or settle has written is right", path.display())]
+    #[error("{}: expected a checkpoint that run or settle has written, found something else", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -104,7 +104,10 @@ pub enum ResumeError {
         time: f64,
     },
     /// A run of this scene never stops at its time.
-    #[error("the checkpoint is at t = {time} s, where a run of this scene writes nothing; {nearest} s would be right")]
+    #[error(
+        "expected a checkpoint where a run of this scene writes, as at t = {nearest} s, found one at t = {time} \
+             s"
+    )]
     Between {
         /// Time of the checkpoint \[s\].
         time: f64,
@@ -113,8 +116,8 @@ pub enum ResumeError {
     },
     /// Rows that were there when the checkpoint was written are missing.
     #[error(
-        "{}: {found} rows found; a run that is continued at t = {time} s has {expected}; \
-         take another folder with -o to begin a new file", path.display()
+        "{}: expected {expected} rows in a run that is continued at t = {time} s, found {found}; take another \
+         folder with -o to begin a new file", path.display()
     )]
     Rows {
         /// The file.
@@ -183,7 +186,7 @@ pub enum InputsError {
         column: String,
     },
     /// A field is not a number.
-    #[error("{}, line {line}, {column}: {found:?} found; a finite number is right", path.display())]
+    #[error("{}, line {line}, {column}: expected a finite number, found {found:?}", path.display())]
     Number {
         /// The file.
         path: PathBuf,
@@ -205,16 +208,16 @@ pub enum InputsError {
         source: InterfaceError,
     },
     /// A time out of order.
-    #[error("{}, line {line}: time {time:?} found; {right} is right", path.display())]
+    #[error("{}, line {line}: expected {right}, found {found}", path.display())]
     Time {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// The time \[s\].
-        time: f64,
         /// What would be right.
         right: &'static str,
+        /// What was found.
+        found: String,
     },
 }
 

@@ -70,29 +70,29 @@ impl Inputs {
                 let refused = |source| InputsError::Refused { path: path.to_owned(), line, source };
                 interface.check(*index, *value).map_err(refused)?;
             }
-            table.add(now, &row).map_err(|right| InputsError::Time {
+            table.add(now, &row).map_err(|(right, found)| InputsError::Time {
                 path: path.to_owned(),
                 line,
-                time: now,
                 right,
+                found,
             })?;
         }
         Ok(table)
     }
 
-    /// Takes a row; otherwise what would be right.
-    fn add(&mut self, time: f64, row: &[f64]) -> Result<(), &'static str> {
+    /// Takes a row; otherwise what would be right and what was found.
+    fn add(&mut self, time: f64, row: &[f64]) -> Result<(), (&'static str, String)> {
         if time == 0.0 && self.times.len() == 1 {
             for (column, value) in self.columns.iter_mut().zip(row) {
                 if column.is_place && *value != 0.0 {
-                    return Err("displacement 0 at time 0");
+                    return Err(("displacement 0 at time 0", format!("{value:?}")));
                 }
                 column.values[0] = *value;
             }
             return Ok(());
         }
         if self.times.last().is_some_and(|last| time <= *last) {
-            return Err("a time after that of the line before, or 0 in the first");
+            return Err(("a time after that of the line before, or 0 in the first", format!("{time:?}")));
         }
         self.times.push(time);
         for (column, value) in self.columns.iter_mut().zip(row) {

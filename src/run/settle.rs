@@ -204,8 +204,8 @@ fn why_not(simulation: &Simulation) -> String {
         && scene.gravity != [0.0; 3]
     {
         return format!(
-            "[damping.{}] gravity_damped = false: what it leaves of the load is not the whole load, so that bodies swing \
-             about rest; gravity_damped = true while it settles is right",
+            "[damping.{}]: expected gravity_damped = true while it settles, found false, which leaves a part of the \
+             load undamped, so that bodies swing about rest",
             damping.name
         );
     }

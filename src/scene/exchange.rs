@@ -121,10 +121,10 @@ impl Known<'_> {
         let boundary = &self.boundaries[place];
         if boundary.shifting_plane().is_none() {
             let turns = if boundary.shape.plane().is_some() { " that turns" } else { "" };
-            let found = format!("[boundary.{found}], a {}{turns},", boundary.shape.words());
+            let found = format!("[boundary.{found}], a {}{turns}", boundary.shape.words());
             refuse(
                 "beyond",
-                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side,".to_owned() },
+                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side".to_owned() },
             );
             return None;
         }
@@ -175,8 +175,8 @@ impl Outlet {
                 return None;
             }
             (Some(_), Some(_)) => {
-                let (what, right) = ("region and beyond".to_owned(), "one of them is right".to_owned());
-                refuse("", Mistake::Senseless { what, right });
+                let (found, right) = ("both".to_owned(), "one of region and beyond".to_owned());
+                refuse("", Mistake::Wrong { found, right });
                 return None;
             }
         };

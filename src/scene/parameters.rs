@@ -54,7 +54,7 @@ impl Range {
     pub fn check(&self, value: f64) -> Result<(), String> {
         (self.check)(value)?;
         match self.maximum.filter(|&most| value > most) {
-            Some(most) => Err(format!("{value:?} found; at most {most:?} is right")),
+            Some(most) => Err(format!("expected at most {most:?}, found {value:?}")),
             None => Ok(()),
         }
     }

@@ -133,7 +133,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     }
     let length = about.len();
     if let Some(right) = memory::lacking(length) {
-        return Err(format!("it has {:.2} GB; {right} is right", length as f64 / 1e9));
+        return Err(format!("expected {right}, found {:.2} GB", length as f64 / 1e9));
     }
     fs::read(path).map_err(|error| reason(&error))
 }

@@ -52,7 +52,7 @@ pub enum SnapshotError {
     #[error("not a cograin state: the first bytes are other than \"cograin\"")]
     Foreign,
     /// Another layout of what stands before the payload.
-    #[error("state of layout version {found}; this program reads version {expected}")]
+    #[error("expected a state of layout version {expected}, found one of version {found}")]
     Version {
         /// Version in the bytes.
         found: u32,
@@ -61,7 +61,8 @@ pub enum SnapshotError {
     },
     /// Of a program whose state has other fields.
     #[error(
-        "state of another build of this program, which keeps other numbers of particles, contacts or bonds: schema {found:016x} found, {expected:016x} is right"
+        "expected the schema {expected:016x} of particles, contacts and bonds, found {found:016x}, that of another \
+         build of this program"
     )]
     Schema {
         /// Schema in the bytes.
@@ -73,7 +74,7 @@ pub enum SnapshotError {
     #[error(transparent)]
     Fault(#[from] StateFault),
     /// Another scene.
-    #[error("state of another scene: fingerprint {found:016x} found, {expected:016x} is right")]
+    #[error("expected the fingerprint {expected:016x} of this scene, found {found:016x}, that of another scene")]
     Scene {
         /// Fingerprint in the bytes.
         found: u64,

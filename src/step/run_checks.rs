@@ -82,7 +82,21 @@ impl Simulation {
     /// The step as the cause, or none that is seen.
     fn step_or_unseen(&self) -> Cause {
         let Clock { last_step: step, stable, .. } = self.state.clock;
-        self.step_as_cause().unwrap_or(Cause::Unseen { step, stable })
+        self.step_as_cause().or_else(|| self.coincident()).unwrap_or(Cause::Unseen { step, stable })
+    }
+
+    /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more.
+    fn coincident(&self) -> Option<Cause> {
+        let particles = &self.state.particles;
+        let centre = |slot: u32| {
+            let [x, y, z, _] = *particles.position.get(slot as usize)?;
+            let start = || Some(self.scene.particles.get(particles.id[slot as usize] as usize)?.position);
+            if (x + y + z).is_finite() { Some([x, y, z]) } else { start() }
+        };
+        let pairs = self.state.contacts.iter().flat_map(|list| list.first.iter().zip(&list.second));
+        let (&i, &j) = pairs.into_iter().find(|&(&i, &j)| centre(i).is_some() && centre(i) == centre(j))?;
+        let [first, second] = [i, j].map(|slot| self.number(particles.id[slot as usize]));
+        Some(Cause::Coincident { first, second })
     }
 
     /// Stops where particles are so deep in each other that no law holds, and before energy comes out of nothing.
@@ -162,7 +176,7 @@ impl Simulation {
         let relative = Vector::from(self.state.particles.velocity[slot as usize])
             - Vector::from(self.state.boundaries[at].velocity);
         let closing = -relative.dot(normal.into());
-        if closing > 0.0 { Cause::Impact { speed: closing } } else { Cause::Load }
+        self.impact_or_load(closing, self.state.particles.position[slot as usize][3])
     }
 
     /// The number of a particle by its index; of none, that of the next to come.

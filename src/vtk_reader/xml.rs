@@ -6,7 +6,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
 /// What is no file of this kind.
-const DAMAGED: &str = "a file that is no VTK file, or a damaged one,";
+const DAMAGED: &str = "a file that is no VTK file, or a damaged one";
 
 /// Parts of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -176,14 +176,14 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
         (
             "csv",
             format!("{particles}file = \"many.csv\"\n"),
-            "400000 particles, which need about 0.24 GB of memory, found; what fits into",
+            ", found 400000 particles, which need about 0.24 GB of memory",
         ),
         (
             "vtu",
             format!("{particles}file = \"packed.vtu\"\n"),
             "data that need about 1.20 GB of memory instead of what fits into",
         ),
-        ("stl", mesh, "large.stl: triangles that need about 0.12 GB of memory found; what fits into"),
+        ("stl", mesh, ", found triangles that need about 0.12 GB of memory"),
     ] {
         let said = refused_within(
             if name == "stl" { 120_000 } else { 200_000 },

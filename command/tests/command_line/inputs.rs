@@ -50,12 +50,12 @@ fn a_table_of_inputs_that_does_not_fit_is_refused_with_its_line() {
         ),
         (
             "time,floor.displacement.z\n1e-3,nan\n",
-            "line 2, floor.displacement.z: \"nan\" found; a finite number is right",
+            "line 2, floor.displacement.z: expected a finite number, found \"nan\"",
         ),
-        ("time,floor.displacement.z\n0,1e-3\n", "line 2: time 0.0 found; displacement 0 at time 0 is right"),
+        ("time,floor.displacement.z\n0,1e-3\n", "line 2: expected displacement 0 at time 0, found 0.001"),
         (
             "time,floor.displacement.z\n2e-3,0\n1e-3,0\n",
-            "line 3: time 0.001 found; a time after that of the line before, or 0 in the first is right",
+            "line 3: expected a time after that of the line before, or 0 in the first, found 0.001",
         ),
     ];
     for (table, expected) in cases {

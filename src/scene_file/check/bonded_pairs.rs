@@ -51,9 +51,11 @@ fn idle_at_plane(scene: &SceneDraft, bond: &Bond, distance: f64, plane: Boundary
     if closest.is_some_and(|closest| closest < distance) {
         return None;
     }
-    let found = closest.map_or_else(|| "no centre".to_owned(), |closest| format!("{closest:.3e}"));
-    let what = format!("bonds nobody to the plane; {found} is the closest, twice the distance of its centre");
-    let mistake = Mistake::Senseless { what, right: "more than that is right".to_owned() };
+    let right = closest.map_or_else(
+        || "a particle in front of the plane".to_owned(),
+        |closest| format!("a distance above {closest:.3e}, twice that of the closest centre from the plane"),
+    );
+    let mistake = Mistake::Wrong { found: format!("{distance:.3e}"), right };
     Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
 }
 

@@ -74,7 +74,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
 
 /// Pairs cannot be listed where one of the two bodies is a plane.
 fn listed_at_plane() -> Mistake {
-    let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
+    let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane".to_owned());
     Mistake::Wrong { found, right }
 }
 
@@ -82,11 +82,11 @@ fn listed_at_plane() -> Mistake {
 fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
     match (step, keys.needs_given_step(), keys.shortest_relaxation()) {
         (Step::Automatic { .. }, Some(reason), _) => {
-            let what = format!("\"auto\" does not go with [{table}]: {reason}");
-            faults.add("run", "step", Mistake::Senseless { what, right: "a step in seconds is right".to_owned() });
+            let found = format!("\"auto\" beside [{table}]: {reason}");
+            faults.add("run", "step", Mistake::Wrong { found, right: "a step in seconds".to_owned() });
         }
         (Step::Given(step), _, Some(shortest)) if step > shortest => {
-            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}],");
+            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}]");
             faults.add("run", "step", Mistake::Wrong { found: format!("{step:?}"), right });
         }
         _ => {}
@@ -123,7 +123,7 @@ fn between(
             }
             Some(_) => Mistake::Wrong {
                 found: format!("\"{name}\""),
-                right: "two particle sets, or a particle set and a plane that neither turns nor conveys,".to_owned(),
+                right: "two particle sets, or a particle set and a plane that neither turns nor conveys".to_owned(),
             },
             None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
         };
@@ -173,8 +173,8 @@ fn listed(
     sorted.sort_unstable();
     if let Some([a, b]) = sorted.windows(2).find(|two| two[0] == two[1]).map(|two| two[0]) {
         let id = |index: u32| born.particles[index as usize].id.0;
-        let (what, right) = (format!("{} and {} are bonded twice", id(a), id(b)), "once is right".to_owned());
-        faults.add(table, key, Mistake::Senseless { what, right });
+        let (found, right) = (format!("{} and {} twice", id(a), id(b)), "each pair once".to_owned());
+        faults.add(table, key, Mistake::Wrong { found, right });
     }
     (faults.count() == before).then_some(pairs)
 }
@@ -215,7 +215,7 @@ fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut F
     if let Some([a, b]) = bond.pairs.iter().find(far) {
         let found =
             format!("{:.3e} between {} and {}", distance(particles, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
-        let right = "listed pairs nearer than that".to_owned();
+        let right = "listed pairs nearer than this distance".to_owned();
         faults.add(table, "create_distance", Mistake::Wrong { found, right });
     }
 }

@@ -73,9 +73,12 @@ fn alone(boundary: &Boundary, faults: &mut Faults) {
     nodes(boundary.nodes, axes, shape, &table, faults);
     let driven = boundary.nodes != NodeMotion::Rigid;
     if boundary.input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {
-        let what = format!("quadratic motion of {}", if driven { "nodes" } else { "rotations" });
-        let right = "ramp, smooth or hold; quadratic is for displacements of the whole boundary".to_owned();
-        faults.add(&table, "input", Mistake::Senseless { what, right });
+        let found = format!(
+            "\"quadratic\", which is for displacements of the whole boundary, with driven {}",
+            if driven { "nodes" } else { "rotations" }
+        );
+        let right = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
+        faults.add(&table, "input", Mistake::Wrong { found, right });
     }
     body::lacks(boundary, &table, faults);
 }
@@ -86,8 +89,8 @@ fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table:
         return;
     }
     if shape.vertices().is_empty() {
-        let (what, right) = (format!("a {} has no nodes", shape.key()), "a mesh has nodes".to_owned());
-        faults.add(table, "nodes", Mistake::Senseless { what, right });
+        let (found, right) = (format!("a {}, which has none", shape.key()), "a mesh, which has nodes".to_owned());
+        faults.add(table, "nodes", Mistake::Wrong { found, right });
     } else if let Some(axis) = axes.iter().position(|axis| !axis.is_fixed() || axis.conveys() != 0.0) {
         let what = format!("driven nodes, and {} moves, too", AxisMotion::WORDS[axis]);
         let right = "leave motion out: the displacements of the nodes say it all".to_owned();

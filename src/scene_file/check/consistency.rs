@@ -68,8 +68,8 @@ fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding>
         return None;
     }
     let message = format!(
-        "a policy that suppresses contacts found, but the normal model of [contact.{}], {}, adheres or remembers; \
-         \"parallel\", or another normal model, is right",
+        "expected \"parallel\", or another normal model of [contact.{}] than {}, which adheres or remembers, found \
+         a policy that suppresses contacts",
         law.name,
         law.normal.name()
     );
@@ -121,16 +121,15 @@ fn numbers(scene: &SceneDraft) -> Vec<Finding> {
     let mut findings = Vec::new();
     if let Some(particle) = scene.particles.iter().find(light) {
         let (id, radius, mass, density) = (particle.id.0, particle.radius, particle.mass(), particle.density);
-        let what =
-            format!("particle {id} of radius {radius:?} m and density {density:?} kg/m³ has a mass of {mass:?} kg");
-        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308) are right".to_owned();
-        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+        let found = format!("{mass:?} kg of particle {id} of radius {radius:?} m and density {density:?} kg/m³");
+        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308)".to_owned();
+        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
     }
     if let Some(particle) = scene.particles.iter().find(far) {
         let (id, position, radius) = (particle.id.0, particle.position, particle.radius);
-        let what = format!("particle {id} of radius {radius:?} m is at {position:?} m, where numbers are too coarse");
-        let right = format!("at most {:.1e} m from the origin is right", COARSE * radius / f64::EPSILON);
-        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+        let found = format!("particle {id} of radius {radius:?} m at {position:?} m, where numbers are too coarse");
+        let right = format!("particles at most {:.1e} m from the origin", COARSE * radius / f64::EPSILON);
+        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
     }
     findings
 }

@@ -130,16 +130,16 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
     let defaults = Run::default();
     let accuracy = table.accuracy.unwrap_or(defaults.accuracy);
     if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
-        let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
+        let (what, right) = ("a given step has no safety", "write step = \"auto\", or leave safety out");
         faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
         let (what, right) =
-            ("an automatic step is never above the stable one", "a given step, or leave allow_unstable out");
+            ("an automatic step is never above the stable one", "give a step, or leave allow_unstable out");
         faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     if table.plane_particles.is_some() && table.plane.is_none() {
-        let (what, right) = ("plane_particles needs a plane", "plane = \"xz\" beside it, or leave it out");
+        let (what, right) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
         faults.add("run", "plane_particles", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     Run {

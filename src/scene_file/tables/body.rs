@@ -27,15 +27,15 @@ impl<'de> Deserialize<'de> for Inertia {
         }
         /// What is right.
         const RIGHT: &str = "[xx, yy, zz] or three rows of a symmetric, positive definite matrix [kg m²]";
-        let rows =
-            match Written::deserialize(deserializer).map_err(|_| D::Error::custom(format!("{RIGHT} is right")))? {
-                Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
-                Written::Rows(rows) => rows.map(|row| row.0),
-            };
+        let other = |_| D::Error::custom(format!("expected {RIGHT}, found something else"));
+        let rows = match Written::deserialize(deserializer).map_err(other)? {
+            Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
+            Written::Rows(rows) => rows.map(|row| row.0),
+        };
         if is_positive_definite(&rows) {
             Ok(Self(rows))
         } else {
-            Err(D::Error::custom(format!("{rows:?} found; {RIGHT} is right")))
+            Err(D::Error::custom(format!("expected {RIGHT}, found {rows:?}")))
         }
     }
 }

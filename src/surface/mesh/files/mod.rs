@@ -49,7 +49,7 @@ fn has_room(each: u64, count: usize) -> Result<(), Wrong> {
 fn add_polygon(corners: &[[f64; 3]], face: usize, triangles: &mut Triangles) -> Result<(), Wrong> {
     let at = |corner: usize| Vector::from(corners[corner % corners.len()]);
     let start = match corners.len() {
-        0..=2 => return Err((format!("face {face} of {} corners", corners.len()), "three or more".to_owned())),
+        0..=2 => return Err((format!("face {face} of {} corners", corners.len()), "three corners or more".to_owned())),
         4 if (at(3) - at(1)).length() < (at(2) - at(0)).length() => 1,
         _ => 0,
     };
@@ -60,7 +60,7 @@ fn add_polygon(corners: &[[f64; 3]], face: usize, triangles: &mut Triangles) -> 
     let flat = |normal: Vector| normal.dot(sum) >= (1.0 - FLAT) * normal.length() * sum.length();
     if corners.len() > 3 && !fan.iter().map(normal).all(flat) {
         let found = format!("face {face}, whose {} corners are not convex in one plane", corners.len());
-        return Err((found, "triangles instead".to_owned()));
+        return Err((found, "triangles".to_owned()));
     }
     triangles.extend(fan.iter().map(|corners| corners.map(Vector::to_array)));
     Ok(())

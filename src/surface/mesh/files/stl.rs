@@ -58,7 +58,10 @@ fn ascii(text: &str) -> Result<Triangles, (String, String)> {
             }
             Some("endloop") => {
                 let [a, b, c] = corners[..] else {
-                    return Err((format!("line {line}: a loop of {} vertices", corners.len()), "three".to_owned()));
+                    return Err((
+                        format!("line {line}: a loop of {} vertices", corners.len()),
+                        "loops of three".to_owned(),
+                    ));
                 };
                 triangles.push([a, b, c]);
                 corners.clear();
