@@ -33,7 +33,7 @@ pub(super) struct ChartArguments {
 pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
     if arguments.list {
         for Chart { name, shows, seconds, .. } in CHARTS {
-            say(format_args!("{name:<16} {seconds:>5} s  {shows}"));
+            say(format_args!("{name:<16} {seconds:>5} s  {shows}"))?;
         }
         return Ok(());
     }
@@ -41,15 +41,15 @@ pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
         .map_err(|error| Ending::failed(format_args!("{}: {error}", arguments.output.display())))?;
     let charts = if arguments.all { CHARTS.iter().map(Wanted::Named).collect() } else { chosen(arguments)? };
     let cost: f64 = charts.iter().map(Wanted::seconds).sum();
-    say(format_args!("about {cost:.0} s on one core"));
+    say(format_args!("about {cost:.0} s on one core"))?;
     for chart in charts {
-        say(chart.headline());
+        say(chart.headline())?;
         let drawing = chart.draw().map_err(Ending::failed)?;
         for path in drawing.write(&arguments.output, chart.name()).map_err(Ending::failed)? {
-            say(format_args!("  wrote {}", path.display()));
+            say(format_args!("  wrote {}", path.display()))?;
         }
         for note in &drawing.notes {
-            say(format_args!("  {note}"));
+            say(format_args!("  {note}"))?;
         }
     }
     Ok(())

@@ -44,6 +44,34 @@ pub enum Refusal {
         /// Where they were to be.
         folder: PathBuf,
     },
+    /// A file that is not to be replaced.
+    #[error("{}: expected a name that is not there yet, found a file; --overwrite replaces it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder where a file is to be written.
+    #[error("{}: expected a file or a name that is not there yet, found a folder", path.display())]
+    NotAFile {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that the command reads itself.
+    #[error("{}: expected a file that the command does not read itself, found {}", path.display(), read.display())]
+    Read {
+        /// The file that was to be written or replaced.
+        path: PathBuf,
+        /// The same file as the command reads it.
+        read: PathBuf,
+    },
+    /// Files of the folder have names of results, and no run has written them.
+    #[error("{}: expected results that a run has written, found {file} of another kind; move it away", folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the file.
+        file: String,
+    },
     /// Another process writes into the folder.
     #[error("{}: in use by {holder}; another folder is right, or the same one when that run has ended", folder.display())]
     InUse {

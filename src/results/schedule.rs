@@ -141,7 +141,7 @@ impl Schedule {
         for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
             let Some(interval) = interval else { continue };
             let count = end / interval;
-            if count > most {
+            if count > most * (1.0 + SAME) {
                 return Err(Refusal::Counts { scene: scene_name.to_owned(), key, interval, count, what, end, most });
             }
         }
