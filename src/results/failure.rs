@@ -176,8 +176,10 @@ pub enum Failure {
         folder: PathBuf,
     },
     /// Someone asked to stop before the packing had come to rest.
-    #[error("interrupted after {steps} steps {}; nothing was written", reached(*ratio))]
+    #[error("interrupted after {steps} steps {}; {}", reached(*ratio), going_on(kept))]
     SettlingInterrupted {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
@@ -186,9 +188,12 @@ pub enum Failure {
     /// The packing will not come to rest.
     #[error(
         "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
-         the mean force, above settle_tolerance, {tolerance:e}: {why}"
+         the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
+        going_on(kept)
     )]
     Restless {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -201,8 +206,10 @@ pub enum Failure {
         why: String,
     },
     /// The packing did not come to rest.
-    #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
+    #[error("not settled after {steps} steps (t = {time} s): {}; {}", unsettled(*ratio, *tolerance), going_on(kept))]
     Unsettled {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -228,6 +235,11 @@ impl From<ResumeError> for Failure {
     fn from(error: ResumeError) -> Self {
         Self::Refused(error.into())
     }
+}
+
+/// Where a packing that is not at rest is kept, and how to go on with it.
+fn going_on(kept: &std::path::Path) -> String {
+    format!("{} holds the state so far: settle --from it to go on", kept.display())
 }
 
 /// How far settling had come.

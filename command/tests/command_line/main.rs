@@ -4,6 +4,7 @@ mod broken_off;
 mod checks;
 mod folders;
 mod ground;
+mod hostile;
 mod inputs;
 mod protocols;
 mod refusals;
