@@ -248,12 +248,21 @@ impl Summary {
     }
 }
 
+/// A number of things, in words.
+fn counted(number: u64, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
 impl std::fmt::Display for Summary {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "{} steps to t = {} s, {} particles, {:.0} contacts on average, {:.3} s wall",
-            self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
+            "{} to t = {} s, {}, {:.0} contacts on average, {:.3} s wall",
+            counted(self.session_steps, "step"),
+            self.time,
+            counted(self.counts.particles as u64, "particle"),
+            self.counts.mean_contacts,
+            self.wall_time
         )?;
         let costs = [
             (self.ns_per_interaction_and_step, "contact or bond"),
