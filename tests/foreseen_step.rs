@@ -4,17 +4,9 @@
 //! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
 //! the messages blamed the step where speed or load was the cause.
 
+use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::{Cause, RunError, Simulation};
-use std::sync::Arc;
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
+use cograin::step::{Cause, RunError};
 
 /// An elastic sphere at rest and a plane that comes at it as this motion says.
 fn plane_hits_sphere(run: &str, motion: &str) -> String {

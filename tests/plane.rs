@@ -2,8 +2,9 @@
 //! a particle leaves the plane.
 
 use crate::every_law::contact_laws;
+use crate::support::read;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::step::{RunError, Simulation};
 use std::sync::Arc;
 
@@ -71,15 +72,9 @@ motion = { free = ["x", "z", "rotation.y"] }
 MORE
 "#;
 
-/// The scene of a text.
-fn scene(text: &str) -> Result<Scene, String> {
-    let source = Source { name: "scene.toml".into(), text: text.to_owned(), files: Default::default() };
-    Scene::from_source(&source).map_err(|errors| errors.to_string())
-}
-
 /// The bed with these lines in `[run]` and more tables.
 fn bed(run: &str, more: &str) -> Scene {
-    scene(&BED.replace("RUN", run).replace("MORE", more)).unwrap_or_else(|errors| panic!("{errors}"))
+    read(&BED.replace("RUN", run).replace("MORE", more)).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// The whole state after some communication steps.
@@ -130,7 +125,7 @@ fn flat(text: &str, run: &str, surfaces: &str) -> String {
 
 /// State after some communication steps, the last of which is too short for rows of its own.
 fn flat_state(text: &str, width: Width) -> u64 {
-    let mut simulation = Simulation::new(Arc::new(scene(text).unwrap_or_else(|errors| panic!("{errors}")))).unwrap();
+    let mut simulation = Simulation::new(Arc::new(read(text).unwrap_or_else(|errors| panic!("{errors}")))).unwrap();
     let turns = !(text.contains("tangential.none") && text.contains("rolling.none"));
     assert_eq!(simulation.spares_third_dimension(), turns && text.contains("plane = \"xz\""));
     simulation.set_width(width);
@@ -229,7 +224,7 @@ fn a_disc_rolls_down_a_slope_with_its_own_mass_and_inertia() {
     // a = g sin θ / (1 + I/(m r²)): I/(m r²) is 1/2 of a disc about its axis, 2/5 of a sphere.
     let cases = [("plane_particles = \"discs\"", 0.5, 1.0 / 100.0 * 1200.0), ("", 0.4, 4.0 / 3000.0 * 1200.0)];
     for (word, share, mass) in cases {
-        let scene = scene(&rolling(&format!("plane = \"xz\"\n{word}"))).unwrap();
+        let scene = read(&rolling(&format!("plane = \"xz\"\n{word}"))).unwrap();
         let mut simulation = Simulation::new(Arc::new(scene)).expect("it starts");
         let particles = &simulation.state().particles;
         let [found, inertia] = [particles.velocity[0][3], particles.angular_velocity[0][3]];
@@ -251,7 +246,7 @@ fn a_run_stops_where_a_particle_leaves_the_plane() {
     // A wall that is dragged along y takes the roller along.
     let dragged = |axis: &str| {
         let text = rolling("plane = \"xz\"") + &format!("motion = {{ prescribed = {{ {axis} = 0.1 }} }}\n");
-        let mut simulation = Simulation::new(Arc::new(scene(&text).unwrap())).expect("it starts");
+        let mut simulation = Simulation::new(Arc::new(read(&text).unwrap())).expect("it starts");
         simulation.advance(0.1)
     };
     assert_eq!(dragged("x"), Ok(()));

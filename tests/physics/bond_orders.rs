@@ -4,8 +4,9 @@
 //! `cargo test --test library bond_orders -- --nocapture` prints the errors.
 
 use super::orders::{Case, order};
+use crate::support::checked;
 use cograin::contact::Scheme;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 
 /// Three bonded spheres, of which the last may be bonded to a plane, stretched, sheared, bent and twisted as they spin.
 const SCENE: &str = r#"
@@ -50,8 +51,7 @@ fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> Scene {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" });
     let text = text.replace("LAW", LAW).replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
     let text = text.replace("RATIO", &format!("{ratio:?}"));
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    checked(&text)
 }
 
 /// The motions: formulations and damping ratios.
@@ -70,12 +70,7 @@ fn split(formulation: &str, ratio: f64, foot: bool) -> Scene {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" }).replace("LAW", LAW);
     let text = text.replace("SCHEME", "engine").replace("FORMULATION", formulation);
     let text = text.replace("normal_torque = RATIO,", "normal_torque = RATIO, integration = \"split\",");
-    let source = Source {
-        name: "scene.toml".into(),
-        text: text.replace("RATIO", &format!("{ratio:?}")),
-        files: Default::default(),
-    };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    checked(&text.replace("RATIO", &format!("{ratio:?}")))
 }
 
 #[test]

@@ -8,11 +8,12 @@
 mod linearised;
 mod scenes;
 
+use crate::support::checked;
 use cograin::scene::{Scene, Step};
 use cograin::step::Simulation;
 use scenes::{
     Sphere, block, bonds, contacts, cubic, damped_hertz, damped_hooke, dashpots, face_centred, free, hertz, hexagonal,
-    near_faces, packing, scene,
+    near_faces, packing,
 };
 use std::sync::Arc;
 
@@ -60,7 +61,7 @@ fn ratio_on_the_engine(scene: &Scene, stated: f64) -> f64 {
 /// The stated step is within its range of that of the linearised time step.
 #[allow(clippy::print_stdout, reason = "the figures of docs/stability.md are what this test prints with --nocapture")]
 fn holds(name: &str, text: &str) -> f64 {
-    let scene = scene(text);
+    let scene = checked(text);
     let stated = stated(&scene);
     let ratio = stated / linearised::stable_step(text, stated);
     println!("{name}: stated over true {ratio:.3}");
@@ -71,7 +72,7 @@ fn holds(name: &str, text: &str) -> f64 {
 /// The same, and the engine itself says the same.
 fn holds_on_the_engine(name: &str, text: &str) {
     let linearised = holds(name, text);
-    let scene = scene(text);
+    let scene = checked(text);
     let tried = ratio_on_the_engine(&scene, stated(&scene));
     // It is known to half a per cent, and what grows slowly is not seen within its time steps.
     assert!((tried / linearised - 1.0).abs() < 0.01, "{name}: {tried:.3} by trying, {linearised:.3} linearised");
@@ -117,7 +118,7 @@ fn of_predicted_contact_dashpots() {
         );
         let text = block(&spheres, near_faces(&spheres, 1.1e-3), &contacts("hooke_stiffness", &pair));
         let text = text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n");
-        let scene = scene(&text);
+        let scene = checked(&text);
         let tried = ratio_on_the_engine(&scene, stated(&scene));
         assert!((0.88..=1.005).contains(&tried), "predicted contact dashpots, ratio {ratio}: {tried:.3}");
     }
@@ -147,7 +148,7 @@ fn of_predicted_bond_dashpots() {
     for ratio in [0.3, 1.0, 3.0] {
         for spheres in [cubic(2, 2e-3)[..2].to_vec(), cubic(3, 2e-3)] {
             let text = block(&spheres, free, &bonds(&dashpots(ratio)));
-            let scene = scene(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
+            let scene = checked(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
             let tried = ratio_on_the_engine(&scene, stated(&scene));
             let what = format!("predicted bond dashpots, {} spheres, ratio {ratio}", spheres.len());
             assert!((0.88..=1.005).contains(&tried), "{what}: {tried:.3}");
@@ -165,14 +166,14 @@ fn bonded_networks() -> [(&'static str, Vec<Sphere>); 3] {
 fn of_split_bond_dashpots_is_that_without_dashpots() {
     for (name, spheres) in bonded_networks() {
         let text = |more: &str| block(&spheres, |sphere| *sphere == spheres[0], &bonds(more));
-        let bare = scene(&text(""));
+        let bare = checked(&text(""));
         let undamped = linearised::stable_step(&text(""), stated(&bare));
         for ratio in [0.3, 1.0, 3.0] {
-            let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(ratio))));
+            let split = checked(&text(&format!("{}integration = \"split\"\n", dashpots(ratio))));
             assert_eq!(stated(&split), stated(&bare), "{name}, ratio {ratio}");
             assert!(!grows(&split, 0.97 * undamped, 4000), "{name}, ratio {ratio}: unstable below the undamped step");
             assert!(grows(&split, 1.03 * undamped, 4000), "{name}, ratio {ratio}: stable above the undamped step");
-            let acting = stated(&scene(&text(&dashpots(ratio))));
+            let acting = stated(&checked(&text(&dashpots(ratio))));
             assert!(acting < 0.8 * stated(&split), "{name}, ratio {ratio}: dashpots that act as forces");
         }
     }
@@ -193,8 +194,8 @@ fn of_split_bond_dashpots_beside_contact_dashpots_is_that_of_the_contacts() {
             let text = block(&spheres, near_faces(&spheres, 1.1e-3), &format!("{contacts}{}", soft(more)));
             text.replace("threads = 1\n", "threads = 1\nscheme = \"engine\"\n")
         };
-        let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(1.0))));
-        assert_eq!(stated(&split), stated(&scene(&text(""))));
+        let split = checked(&text(&format!("{}integration = \"split\"\n", dashpots(1.0))));
+        assert_eq!(stated(&split), stated(&checked(&text(""))));
         let tried = ratio_on_the_engine(&split, stated(&split));
         assert!((0.88..=1.005).contains(&tried), "contact dashpots, ratio {ratio}: {tried:.3}");
     }
