@@ -3,14 +3,14 @@
 //! `cargo run --release --example read_frames -- out`, after `cograin run SCENE -o out` of a scene with a `frame_interval`.
 #![allow(clippy::print_stdout, reason = "an example prints what it finds")]
 
-use cograin_vtk::IOBuffer;
-use cograin_vtk::model::{Attribute, DataSet, Piece};
 use std::error::Error;
 use std::path::{Path, PathBuf};
+use vtkio::model::{Attribute, DataSet, Piece};
+use vtkio::{IOBuffer, Vtk};
 
 /// Points and velocities of a frame, three numbers each.
 fn read(frame: &Path) -> Result<[Vec<f64>; 2], Box<dyn Error>> {
-    let DataSet::UnstructuredGrid { pieces, .. } = cograin_vtk::read(&std::fs::read(frame)?)?.data else {
+    let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&std::fs::read(frame)?[..])?.data else {
         return Err("expected an unstructured grid".into());
     };
     let [Piece::Inline(piece)] = &pieces[..] else { return Err("expected one piece".into()) };

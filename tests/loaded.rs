@@ -6,7 +6,7 @@ use cograin::state::State;
 use cograin::state::ledger::Source as Kind;
 use cograin::step::Simulation;
 
-/// The boundary that forces move: boundaries stand in the order of their names.
+/// The boundary that forces move: boundaries stand in the order of the text.
 const PLATE: BoundaryIndex = BoundaryIndex(0);
 
 /// Spheres of radius 5 mm in columns between four walls, with a plate on top.

@@ -4,9 +4,10 @@ use crate::picture::{Panel, Picture, logarithmic};
 use crate::table::Table;
 use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
-use cograin::scene::{Scene, Setting, Step};
+use cograin::scene::{Scene, SceneDraft, Setting, Step};
 use cograin::step::Simulation;
 use rayon::prelude::*;
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -56,9 +57,9 @@ struct Run {
 impl SceneChart {
     /// Reads a scene and finds out what its chart costs.
     pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
-        let (mut scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
         // The runs are made side by side, a thread each.
-        scene.run.threads = Some(1);
+        let scene = scene.with_threads(NonZeroUsize::new(1));
         let end = scene.run.end.ok_or(ChartError::NoEnd)?;
         let rows = (end / scene.output.history_interval.unwrap_or(end / ROWS)).ceil();
         let mut chart = Self { scene: Arc::new(scene), end, interval: end / rows, wanted, seconds: 0.0 };
@@ -89,18 +90,18 @@ impl SceneChart {
     }
 
     /// The scene at one of them.
-    fn at(&self, part: f64) -> Scene {
-        let mut scene = Scene::clone(&self.scene);
-        scene.run.step = match scene.run.step {
+    fn at(&self, part: f64) -> Result<Scene, ChartError> {
+        let mut draft = SceneDraft::clone(&self.scene);
+        draft.run.step = match draft.run.step {
             Step::Automatic { .. } => Step::Automatic { safety: part },
             Step::Given(step) => Step::Given(part * step),
         };
-        scene
+        Ok(draft.build()?)
     }
 
     /// Runs it, each interval in so many communication steps.
     fn run(&self, part: f64, communication_steps: u32) -> Result<Run, ChartError> {
-        let mut simulation = Simulation::new(Arc::new(self.at(part)))?;
+        let mut simulation = Simulation::new(Arc::new(self.at(part)?))?;
         let interface = Interface::of(&self.scene);
         let begun = Instant::now();
         let mut rows = Vec::new();

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -168,7 +169,7 @@ struct VerifyArguments {
 /// A formulation by its name.
 fn formulation(name: &str) -> Result<FormulationChoice, String> {
     let names = || FormulationChoice::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
-    FormulationChoice::named(name).ok_or_else(|| format!("one of {} is right", names()))
+    FormulationChoice::named(name).ok_or_else(|| format!("expected one of {}, found {name}", names()))
 }
 
 /// How a command ended that did not do its work.
@@ -256,9 +257,12 @@ fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
 
 /// Reads a scene to be computed here. Its files are not needed any more.
 fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (mut scene, mut source) = read(&arguments.scene)?;
+    let (scene, mut source) = read(&arguments.scene)?;
     source.files.clear();
-    scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
+    let scene = match arguments.threads {
+        Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
+        None => scene,
+    };
     Ok((Arc::new(scene), source))
 }
 
@@ -284,7 +288,8 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
     };
     if start == Start::LastCheckpoint && arguments.overwrite {
         return Err(Ending::refused(
-            "--overwrite replaces the results that --resume goes on with; one of them is right",
+            "expected one of --resume and --overwrite, found both: --overwrite replaces the results that --resume \
+             goes on with",
         ));
     }
     stop_at_interruption()?;

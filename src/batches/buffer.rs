@@ -108,8 +108,6 @@ pub(crate) struct Buffer {
     pub(crate) row: [u32; ROOM],
     /// What is lost.
     pub(super) losses: Sums,
-    /// Entries whose bodies have parted since the last batch, where something goes along.
-    pub(crate) parted: Vec<u32>,
     /// How many were found.
     pub(crate) count: usize,
     /// How many are worked on now.
@@ -138,7 +136,6 @@ impl Buffer {
         }
         ROOM.with_borrow_mut(|buffer| {
             buffer.count = 0;
-            buffer.parted.clear();
             work(buffer)
         })
     }
@@ -160,7 +157,6 @@ impl Buffer {
             second: slots,
             row: slots,
             losses: Sums::default(),
-            parted: Vec::new(),
             count: 0,
             ready: 0,
         }
@@ -299,17 +295,6 @@ impl Buffer {
                 self.store(at::SECTION_AREA, place, contact.section_area);
                 self.store(at::SECTION_RADIUS, place, contact.section_radius);
             }
-        }
-    }
-
-    /// Writes the arms of a register's worth of contacts.
-    #[inline(always)]
-    pub(crate) fn put_arms<N: Lane>(&mut self, place: usize, [first, second]: [N; 2]) {
-        assert!(place + N::WIDTH <= ROOM, "contact {place}");
-        // SAFETY: there is room.
-        unsafe {
-            self.store(at::FIRST_ARM, place, first);
-            self.store(at::SECOND_ARM, place, second);
         }
     }
 

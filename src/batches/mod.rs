@@ -15,7 +15,6 @@
 //! A new kind of body needs an implementation of [`Bodies`]; its pass fills [`Batches`] and calls [`Batches::run`] on pieces
 //! of the list. Pieces that run at the same time must not write to the same body.
 
-mod along;
 mod buffer;
 mod gathered;
 mod law;
@@ -34,7 +33,6 @@ use crate::contact::{Contact, Needs};
 use crate::lanes::{self, Lane, Shared, Width};
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use crate::state::{History, Row};
-pub(crate) use along::{Along, Batch, Left};
 pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
@@ -254,8 +252,6 @@ pub(crate) struct Batches<'a, B> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
-    /// What goes along, where something does.
-    pub along: Option<&'a dyn Along>,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -319,16 +315,12 @@ impl<B: Bodies> Batches<'_, B> {
                 lanes::run(width, Touch::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
             buffer.complete::<B>(next == to);
-            let entries = &self.entries;
-            let left = self.along.map_or(Left::All, |along| along.follow(&mut Batch { entries, buffer }));
-            if left == Left::All {
-                self.meet(needs, buffer);
-                let stage = &mut self.stage(buffer);
-                for run in runs {
-                    run(width, stage);
-                }
+            self.meet(needs, buffer);
+            let stage = &mut self.stage(buffer);
+            for run in runs {
+                run(width, stage);
             }
-            if left != Left::Nothing && !matches!(manner, Some(Manner::Followed)) {
+            if !matches!(manner, Some(Manner::Followed)) {
                 lanes::run(width, Spread { bodies, needs, buffer, sum });
             }
             buffer.proceed::<B>();

@@ -85,7 +85,7 @@ impl<N: Number> SpherePair<N> {
         let mass = mass_i + mass_j;
         // Effective radius and mass share their division, which is dear.
         let shared = one / (reach * mass);
-        let half = overlap.scaled(N::splat(0.5));
+        let half = overlap * N::splat(0.5);
         let (arm_i, arm_j) = (radius_i - half, radius_j - half);
         let relative = vector(velocity_i) - vector(velocity_j);
         let normal_velocity = relative.dot(normal);

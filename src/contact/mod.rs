@@ -27,7 +27,7 @@ pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
 #[cfg(test)]
 pub use law::Offset;
-pub use law::{Acting, CoefficientPlaces, Evaluated, HistoryPlaces, Law, LawNumber, OFFSET};
+pub use law::{CoefficientPlaces, HistoryPlaces, Law, OFFSET};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
@@ -75,29 +75,6 @@ pub struct Contact<N = f64> {
 }
 
 impl<N: Number> Contact<N> {
-    /// One of nothing.
-    #[inline(always)]
-    pub(crate) fn zero() -> Self {
-        let (zero, none) = (N::zero(), Vector::zero());
-        Self {
-            overlap: zero,
-            radius: zero,
-            mass: zero,
-            section_area: zero,
-            section_radius: zero,
-            normal: none,
-            normal_velocity: zero,
-            slip: none,
-            relative_spin: none,
-            spin_sum: none,
-            turning: none,
-            per_distance: zero,
-            per_reach: zero,
-            rolling_inertia: zero,
-            pair_constant: zero,
-        }
-    }
-
     /// The contact with the slip that arms R instead of R − δ/2 give.
     #[inline(always)]
     pub fn with_undeformed_arms(&self) -> Self {

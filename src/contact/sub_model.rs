@@ -108,7 +108,7 @@ pub(crate) fn pressing_force<N: Number>(
     overlap: N,
     normal_velocity: N,
 ) -> NormalForce<N> {
-    response.tangential_damping = response.tangential_damping.scaled(switches.tangential_damping_factor);
+    response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
     let elastic = response.normal_stiffness * overlap;
     let force = (elastic - response.normal_damping * normal_velocity).max(switches.least_force);
     NormalForce { response, force, seen: force }

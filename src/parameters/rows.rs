@@ -12,6 +12,8 @@ pub(super) const POSITIVE: Range = of::<Positive>(ABOVE_ZERO, None);
 pub(super) const NON_NEGATIVE: Range = of::<NonNegative>(Some(0.0), None);
 /// A whole number of 0 or above.
 pub(super) const COUNT: Range = of::<NonNegative>(Some(0.0), Some(65535.0));
+/// 0 for no, 1 for yes.
+pub(super) const SWITCH: Range = of::<NonNegative>(Some(0.0), Some(1.0));
 /// 1 or above.
 const AT_LEAST_ONE: Range = of::<AtLeastOne>(Some(1.0), None);
 /// Above 0, at most 1.

@@ -1,51 +1,31 @@
 //! Each sub-model as functions of a row of coefficients: what a law keeps of it.
 
-use super::number::{CoefficientRow, LawNumber, numbers};
 use crate::contact::{
-    Adhesion, Cohesion, CohesionForm, Contact, HistoryRow, Needs, Normal, NormalForce, NormalForm, Onset, Response,
-    Rolling, RollingStiffness, Switches, Tangential, cohesion::TakeCohesion, normal::TakeNormal, rolling::TakeRolling,
-    tangential::TakeTangential,
+    Adhesion, Coefficients, Cohesion, CohesionForm, Contact, HistoryRow, Needs, Normal, NormalForce, NormalForm, Onset,
+    Response, Rolling, RollingStiffness, Switches, Tangential, cohesion::TakeCohesion, normal::TakeNormal,
+    rolling::TakeRolling, tangential::TakeTangential,
 };
-use crate::number::{Number, Row, Vector};
+use crate::number::{Row, Vector};
 
 /// Normal force of coefficients, contact, history and step; the history goes on, where there is one.
-pub(super) type NormalFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &mut [N; 4], N) -> NormalForce<N>;
+pub(super) type NormalFunction = fn(&[f64], &Contact, &mut Row, f64) -> NormalForce;
 
 /// Friction of coefficients, contact, normal force, history and step, and whether it is at its limit; the history goes on.
-pub(super) type TangentialFunction<N> =
-    fn(&CoefficientRow<N>, &Contact<N>, &NormalForce<N>, &mut [N; 4], N) -> (Vector<N>, <N as Number>::Mask);
+pub(super) type TangentialFunction = fn(&[f64], &Contact, &NormalForce, &mut Row, f64) -> (Vector, bool);
 
 /// Rolling torque of coefficients, contact, normal force, history and step; the history goes on.
-pub(super) type RollingFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &NormalForce<N>, &mut [N; 4], N) -> Vector<N>;
+pub(super) type RollingFunction = fn(&[f64], &Contact, &NormalForce, &mut Row, f64) -> Vector;
 
 /// Adds the attraction of coefficients and contact to a normal force.
-pub(super) type CohesionFunction<N> = fn(&CoefficientRow<N>, &Contact<N>, &mut NormalForce<N>);
-
-/// What the sub-models of a law do to the contacts of a call, in one kind of number.
-#[derive(Clone, Copy)]
-pub struct Acting<N: LawNumber> {
-    /// [`NormalForm::force`], of coefficients with the switches behind them.
-    pub(super) normal: NormalFunction<N>,
-    /// [`Tangential::force`].
-    pub(super) tangential: TangentialFunction<N>,
-    /// [`Rolling::torque`].
-    pub(super) rolling: RollingFunction<N>,
-    /// [`CohesionForm::force`], added.
-    pub(super) cohesion: CohesionFunction<N>,
-}
+pub(super) type CohesionFunction = fn(&[f64], &Contact, &mut NormalForce);
 
 /// [`NormalForm::force`] of one contact.
 #[inline(always)]
-pub(super) fn normal<A: NormalForm, N: LawNumber>(
-    row: &CoefficientRow<N>,
-    contact: &Contact<N>,
-    history: &mut [N; 4],
-    step: N,
-) -> NormalForce<N> {
+pub(super) fn normal<A: NormalForm>(row: &[f64], contact: &Contact, history: &mut Row, step: f64) -> NormalForce {
     let roots = A::roots(contact.overlap, contact.radius, contact.mass);
-    let switches = numbers::<Switches, N>(&row[A::COUNT..]);
-    let before = if A::HISTORY.is_some() { *history } else { [N::zero(); 4] };
-    let (force, after) = A::force(numbers::<A, N>(row), switches, contact, roots, before, step);
+    let switches = Switches::lanes(&row[A::COUNT..]);
+    let before = if A::HISTORY.is_some() { *history } else { [0.0; 4] };
+    let (force, after) = A::force(A::lanes(row), switches, contact, roots, before, step);
     if A::HISTORY.is_some() {
         *history = after;
     }
@@ -54,40 +34,36 @@ pub(super) fn normal<A: NormalForm, N: LawNumber>(
 
 /// [`Tangential::force`] of one contact.
 #[inline(always)]
-pub(super) fn tangential<B: Tangential, N: LawNumber>(
-    row: &CoefficientRow<N>,
-    contact: &Contact<N>,
-    normal: &NormalForce<N>,
-    history: &mut [N; 4],
-    step: N,
-) -> (Vector<N>, N::Mask) {
-    let friction = B::force(numbers::<B, N>(row), contact, normal, *history, step);
+pub(super) fn tangential<B: Tangential>(
+    row: &[f64],
+    contact: &Contact,
+    normal: &NormalForce,
+    history: &mut Row,
+    step: f64,
+) -> (Vector, bool) {
+    let friction = B::force(B::lanes(row), contact, normal, *history, step);
     *history = friction.history;
     (friction.force, friction.sliding)
 }
 
 /// [`Rolling::torque`] of one contact.
 #[inline(always)]
-pub(super) fn rolling<C: Rolling, N: LawNumber>(
-    row: &CoefficientRow<N>,
-    contact: &Contact<N>,
-    normal: &NormalForce<N>,
-    history: &mut [N; 4],
-    step: N,
-) -> Vector<N> {
-    let (torque, after) = C::torque(numbers::<C, N>(row), contact, normal, *history, step);
+pub(super) fn rolling<C: Rolling>(
+    row: &[f64],
+    contact: &Contact,
+    normal: &NormalForce,
+    history: &mut Row,
+    step: f64,
+) -> Vector {
+    let (torque, after) = C::torque(C::lanes(row), contact, normal, *history, step);
     *history = after;
     torque
 }
 
 /// [`CohesionForm::force`] of one contact, added.
 #[inline(always)]
-pub(super) fn cohesion<D: CohesionForm, N: LawNumber>(
-    row: &CoefficientRow<N>,
-    contact: &Contact<N>,
-    normal: &mut NormalForce<N>,
-) {
-    let law = numbers::<D, N>(row);
+pub(super) fn cohesion<D: CohesionForm>(row: &[f64], contact: &Contact, normal: &mut NormalForce) {
+    let law = D::lanes(row);
     D::add(law, D::force(law, contact), normal);
 }
 
@@ -109,7 +85,7 @@ pub(super) struct NormalModel {
     /// Whether it keeps a number of each pair.
     pub(super) has_pair_constant: bool,
     /// [`NormalForm::force`].
-    pub(super) force: NormalFunction<f64>,
+    pub(super) force: NormalFunction,
     /// [`NormalForm::response`].
     pub(super) response: fn(&[f64], &Contact) -> Response,
     /// [`NormalForm::pair_constant`].
@@ -133,7 +109,7 @@ impl NormalModel {
             undeformed_arms,
             onset,
             has_pair_constant: A::HAS_PAIR_CONSTANT,
-            force: normal::<A, f64>,
+            force: normal::<A>,
             response: |row, contact| A::response(A::lanes(row), contact),
             pair_constant: |row, radius, mass| A::read(row).pair_constant(radius, mass),
             elastic_energy: |row, contact, offset, history| A::read(row).elastic_energy(contact, offset, history),
@@ -165,7 +141,7 @@ pub(super) struct TangentialModel {
     /// [`Tangential::stiffness`].
     pub(super) stiffness: fn(&[f64], f64) -> f64,
     /// [`Tangential::force`].
-    pub(super) force: TangentialFunction<f64>,
+    pub(super) force: TangentialFunction,
 }
 
 impl TangentialModel {
@@ -181,7 +157,7 @@ impl TangentialModel {
             limits_dashpot: B::LIMITS_DASHPOT,
             projects: B::PROJECTS,
             stiffness: |row, from_normal_model| B::read(row).stiffness(from_normal_model),
-            force: tangential::<B, f64>,
+            force: tangential::<B>,
         }
     }
 }
@@ -202,7 +178,7 @@ pub(super) struct RollingModel {
     /// [`Rolling::elastic_energy`].
     pub(super) elastic_energy: fn(&[f64], &Contact, &Response, Row) -> f64,
     /// [`Rolling::torque`].
-    pub(super) torque: RollingFunction<f64>,
+    pub(super) torque: RollingFunction,
 }
 
 impl RollingModel {
@@ -215,7 +191,7 @@ impl RollingModel {
             needs: C::NEEDS,
             stiffness: |row, contact, response| C::read(row).stiffness(contact, response),
             elastic_energy: |row, contact, response, history| C::read(row).elastic_energy(contact, response, history),
-            torque: rolling::<C, f64>,
+            torque: rolling::<C>,
         }
     }
 }
@@ -236,7 +212,7 @@ pub(super) struct CohesionModel {
     #[cfg(test)]
     pub(super) add: fn(&[f64], f64, &mut NormalForce),
     /// Both.
-    pub(super) pull: CohesionFunction<f64>,
+    pub(super) pull: CohesionFunction,
 }
 
 impl CohesionModel {
@@ -250,7 +226,7 @@ impl CohesionModel {
             force: |row, contact| D::force(D::lanes(row), contact),
             #[cfg(test)]
             add: |row, pull, normal| D::add(D::lanes(row), pull, normal),
-            pull: cohesion::<D, f64>,
+            pull: cohesion::<D>,
         }
     }
 }

@@ -1,8 +1,6 @@
 //! Four sub-models as one law: the functions of each, called one after another on one contact.
 
 mod functions;
-mod number;
-mod slopes;
 
 #[cfg(test)]
 use super::pressing_force;
@@ -10,11 +8,8 @@ use super::{
     Adhesion, Booked, Carry, Coefficients, Contact, HistoryRow, LawChoice, Needs, NormalForce, Onset, Reaction,
     Response, RollingStiffness, Scheme, SchemeMemory, Switches, foresee_normal,
 };
-use crate::dual::{Dual, Slopes};
-use crate::number::{Number, Row, Vector};
-pub use functions::Acting;
+use crate::number::{Row, Vector};
 use functions::{CohesionModel, Functions, NormalModel, RollingModel, TangentialModel};
-pub use number::LawNumber;
 
 /// What is kept of a contact beside what its law remembers, where bonds suppress contacts: the force on the first body in
 /// the last evaluation, if the contact was then suppressed \[N\], and the overlap from which its normal force is taken \[m\].
@@ -77,31 +72,6 @@ pub struct CoefficientPlaces {
     pub cohesion: usize,
     /// How many there are in all.
     pub count: usize,
-}
-
-/// Numbers that laws are evaluated in: those of one contact, or with slopes those of a register's worth.
-pub trait Evaluated: LawNumber {
-    /// What the sub-models of a law do, in this kind of number.
-    fn acting(law: &Law) -> Acting<Self>;
-}
-
-impl Evaluated for f64 {
-    #[inline(always)]
-    fn acting(law: &Law) -> Acting<Self> {
-        Acting {
-            normal: law.normal.force,
-            tangential: law.tangential.force,
-            rolling: law.rolling.torque,
-            cohesion: law.cohesion.pull,
-        }
-    }
-}
-
-impl<V: Number, S: Slopes<V>> Evaluated for Dual<V, S> {
-    #[inline(always)]
-    fn acting(law: &Law) -> Acting<Self> {
-        Acting::with_slopes(&law.choice)
-    }
 }
 
 /// A contact law: what the four sub-models that the scene named do to one contact.
@@ -328,55 +298,35 @@ impl Law {
     }
 
     /// Force and torque of one contact; `history`, as many rows as [`Law::history`], is advanced by `step` \[s\]. The velocities
-    /// of `contact` become those that its dashpots see; with slopes it is too large to be copied.
+    /// of `contact` become those that its dashpots see.
     #[inline(always)]
-    pub fn react<N: Evaluated>(
-        &self,
-        row: &[N::Coefficient],
-        contact: &mut Contact<N>,
-        history: &mut [[N; 4]],
-        step: N,
-    ) -> Reaction<N> {
-        self.react_by(&N::acting(self), row, contact, history, step)
-    }
-
-    /// The same, by what its sub-models do in this kind of number: for many contacts that is asked for once.
-    #[inline(always)]
-    pub(crate) fn react_by<N: Evaluated>(
-        &self,
-        acting: &Acting<N>,
-        row: &[N::Coefficient],
-        contact: &mut Contact<N>,
-        history: &mut [[N; 4]],
-        step: N,
-    ) -> Reaction<N> {
+    pub fn react(&self, row: &[f64], contact: &mut Contact, history: &mut [Row], step: f64) -> Reaction {
         let (carry, weight) = self.carry(contact, history, step);
-        let normal = self.press(acting, row, contact, history, (step, weight));
+        let normal = self.press(row, contact, history, (step, weight));
         let along = (&normal, normal.force);
-        let (force, couple, sliding) = self.friction(acting, row, contact, along, history, (step, &carry));
-        let rolling = self.roll(acting, row, contact, &normal, history, (step, &carry));
+        let (force, couple, sliding) = self.friction(row, contact, along, history, (step, &carry));
+        let rolling = self.roll(row, contact, &normal, history, (step, &carry));
         Reaction { force, couple, rolling, sliding }
     }
 
     /// The normal force of one contact that was carried, with this weight of γ_t.
     #[inline(always)]
-    pub(crate) fn press<N: Evaluated>(
+    pub(crate) fn press(
         &self,
-        acting: &Acting<N>,
-        row: &[N::Coefficient],
-        contact: &Contact<N>,
-        history: &mut [[N; 4]],
-        (step, weight): (N, N),
-    ) -> NormalForce<N> {
-        let mut none = [N::zero(); 4];
+        row: &[f64],
+        contact: &Contact,
+        history: &mut [Row],
+        (step, weight): (f64, f64),
+    ) -> NormalForce {
+        let mut none = [0.0; 4];
         let remembered = match self.history_places.normal {
             Some(place) => &mut history[place],
             None => &mut none,
         };
-        let mut normal = (acting.normal)(row, contact, remembered, step);
-        normal.response.tangential_damping = normal.response.tangential_damping * weight;
+        let mut normal = (self.normal.force)(row, contact, remembered, step);
+        normal.response.tangential_damping *= weight;
         if self.cohesion.active {
-            (acting.cohesion)(&row[self.places.cohesion..], contact, &mut normal);
+            (self.cohesion.pull)(&row[self.places.cohesion..], contact, &mut normal);
         }
         normal
     }
@@ -406,35 +356,26 @@ impl Law {
             (self.cohesion.add)(row, pull, &mut normal);
         }
         let along = if offset.acts { normal.force } else { 0.0 };
-        let acting = f64::acting(self);
-        let (force, couple, sliding) = self.friction(&acting, row, contact, (&normal, along), history, (step, &carry));
+        let (force, couple, sliding) = self.friction(row, contact, (&normal, along), history, (step, &carry));
         let pressed = Contact { overlap: offset.pressing, ..*contact };
-        let rolling = if offset.acts {
-            self.roll(&acting, row, &pressed, &normal, history, (step, &carry))
-        } else {
-            Vector::zero()
-        };
+        let rolling =
+            if offset.acts { self.roll(row, &pressed, &normal, history, (step, &carry)) } else { Vector::zero() };
         Reaction { force, couple, rolling, sliding }
     }
 
     /// How a contact was carried, where the scheme asks for it, and a weight of γ_t; it gets the velocities that dashpots see, and the
     /// slip of undeformed bodies where the law takes that.
     #[inline(always)]
-    pub(crate) fn carry<N: Evaluated>(
-        &self,
-        contact: &mut Contact<N>,
-        history: &mut [[N; 4]],
-        step: N,
-    ) -> (Option<Carry<N>>, N) {
+    pub(crate) fn carry(&self, contact: &mut Contact, history: &mut [Row], step: f64) -> (Option<Carry>, f64) {
         if self.undeformed_arms() {
             *contact = contact.with_undeformed_arms();
         }
-        let one = N::splat(1.0);
+        let one = 1.0;
         if let Some(place) = self.history_places.normal_velocity {
             let foreseen = foresee_normal(contact, history[place][3], self.normal.onset, step);
             history[place][3] = foreseen.middle;
             if let Some(place) = self.history_places.seen {
-                history[place] = [contact.normal_velocity, foreseen.weight, one, N::zero()];
+                history[place] = [contact.normal_velocity, foreseen.weight, one, 0.0];
             }
             return (None, foreseen.weight);
         }
@@ -442,7 +383,7 @@ impl Law {
             return (None, one);
         }
         let carry = Carry::of(contact, step, !self.holds_beyond_touch());
-        let mut rates = [contact.normal_velocity, N::zero()];
+        let mut rates = [contact.normal_velocity, 0.0];
         if let Some(place) = self.history_places.rates {
             let before = history[place][0];
             history[place] = carry.foresee(contact, history[place], step);
@@ -454,48 +395,46 @@ impl Law {
 
     /// Force on i of a normal force \[N\] and the friction beside it, n × F_t, and whether friction is at its limit.
     #[inline(always)]
-    fn friction<N: Evaluated>(
+    fn friction(
         &self,
-        acting: &Acting<N>,
-        row: &[N::Coefficient],
-        contact: &Contact<N>,
-        (normal, along): (&NormalForce<N>, N),
-        history: &mut [[N; 4]],
-        (mut step, carry): (N, &Option<Carry<N>>),
-    ) -> (Vector<N>, Vector<N>, N::Mask) {
+        row: &[f64],
+        contact: &Contact,
+        (normal, along): (&NormalForce, f64),
+        history: &mut [Row],
+        (mut step, carry): (f64, &Option<Carry>),
+    ) -> (Vector, Vector, bool) {
         let force = contact.normal * along;
         if !self.tangential.active {
-            return (force, Vector::zero(), N::zero().greater(N::zero()));
+            return (force, Vector::zero(), false);
         }
-        let mut none = [N::zero(); 4];
+        let mut none = [0.0; 4];
         let remembered = match self.history_places.tangential {
             Some(place) => &mut history[place],
             None => &mut none,
         };
         if let Some(carry) = carry.as_ref().filter(|_| self.tangential.has_spring) {
-            (*remembered, step) = (carry.spring(contact.normal, *remembered), N::zero());
+            (*remembered, step) = (carry.spring(contact.normal, *remembered), 0.0);
         }
         let row = &row[self.places.tangential..];
-        let (friction, sliding) = (acting.tangential)(row, contact, normal, remembered, step);
+        let (friction, sliding) = (self.tangential.force)(row, contact, normal, remembered, step);
         (force + friction, contact.normal.cross(friction), sliding)
     }
 
     /// Rolling torque from i to j.
     #[inline(always)]
-    fn roll<N: Evaluated>(
+    fn roll(
         &self,
-        acting: &Acting<N>,
-        row: &[N::Coefficient],
-        contact: &Contact<N>,
-        normal: &NormalForce<N>,
-        history: &mut [[N; 4]],
-        (mut step, carry): (N, &Option<Carry<N>>),
-    ) -> Vector<N> {
+        row: &[f64],
+        contact: &Contact,
+        normal: &NormalForce,
+        history: &mut [Row],
+        (mut step, carry): (f64, &Option<Carry>),
+    ) -> Vector {
         if !self.rolling.active {
             return Vector::zero();
         }
         let place = self.history_places.rolling;
-        let mut none = [N::zero(); 4];
+        let mut none = [0.0; 4];
         let remembered = match place {
             Some(place) => &mut history[place],
             None => &mut none,
@@ -507,7 +446,7 @@ impl Law {
             *remembered = carry.torque(contact.normal, *remembered);
             (contact.relative_spin, step) = (carry.to_end(contact.normal, contact.relative_spin), step * carry.share);
         }
-        let torque = (acting.rolling)(&row[self.places.rolling..], &contact, &pressed, remembered, step);
+        let torque = (self.rolling.torque)(&row[self.places.rolling..], &contact, &pressed, remembered, step);
         if carry.is_some() {
             remembered[3] = normal.response.normal_stiffness;
         }

@@ -58,7 +58,7 @@ impl Tangential for History {
         let response = &normal.response;
         let grown = Vector::of_row(history) + contact.slip * step;
         let spring = grown - contact.normal * grown.dot(contact.normal);
-        let limit = normal.seen.abs().scaled(law.friction);
+        let limit = normal.seen.abs() * law.friction;
         let stiffness = response.tangential_stiffness;
         let square = stiffness * stiffness * spring.dot(spring);
         let sliding = square.greater(limit * limit);
