@@ -6,7 +6,7 @@
 //! A sphere falls for a tenth of a second:
 //!
 //! ```
-//! use cograin::scene::{Scene, Source};
+//! use cograin::scene::Scene;
 //! use cograin::step::Simulation;
 //! use std::sync::Arc;
 //!
@@ -20,8 +20,8 @@
 //! material = "glass"
 //! list = [{ position = [0.0, 0.0, 1.0], radius = 0.01 }]
 //! "#;
-//! let source = Source { name: "fall.toml".into(), text: text.into(), ..Source::default() };
-//! let mut simulation = Simulation::new(Arc::new(Scene::from_source(&source)?))?;
+//! let scene: Scene = text.parse()?;
+//! let mut simulation = Simulation::new(Arc::new(scene))?;
 //! simulation.advance(0.1)?;
 //! let height = simulation.state().particles.position[0][2];
 //! assert!((height - (1.0 - 0.5 * 9.81 * 0.1 * 0.1)).abs() < 1e-12);
