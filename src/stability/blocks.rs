@@ -6,9 +6,11 @@
 //! over the traces of the blocks ([`super::shares`]); whatever they find is a bound. Most bodies are far below it. Those that
 //! are not are taken together where that brings the bound down ([`super::cluster`]).
 
-use super::network::Network;
-use super::shares::Shares;
-use super::triangle::{Place, Triangle, add_group, diagonal, is_positive, squares, times};
+use super::network::{Element, Network};
+use super::shares::{Shares, divided};
+use super::triangle::{Place, Triangle, add_group, whole};
+use crate::interactions::Link;
+use nalgebra::{Matrix6, Vector6};
 
 /// How often bodies hand load on.
 const RELIEFS: usize = 3;
@@ -18,6 +20,9 @@ const ITERATIONS: usize = 8;
 
 /// What a trial root grows by until it is above the root.
 const TRIAL: f64 = 1.002;
+
+/// What rounding in single precision may take from a bound, with room.
+pub(super) const ROUNDING: f64 = 1e-5;
 
 /// Where iterations begin: across no direction that a block is likely to single out.
 const ASKEW: [f64; 6] = [0.5, 0.4, 0.35, 0.45, 0.3, 0.4];
@@ -46,6 +51,16 @@ pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec
     motion
 }
 
+/// The largest root \[1/s\] of the blocks of interactions that are told one after the other, none of which is kept, from the safe side;
+/// and the body that has it. Bodies that share one bear of it as if they had no others.
+pub(super) fn quick_root(bodies: &Network, tell: impl FnOnce(&mut dyn FnMut(Link))) -> (f64, Option<usize>) {
+    let (movers, shares) = (bodies.movers(), Shares::of_none(bodies));
+    let mut blocks = Blocks { network: bodies, shares, stiffness: vec![[0.0; 21]; movers], damping: Vec::new() };
+    tell(&mut |link| blocks.add_link(&link));
+    let (root, mover) = blocks.largest_of_all();
+    (root * (1.0 + ROUNDING), mover)
+}
+
 impl<'a> Blocks<'a> {
     /// Those of a network; shares are weighed about this root \[1/s\], or one of their own.
     pub(super) fn filled(network: &'a Network<'a>, guess: f64) -> Self {
@@ -67,6 +82,26 @@ impl<'a> Blocks<'a> {
 }
 
 impl Blocks<'_> {
+    /// Adds an interaction that the network does not keep.
+    fn add_link(&mut self, link: &Link) {
+        let Some((element, parts)) = self.network.between(link) else { return };
+        let movers = element.slots.map(|slot| self.network.mover(slot));
+        let mut shares = [1.0; 2];
+        if let [Some(_), Some(_)] = movers {
+            let strengths = [0, 1].map(|end| self.network.trace(&element, end, parts[0]).sqrt());
+            shares = divided(strengths);
+        }
+        let parts = parts.map(|parts| parts.map(|part| part as f32));
+        if self.damping.is_empty() && parts[1] != [0.0; 4] {
+            self.damping = vec![[0.0; 21]; self.stiffness.len()];
+        }
+        for end in 0..2 {
+            if let Some(mover) = movers[end] {
+                self.add_end(mover, (&element, end), parts, shares[end]);
+            }
+        }
+    }
+
     /// Whether anything is damped.
     pub(super) fn is_damped(&self) -> bool {
         self.network.is_damped()
@@ -108,7 +143,9 @@ impl Blocks<'_> {
             }
             for (end, borne) in self.shares.borne(place).into_iter().enumerate() {
                 if let Some((mover, factor)) = borne.filter(|(mover, _)| chosen(*mover)) {
-                    self.add_end(mover, place, end, factor);
+                    let network = self.network;
+                    let parts = [network.stiffness.of(place), network.damping.of(place)];
+                    self.add_end(mover, (&network.elements[place], end), parts, factor);
                 }
             }
         }
@@ -141,11 +178,15 @@ impl Blocks<'_> {
         self.network.part(chosen, borne)
     }
 
-    /// Adds one end of an element to the block of its body.
-    fn add_end(&mut self, mover: usize, place: usize, end: usize, share: f64) {
+    /// Adds one end of an element, with its springs and dashpots, to the block of its body, which bears this share of them.
+    fn add_end(
+        &mut self,
+        mover: usize,
+        (element, end): (&Element, usize),
+        [stiffness, damping]: [[f32; 4]; 2],
+        share: f64,
+    ) {
         let network = self.network;
-        let element = &network.elements[place];
-        let (stiffness, damping) = (network.stiffness.of(place), network.damping.of(place));
         let damped = damping != [0.0; 4];
         match mover.checked_sub(network.roots.len()) {
             None => {
@@ -168,8 +209,7 @@ impl Blocks<'_> {
 
     /// D(K) and D(C) of a body.
     fn block(&self, mover: usize) -> Block {
-        let double = |triangle: &Triangle| triangle.map(f64::from);
-        Block { stiffness: double(&self.stiffness[mover]), damping: self.damping.get(mover).map(double) }
+        Block { stiffness: whole(&self.stiffness[mover]), damping: self.damping.get(mover).map(whole) }
     }
 
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
@@ -177,28 +217,23 @@ impl Blocks<'_> {
         let square = root * root;
         let combined = self.block(mover).combined(root);
         // No eigenvalue is above the norm of all entries: most bodies need no more.
-        if squares(&combined) < square * square {
-            return true;
-        }
-        let mut rest = combined.map(|part| -part);
-        for k in 0..6 {
-            rest[diagonal(k)] += square;
-        }
-        is_positive(&mut rest)
+        combined.norm_squared() < square * square
+            || (Matrix6::from_diagonal_element(square) - combined).cholesky().is_some()
     }
 
     /// About the root of a body, from below: that of the motion that iteration comes to.
     fn estimate(&self, vector: &mut [f64; 6], mover: usize, guess: f64, iterations: usize) -> f64 {
-        let (mut root, block) = (guess, self.block(mover));
+        let (mut root, block, mut motion) = (guess, self.block(mover), Vector6::from(*vector));
         for _ in 0..iterations {
-            let next = times(&block.combined(root), vector);
-            let length = next.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let next = block.combined(root) * motion;
+            let length = next.norm();
             if length <= 0.0 {
                 return 0.0;
             }
-            *vector = next.map(|part| part / length);
-            root = block.root_of_motion(vector);
+            motion = next / length;
+            root = block.root_of_motion(&motion);
         }
+        *vector = motion.into();
         root
     }
 
@@ -228,28 +263,22 @@ impl Blocks<'_> {
 /// D(K) \[1/s²\] and, where anything is damped, D(C) \[1/s\] of a body.
 struct Block {
     /// D(K).
-    stiffness: [f64; 21],
+    stiffness: Matrix6<f64>,
     /// D(C).
-    damping: Option<[f64; 21]>,
+    damping: Option<Matrix6<f64>>,
 }
 
 impl Block {
     /// D(K) + μ D(C).
     #[inline(always)]
-    fn combined(&self, root: f64) -> [f64; 21] {
-        let mut sum = self.stiffness;
-        if let Some(damping) = &self.damping {
-            for (sum, part) in sum.iter_mut().zip(damping) {
-                *sum += root * part;
-            }
-        }
-        sum
+    fn combined(&self, root: f64) -> Matrix6<f64> {
+        self.damping.map_or(self.stiffness, |damping| self.stiffness + damping * root)
     }
 
     /// The root of one motion.
     #[inline(always)]
-    fn root_of_motion(&self, vector: &[f64; 6]) -> f64 {
-        let form = |block: &[f64; 21]| times(block, vector).iter().zip(vector).map(|(a, b)| a * b).sum::<f64>();
+    fn root_of_motion(&self, motion: &Vector6<f64>) -> f64 {
+        let form = |block: &Matrix6<f64>| (block * motion).dot(motion);
         let (k, c) = (form(&self.stiffness), self.damping.as_ref().map_or(0.0, form));
         0.5 * (c + (c * c + 4.0 * k).max(0.0).sqrt())
     }

@@ -5,13 +5,11 @@ use crate::integration::Fields;
 use crate::interactions::{Ahead, Link, Pass};
 use crate::number::Vector;
 use crate::state::State;
+use nalgebra::Matrix6;
 use std::sync::Arc;
 
 /// Instead of a slot: what does not move by the forces on it.
 pub(super) const UNMOVED: u32 = u32::MAX;
-
-/// A matrix over six freedoms: three translations, three rotations.
-pub(super) type Matrix = [[f64; 6]; 6];
 
 /// A contact or bond between two bodies that forces move, or of one with something else; its springs and dashpots stand in
 /// [`Parts`]. Single precision: the network of a million particles is to fit beside them; the bound allows for the rounding.
@@ -80,7 +78,7 @@ pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
     /// L of the acceleration L Lᵀ that unit loads give it: what scales its freedoms.
-    pub root: Matrix,
+    pub root: Matrix6<f64>,
 }
 
 /// What is to be stable.
@@ -103,14 +101,8 @@ pub(crate) struct Network<'a> {
 }
 
 impl<'a> Network<'a> {
-    /// What is at work or, looking ahead, may be.
-    pub(crate) fn of(
-        state: &'a State,
-        bodies: &[Option<RigidBody>],
-        fields: &Fields,
-        passes: &[Box<dyn Pass>],
-        ahead: &Ahead,
-    ) -> Self {
+    /// The bodies without interactions.
+    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
@@ -120,15 +112,11 @@ impl<'a> Network<'a> {
         let group = |(body, moved): (&Option<RigidBody>, _)| {
             let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let [linear, angular] = fields.amplification(body.members[0]);
-            let mut mobility = body.mobility(moved);
-            for (row, numbers) in mobility.iter_mut().enumerate() {
-                for number in numbers {
-                    *number *= if row < 3 { linear } else { angular };
-                }
-            }
+            let factor = |row: usize| if row < 3 { linear } else { angular };
+            let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
         };
-        let mut network = Self {
+        Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
             groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
@@ -136,7 +124,18 @@ impl<'a> Network<'a> {
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
-        };
+        }
+    }
+
+    /// The bodies with what is at work between them or, looking ahead, may be.
+    pub(crate) fn of(
+        state: &'a State,
+        bodies: &[Option<RigidBody>],
+        fields: &Fields,
+        passes: &[Box<dyn Pass>],
+        ahead: &Ahead,
+    ) -> Self {
+        let mut network = Self::of_bodies(state, bodies, fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
@@ -176,13 +175,18 @@ impl<'a> Network<'a> {
 
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
-        if let Some(element) = self.element(link) {
-            let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
-            let share = |part: f64| if twice { 2.0 * part } else { part };
-            self.stiffness.push(link.stiffness.map(share), self.elements.len(), most);
-            self.damping.push(link.damping.map(share), self.elements.len(), most);
+        if let Some((element, [stiffness, damping])) = self.between(link) {
+            self.stiffness.push(stiffness, self.elements.len(), most);
+            self.damping.push(damping, self.elements.len(), most);
             self.elements.push(element);
         }
+    }
+
+    /// An interaction between what moves, with its springs and dashpots as they count; none if nothing moves by it.
+    pub(super) fn between(&self, link: &Link) -> Option<(Element, [[f64; 4]; 2])> {
+        let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
+        let share = |part: f64| if twice { 2.0 * part } else { part };
+        Some((self.element(link)?, [link.stiffness.map(share), link.damping.map(share)]))
     }
 
     /// Whether any interaction has a dashpot.
@@ -231,20 +235,18 @@ impl<'a> Network<'a> {
         self.groups.get(mover.checked_sub(self.roots.len())?)?.as_ref()
     }
 
-    /// The trace of what the body at one end of an element would feel of it alone, at this root \[1/s\]; 0 where none moves.
-    pub(super) fn trace(&self, place: usize, end: usize, root: f64) -> f64 {
-        let element = &self.elements[place];
+    /// The trace of what the body at one end of an element with these springs would feel of it alone; 0 where none moves.
+    pub(super) fn trace(&self, element: &Element, end: usize, [along, across, twisting, bending]: [f64; 4]) -> f64 {
         let Some(mover) = self.mover(element.slots[end]) else { return 0.0 };
-        let [along, across, twisting, bending] = self.parts(place, root);
         let Some(group) = self.group(mover) else {
             let ([v, w], arm) = (self.roots[mover], f64::from(element.arms[end]));
             let turning = 2.0 * (arm * arm * across + bending) + twisting;
             return v * v * (along + 2.0 * across) + w * w * turning;
         };
         let arm = self.arm(element, end, group);
-        let square = |rows: &[[f64; 6]]| rows.iter().flatten().map(|part| part * part).sum::<f64>();
-        (along + 2.0 * across) * square(&group.root[..3])
-            + ((along + across) * arm.dot(arm) + 2.0 * bending + twisting) * square(&group.root[3..])
+        (along + 2.0 * across) * group.root.fixed_rows::<3>(0).norm_squared()
+            + ((along + across) * arm.dot(arm) + 2.0 * bending + twisting)
+                * group.root.fixed_rows::<3>(3).norm_squared()
     }
 
     /// From what moves a particle to where an element acts on it \[m\].
@@ -263,21 +265,9 @@ fn most_links(state: &State) -> usize {
     pairs.chain(walls).chain(bonds).sum()
 }
 
-/// L of a positive semidefinite matrix L Lᵀ (Cholesky); directions that do not move have zeros.
-fn root_of(matrix: &Matrix) -> Matrix {
-    let mut root = [[0.0; 6]; 6];
-    for a in 0..6 {
-        for b in 0..=a {
-            let known: f64 = (0..b).map(|k| root[a][k] * root[b][k]).sum();
-            let rest = matrix[a][b] - known;
-            root[a][b] = if a == b {
-                if rest > 1e-12 * matrix[a][a] { rest.sqrt() } else { 0.0 }
-            } else if root[b][b] > 0.0 {
-                rest / root[b][b]
-            } else {
-                0.0
-            };
-        }
-    }
-    root
+/// L of the mobility L Lᵀ of a body (Cholesky); freedoms that do not move have zeros.
+fn root_of(mobility: &Matrix6<f64>) -> Matrix6<f64> {
+    // With ones in their place, freedoms that do not move have a root, too.
+    let still = Matrix6::from_diagonal(&mobility.diagonal().map(|part| if part > 0.0 { 0.0 } else { 1.0 }));
+    (mobility + still).cholesky().map_or(Matrix6::zeros(), |root| root.l() - still)
 }
