@@ -1,16 +1,11 @@
 //! Particles that come and go: counted, booked, and the same bits whoever works on them and wherever a run is taken up.
 
+use crate::support::scene;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::state::State;
 use cograin::step::Simulation;
 use std::sync::Arc;
-
-/// The scene of a text.
-pub(crate) fn scene(text: &str) -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: text.into(), ..Source::default() };
-    Arc::new(Scene::from_source(&source).map_err(|errors| errors.to_string()).unwrap())
-}
 
 /// A feed of spheres of several sizes that fall through a hole in a floor, with friction and rolling, both books kept.
 fn falling(more: &str) -> String {

@@ -3,8 +3,9 @@
 //!
 //! Unless something else is said: radius 5 mm, E = 5 MPa and ν = 0.3 of both, restitution 0.5, friction 0.4, rolling friction 0.1.
 
+use crate::support::scene_with;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::state::{Nodes, State};
 use cograin::step::{RunError, Simulation};
 use rand_chacha::ChaCha8Rng;
@@ -114,8 +115,7 @@ mesh = {{ file = "sheet.obj", sides = 2 }}
             motion = self.motion,
         );
         let files = BTreeMap::from([("sheet.obj".to_owned(), obj(&self.mesh))]);
-        let source = Source { name: "scene.toml".into(), text, files };
-        Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+        scene_with(&text, files)
     }
 
     /// The scene at time 0.

@@ -7,19 +7,20 @@ use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
 use cograin::report;
-use cograin::results::{Checkpoint, Failure};
+use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
 use cograin::scene::{PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use std::ffi::c_int;
 use std::fmt::Display;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Large arrays begin at different places of a page.
@@ -30,7 +31,7 @@ static ALLOCATOR: cograin::memory::Staggered = cograin::memory::Staggered;
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the input was refused.
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "cograin", version)]
 struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -127,6 +128,9 @@ struct SettleArguments {
     /// Largest number of time steps
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     steps: u64,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
 }
 
 /// `cograin export`
@@ -144,6 +148,9 @@ struct ExportArguments {
     /// The unit's library, if it is not in the folder of this program
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
 }
 
 /// `cograin verify`
@@ -200,10 +207,8 @@ impl From<Failure> for Ending {
     }
 }
 
-/// Set by the first Ctrl-C.
-static STOP: AtomicBool = AtomicBool::new(false);
-
 fn main() -> ExitCode {
+    tell_of_full_files();
     let ended = match Arguments::parse().command {
         Command::Check(arguments) => check(&arguments),
         Command::Run(arguments) => run(&arguments),
@@ -222,9 +227,15 @@ fn main() -> ExitCode {
     ExitCode::from(status)
 }
 
-/// Prints a line, also to a reader that is gone.
-fn say(line: impl Display) {
-    let _ = writeln!(std::io::stdout(), "{}", printable(&line.to_string()));
+/// Prints a line. A reader that is gone does not want to know more; that a disk is full must be told.
+fn say(line: impl Display) -> Result<(), Ending> {
+    let mut output = std::io::stdout();
+    match writeln!(output, "{}", printable(&line.to_string())).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Ending::failed(format_args!("the standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The text with control characters written out: names come from files, and a terminal would obey them.
@@ -255,10 +266,22 @@ fn read(arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
     result.map_err(Ending::refused)
 }
 
-/// Reads a scene to be computed here. Its files are not needed any more.
+/// Files that a command reads: the scene, those that it names, and others.
+fn files_read(scene: &Path, source: &Source, others: &[&Option<PathBuf>]) -> Vec<PathBuf> {
+    let folder = scene.parent().unwrap_or(Path::new(""));
+    let named = source.files.keys().map(|file| folder.join(file));
+    let others = others.iter().filter_map(|path| path.as_ref().map(PathBuf::clone));
+    std::iter::once(scene.to_owned()).chain(named).chain(others).collect()
+}
+
+/// What happens to a file that is there.
+fn earlier_file(overwrite: bool) -> EarlierFile {
+    if overwrite { EarlierFile::Replace } else { EarlierFile::Keep }
+}
+
+/// Reads a scene to be computed here. Its files are needed no more when the work begins.
 fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (scene, mut source) = read(&arguments.scene)?;
-    source.files.clear();
+    let (scene, source) = read(&arguments.scene)?;
     let scene = match arguments.threads {
         Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
         None => scene,
@@ -270,17 +293,18 @@ fn read_to_run(arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), End
 fn check(arguments: &CheckArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(&arguments.scene)?;
     if arguments.stiffness {
-        say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
-        return Ok(());
+        return say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
     }
     let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
-    say(report);
-    Ok(())
+    say(report)
 }
 
 /// `cograin run`
 fn run(arguments: &RunArguments) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(&arguments.scene)?;
+    let (scene, mut source) = read_to_run(&arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[]);
+    refuse_to_replace(&arguments.output, &read).map_err(Ending::refused)?;
+    source.files.clear();
     let start = match &arguments.resume {
         None => arguments.from.clone().map_or(Start::Scene, Start::From),
         Some(None) => Start::LastCheckpoint,
@@ -292,7 +316,7 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
              goes on with",
         ));
     }
-    stop_at_interruption()?;
+    let stop = stop_at_interruption()?;
     let order = RunOrder {
         scene: &scene,
         scene_name: &source.name,
@@ -300,7 +324,7 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
         start: &start,
         earlier_results: if arguments.overwrite { EarlierResults::Replace } else { EarlierResults::Keep },
         inputs: arguments.inputs.as_deref(),
-        stop: &STOP,
+        stop: &stop,
     };
     let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
     let result = cograin::run::run(order, &mut |progress: Progress| {
@@ -312,21 +336,23 @@ fn run(arguments: &RunArguments) -> Result<(), Ending> {
         bar.set_message(format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
     });
     bar.finish_and_clear();
-    say(result?);
-    Ok(())
+    say(result?)
 }
 
 /// `cograin settle`
 fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(&arguments.scene)?;
-    stop_at_interruption()?;
+    let (scene, mut source) = read_to_run(&arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[&arguments.from]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
+    source.files.clear();
+    let stop = stop_at_interruption()?;
     let order = SettleOrder {
         scene: &scene,
         scene_name: &source.name,
         from: arguments.from.as_deref(),
         checkpoint: &arguments.output,
         most_steps: arguments.steps,
-        stop: &STOP,
+        stop: &stop,
     };
     let bar = bar("{spinner} {msg}  {elapsed}");
     let result = cograin::run::settle(order, &mut |progress: SettleProgress| {
@@ -343,15 +369,17 @@ fn settle(arguments: &SettleArguments) -> Result<(), Ending> {
         "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {} contacts, \
          kinetic energy {:.3e} J",
         settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
-    ));
-    say_left_behind(&settled.left_behind);
-    Ok(())
+    ))?;
+    say_left_behind(&settled.left_behind)
 }
 
 /// `cograin export`
 fn package(arguments: &ExportArguments) -> Result<(), Ending> {
     let (scene, source) = read(&arguments.scene)?;
     let scene = Arc::new(scene);
+    let library = find_library(arguments.library.as_deref()).map_err(Ending::failed)?;
+    let read = files_read(&arguments.scene.scene, &source, &[&arguments.from, &Some(library.clone())]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {
             let checkpoint = Checkpoint::read(path).map_err(Ending::refused)?;
@@ -360,21 +388,17 @@ fn package(arguments: &ExportArguments) -> Result<(), Ending> {
         None => None,
     };
     let state = begun.as_ref().map(|begun| begun.simulation.state());
-    let library = find_library(arguments.library.as_deref()).map_err(Ending::failed)?;
     let exported = export(&source, &scene, state, &library, &arguments.output);
     exported.map_err(|error| match error {
         PackageError::Library(error) => Ending::refused(error),
         error => Ending::failed(error),
     })?;
-    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind));
-    Ok(())
+    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind))
 }
 
 /// Prints what could not be taken over from the checkpoint of another scene.
-fn say_left_behind(left_behind: &[String]) {
-    for left in left_behind {
-        say(format_args!("not taken along: {left}"));
-    }
+fn say_left_behind(left_behind: &[String]) -> Result<(), Ending> {
+    left_behind.iter().try_for_each(|left| say(format_args!("not taken along: {left}")))
 }
 
 /// `cograin verify`
@@ -391,7 +415,7 @@ fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
     for report in reports {
         let report = report.map_err(Ending::refused)?;
         failed += usize::from(!report.passed());
-        say(report);
+        say(report)?;
     }
     if failed > 0 { Err(Ending::failed(format_args!("{failed} of {} cases failed", cases.len()))) } else { Ok(()) }
 }
@@ -413,12 +437,38 @@ fn bar(template: &str) -> ProgressBar {
     bar
 }
 
-/// Lets the first Ctrl-C end the work in good order, and the second at once: all files are whole at any time.
-fn stop_at_interruption() -> Result<(), Ending> {
-    ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(1);
+/// Lets the first Ctrl-C, or another request to end, end the work in good order, and the second at once: all files are whole at any
+/// time. A request that the caller has chosen to ignore, as `nohup` does, stays ignored.
+fn stop_at_interruption() -> Result<Arc<AtomicBool>, Ending> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in STOPPING {
+        if is_ignored(signal) {
+            continue;
         }
-    })
-    .map_err(Ending::failed)
+        signal_hook::flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Ending::failed)?;
+        signal_hook::flag::register(signal, Arc::clone(&stop)).map_err(Ending::failed)?;
+    }
+    Ok(stop)
+}
+
+/// Lets the system tell by an error that a file may not grow further, instead of ending the program.
+fn tell_of_full_files() {
+    // Where this cannot be had, the program ends as it did.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
+/// Requests to end.
+#[cfg(unix)]
+const STOPPING: [c_int; 3] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP];
+
+/// Requests to end.
+#[cfg(not(unix))]
+const STOPPING: [c_int; 2] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM];
+
+/// Whether the caller has chosen to ignore a signal, where the system tells.
+fn is_ignored(signal: c_int) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| u64::from_str_radix(line.strip_prefix("SigIgn:")?.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }

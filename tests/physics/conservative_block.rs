@@ -1,6 +1,6 @@
 //! A ringing block of bonded spheres that nothing damps keeps its energy over a million steps near the stable one.
 
-use crate::physics::chain::simulation;
+use crate::support::start;
 use cograin::step::Simulation;
 
 /// Spheres along each edge.
@@ -18,7 +18,7 @@ fn ringing(step: f64) -> Simulation {
         format!("{{ position = {place:?}, radius = 1e-3, velocity = {velocity:?} }},\n")
     };
     let bodies: String = (0..EDGE * EDGE * EDGE).map(body).collect();
-    simulation(&format!(
+    start(&format!(
         r#"
 [run]
 step = {step:?}
@@ -40,7 +40,7 @@ tangential_stiffness = 4.0e11
 
 #[test]
 fn the_energy_does_not_drift_over_a_million_steps() {
-    let step = 0.9 * ringing(1e-9).state().clock.stable;
+    let step = 0.9 * ringing(1e-9).stable_step();
     let mut simulation = ringing(step);
     let energies: Vec<f64> = (0..STEPS)
         .map(|_| {
