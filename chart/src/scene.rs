@@ -5,7 +5,7 @@ use crate::charts::Drawing;
 use crate::picture::{Panel, Picture, logarithmic};
 use crate::table::Table;
 use cograin::interface::{Interface, Quantity};
-use cograin::scene::{Scene, Setting, Step};
+use cograin::scene::{Models, Scene, Setting, Step};
 use cograin::step::Simulation;
 use std::path::Path;
 use std::sync::Arc;
@@ -54,9 +54,9 @@ struct Run {
 }
 
 impl SceneChart {
-    /// Reads a scene and finds out what its chart costs.
-    pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
-        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+    /// Reads a scene, which may name these sub-models, and finds out what its chart costs.
+    pub fn of(models: &Models, path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
+        let (scene, _) = models.read(path, settings, &mut |_| {})?;
         let end = scene.run.end.ok_or(ChartError::NoEnd)?;
         let rows = (end / scene.output.history_interval.unwrap_or(end / ROWS)).ceil();
         let mut chart = Self { scene: Arc::new(scene), end, interval: end / rows, wanted, seconds: 0.0 };

@@ -2,7 +2,7 @@
 
 use super::{Ending, say};
 use clap::Args;
-use cograin::scene::Setting;
+use cograin::scene::{Models, Setting};
 use cograin_chart::{CHARTS, Chart, ChartError, Drawing, SceneChart, named};
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ pub(super) struct ChartArguments {
 }
 
 /// `cograin chart`
-pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
+pub(super) fn chart(models: &Models, arguments: &ChartArguments) -> Result<(), Ending> {
     if arguments.list {
         for Chart { name, shows, seconds, .. } in CHARTS {
             say(format_args!("{name:<16} {seconds:>5} s  {shows}"));
@@ -39,7 +39,7 @@ pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
     }
     std::fs::create_dir_all(&arguments.output)
         .map_err(|error| Ending::failed(format_args!("{}: {error}", arguments.output.display())))?;
-    let charts = if arguments.all { CHARTS.iter().map(Wanted::Named).collect() } else { chosen(arguments)? };
+    let charts = if arguments.all { CHARTS.iter().map(Wanted::Named).collect() } else { chosen(models, arguments)? };
     let cost: f64 = charts.iter().map(Wanted::seconds).sum();
     say(format_args!("about {cost:.0} s on one core"));
     for chart in charts {
@@ -100,7 +100,7 @@ impl Wanted {
 }
 
 /// The charts of the names that were given.
-fn chosen(arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
+fn chosen(models: &Models, arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
     let all = || CHARTS.iter().map(|chart| chart.name).collect::<Vec<_>>().join(", ");
     let find = |name: &String| {
         if let Some(chart) = named(name) {
@@ -113,7 +113,7 @@ fn chosen(arguments: &ChartArguments) -> Result<Vec<Wanted>, Ending> {
                 all()
             )));
         }
-        let chart = SceneChart::of(path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
+        let chart = SceneChart::of(models, path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
         let stem = path.file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());
         Ok(Wanted::Scene(stem, chart))
     };

@@ -86,14 +86,18 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
 /// What speaks against a law where a bond suppresses contacts: its normal force must be one that an offset can be taken from.
 fn cannot_be_suppressed(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
     let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
-    if Law::of(&law.choice()).takes_offset() {
+    let composed = Law::of(&law.choice());
+    if composed.takes_offset() {
         return None;
     }
+    let (kind, model, why) = match composed.presses() {
+        false => ("normal", law.normal.name(), "adheres or remembers"),
+        true => ("cohesion", law.cohesion.name(), "acts beyond touch or remembers"),
+    };
     let message = format!(
-        "a policy that suppresses contacts found, but the normal model of [contact.{}], {}, adheres or remembers; \
-         \"parallel\", or another normal model, is right",
+        "a policy that suppresses contacts found, but the {kind} model of [contact.{}], {model}, {why}; \
+         \"parallel\", or another {kind} model, is right",
         law.name,
-        law.normal.name()
     );
     Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
 }
