@@ -69,7 +69,7 @@ fn the_foot_of_a_bond_moves_with_its_plane() {
 fn bodies_are_not_put_beside_a_plane_whose_bonds_would_be_lost() {
     let scene = bonded("[0.0, 0.0, 0.0]", "incremental").scene().clone();
     let refused = Simulation::placed(scene, &Placement::default()).err().map(|cause| cause.to_string());
-    assert!(refused.as_ref().is_some_and(|told| told.contains("beside boundary floor")), "{refused:?}");
+    assert!(refused.as_ref().is_some_and(|told| told.contains("found boundary floor")), "{refused:?}");
 }
 
 /// Two bonded spheres of which one is held and the other turned about an axis across the bond.

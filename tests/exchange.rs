@@ -220,7 +220,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
         before += came;
     }
     let refused = interface.check(rate, -1.0).unwrap_err().to_string();
-    assert!(refused.ends_with("(feed.rate): -1.0 found; a number of 0.0 or above is right"), "{refused}");
+    assert!(refused.ends_with("(feed.rate): expected a number of 0.0 or above, found -1.0"), "{refused}");
 }
 
 #[test]
@@ -283,7 +283,7 @@ fn a_state_that_cannot_be_is_refused() {
         refused(|state| state.exchange.as_mut().unwrap().feeds[0].owed = f64::NAN),
         refused(|state| state.exchange.as_mut().unwrap().next = 1),
     ];
-    assert!(told.iter().all(|message| message.starts_with("a state that cannot be")), "{told:?}");
+    assert!(told.iter().all(|message| message.starts_with("invalid state, ")), "{told:?}");
 }
 
 /// The scene of [`falling`] that fills a closed bed, then opens its hole: `stage` is `"fill"` or `"open"`.

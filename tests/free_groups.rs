@@ -428,8 +428,8 @@ fn half_a_turn_about_several_axes_is_refused_and_changes_nothing() {
     assert!(matches!(error, RunError::Turn { .. }), "{error}");
     assert_eq!(
         error.to_string(),
-        "boundary top would turn 3.5355 rad about several axes in one communication step at t = 0 s; \
-         less than half a turn (pi) is right"
+        "boundary top: expected less than half a turn (pi) about several axes in one communication step, found \
+         3.5355 rad at t = 0 s"
     );
     assert_eq!(*simulation.state(), before);
     simulation.set_input(FIRST, 4, 0.0);

@@ -7,7 +7,7 @@ use cograin::state::ledger::Source as Kind;
 use cograin::step::Simulation;
 use std::sync::Arc;
 
-/// The boundary that forces move: boundaries stand in the order of their names.
+/// The boundary that forces move: boundaries stand in the order of the text.
 const PLATE: BoundaryIndex = BoundaryIndex(0);
 
 /// A scene.

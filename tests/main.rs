@@ -37,7 +37,6 @@ mod same_bits;
 mod scenes;
 mod schemes;
 mod servo;
-mod split_dashpots;
 mod stable_step;
 mod starting;
 mod statics;

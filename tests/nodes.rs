@@ -573,7 +573,7 @@ fn a_face_without_area_stops_the_run_in_words_and_the_way_back_leads_to_the_begi
     let error = simulation.advance_or_return(1e-5).expect_err("a sheet on a line");
     assert!(matches!(&error, RunError::Collapsed { boundary, face: 1, .. } if boundary == "sheet"), "{error}");
     let said = error.to_string();
-    assert!(said.contains(" has no area at t = 0.0000") && said.contains("moved onto a line or a point"), "{said}");
+    assert!(said.contains(" without one at t = 0.0000") && said.contains("moved onto a line or a point"), "{said}");
     drive(&mut simulation, |[x, y, _]| [1e-3 * x, 0.0, 1e-3 * y]);
     assert!(*simulation.state() == before, "the state of the beginning");
     advance(&mut simulation, 1e-5);

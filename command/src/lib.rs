@@ -9,24 +9,27 @@ use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_library};
 use cograin::report;
-use cograin::results::{Checkpoint, Failure};
+use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
 use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::ffi::c_int;
 use std::fmt::Display;
-use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the input was refused.
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "cograin", version)]
 struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -46,7 +49,7 @@ enum Command {
     Export(ExportArguments),
     /// Replay reference cases of other engines and compare
     Verify(VerifyArguments),
-    /// Chart speed against accuracy, and where methods fail: tables and pictures
+    /// Chart the outputs of a scene over its time step, and recommend one: a table and a picture
     Chart(ChartArguments),
 }
 
@@ -123,6 +126,9 @@ struct SettleArguments {
     /// Largest number of time steps
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     steps: u64,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
 }
 
 /// `cograin export`
@@ -140,6 +146,9 @@ struct ExportArguments {
     /// The unit's library, if it is not in the folder of this program
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
 }
 
 /// `cograin verify`
@@ -165,7 +174,7 @@ struct VerifyArguments {
 /// A formulation by its name.
 fn formulation(name: &str) -> Result<FormulationChoice, String> {
     let names = || FormulationChoice::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
-    FormulationChoice::named(name).ok_or_else(|| format!("one of {} is right", names()))
+    FormulationChoice::named(name).ok_or_else(|| format!("expected one of {}, found {name}", names()))
 }
 
 /// How a command ended that did not do its work.
@@ -196,12 +205,10 @@ impl From<Failure> for Ending {
     }
 }
 
-/// Set by the first Ctrl-C.
-static STOP: AtomicBool = AtomicBool::new(false);
-
 /// The whole program, for scenes that may name these sub-models; units carry the library of this name, which `cograin_unit::unit!` makes
 /// with the same sub-models.
 pub fn main_with(models: &Models, library: &str) -> ExitCode {
+    tell_of_full_files();
     let ended = match Arguments::parse().command {
         Command::Check(arguments) => check(models, &arguments),
         Command::Run(arguments) => run(models, &arguments),
@@ -220,9 +227,15 @@ pub fn main_with(models: &Models, library: &str) -> ExitCode {
     ExitCode::from(status)
 }
 
-/// Prints a line, also to a reader that is gone.
-fn say(line: impl Display) {
-    let _ = writeln!(std::io::stdout(), "{}", printable(&line.to_string()));
+/// Prints a line. A reader that is gone does not want to know more; that a disk is full must be told.
+fn say(line: impl Display) -> Result<(), Ending> {
+    let mut output = std::io::stdout();
+    match writeln!(output, "{}", printable(&line.to_string())).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Ending::failed(format_args!("the standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The text with control characters written out: names come from files, and a terminal would obey them.
@@ -253,11 +266,26 @@ fn read(models: &Models, arguments: &SceneArguments) -> Result<(Scene, Source), 
     result.map_err(Ending::refused)
 }
 
-/// Reads a scene to be computed here. Its files are not needed any more.
+/// Files that a command reads: the scene, those that it names, and others.
+fn files_read(scene: &Path, source: &Source, others: &[&Option<PathBuf>]) -> Vec<PathBuf> {
+    let folder = scene.parent().unwrap_or(Path::new(""));
+    let named = source.files.keys().map(|file| folder.join(file));
+    let others = others.iter().filter_map(|path| path.as_ref().map(PathBuf::clone));
+    std::iter::once(scene.to_owned()).chain(named).chain(others).collect()
+}
+
+/// What happens to a file that is there.
+fn earlier_file(overwrite: bool) -> EarlierFile {
+    if overwrite { EarlierFile::Replace } else { EarlierFile::Keep }
+}
+
+/// Reads a scene to be computed here. Its files are needed no more when the work begins.
 fn read_to_run(models: &Models, arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (mut scene, mut source) = read(models, &arguments.scene)?;
-    source.files.clear();
-    scene.run.threads = arguments.threads.map(usize::from).or(scene.run.threads);
+    let (scene, source) = read(models, &arguments.scene)?;
+    let scene = match arguments.threads {
+        Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
+        None => scene,
+    };
     Ok((Arc::new(scene), source))
 }
 
@@ -265,17 +293,18 @@ fn read_to_run(models: &Models, arguments: &ComputeArguments) -> Result<(Arc<Sce
 fn check(models: &Models, arguments: &CheckArguments) -> Result<(), Ending> {
     let (scene, source) = read_to_run(models, &arguments.scene)?;
     if arguments.stiffness {
-        say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
-        return Ok(());
+        return say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
     }
     let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
-    say(report);
-    Ok(())
+    say(report)
 }
 
 /// `cograin run`
 fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(models, &arguments.scene)?;
+    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[]);
+    refuse_to_replace(&arguments.output, &read).map_err(Ending::refused)?;
+    source.files.clear();
     let start = match &arguments.resume {
         None => arguments.from.clone().map_or(Start::Scene, Start::From),
         Some(None) => Start::LastCheckpoint,
@@ -283,10 +312,11 @@ fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
     };
     if start == Start::LastCheckpoint && arguments.overwrite {
         return Err(Ending::refused(
-            "--overwrite replaces the results that --resume goes on with; one of them is right",
+            "expected one of --resume and --overwrite, found both: --overwrite replaces the results that --resume \
+             goes on with",
         ));
     }
-    stop_at_interruption()?;
+    let stop = stop_at_interruption()?;
     let order = RunOrder {
         scene: &scene,
         scene_name: &source.name,
@@ -294,7 +324,7 @@ fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
         start: &start,
         earlier_results: if arguments.overwrite { EarlierResults::Replace } else { EarlierResults::Keep },
         inputs: arguments.inputs.as_deref(),
-        stop: &STOP,
+        stop: &stop,
     };
     let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
     let result = cograin::run::run(order, &mut |progress: Progress| {
@@ -306,21 +336,23 @@ fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
         bar.set_message(format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
     });
     bar.finish_and_clear();
-    say(result?);
-    Ok(())
+    say(result?)
 }
 
 /// `cograin settle`
 fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(models, &arguments.scene)?;
-    stop_at_interruption()?;
+    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[&arguments.from]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
+    source.files.clear();
+    let stop = stop_at_interruption()?;
     let order = SettleOrder {
         scene: &scene,
         scene_name: &source.name,
         from: arguments.from.as_deref(),
         checkpoint: &arguments.output,
         most_steps: arguments.steps,
-        stop: &STOP,
+        stop: &stop,
     };
     let bar = bar("{spinner} {msg}  {elapsed}");
     let result = cograin::run::settle(order, &mut |progress: SettleProgress| {
@@ -337,15 +369,17 @@ fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
         "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {} contacts, \
          kinetic energy {:.3e} J",
         settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
-    ));
-    say_left_behind(&settled.left_behind);
-    Ok(())
+    ))?;
+    say_left_behind(&settled.left_behind)
 }
 
 /// `cograin export`
 fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Result<(), Ending> {
     let (scene, source) = read(models, &arguments.scene)?;
     let scene = Arc::new(scene);
+    let library = find_library(library, arguments.library.as_deref()).map_err(Ending::failed)?;
+    let read = files_read(&arguments.scene.scene, &source, &[&arguments.from, &Some(library.clone())]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {
             let checkpoint = Checkpoint::read(path).map_err(Ending::refused)?;
@@ -354,21 +388,17 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Resul
         None => None,
     };
     let state = begun.as_ref().map(|begun| begun.simulation.state());
-    let library = find_library(library, arguments.library.as_deref()).map_err(Ending::failed)?;
     let exported = export(&source, &scene, state, &library, &arguments.output);
     exported.map_err(|error| match error {
         PackageError::Library(error) => Ending::refused(error),
         error => Ending::failed(error),
     })?;
-    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind));
-    Ok(())
+    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind))
 }
 
 /// Prints what could not be taken over from the checkpoint of another scene.
-fn say_left_behind(left_behind: &[String]) {
-    for left in left_behind {
-        say(format_args!("not taken along: {left}"));
-    }
+fn say_left_behind(left_behind: &[String]) -> Result<(), Ending> {
+    left_behind.iter().try_for_each(|left| say(format_args!("not taken along: {left}")))
 }
 
 /// `cograin verify`
@@ -380,11 +410,12 @@ fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
         formulation: arguments.formulation,
     };
     let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
+    let reports: Vec<_> = cases.par_iter().with_max_len(1).map(|case| verify::replay(case, &options)).collect();
     let mut failed = 0;
-    for case in &cases {
-        let report = verify::replay(case, &options).map_err(Ending::refused)?;
+    for report in reports {
+        let report = report.map_err(Ending::refused)?;
         failed += usize::from(!report.passed());
-        say(report);
+        say(report)?;
     }
     if failed > 0 { Err(Ending::failed(format_args!("{failed} of {} cases failed", cases.len()))) } else { Ok(()) }
 }
@@ -406,12 +437,38 @@ fn bar(template: &str) -> ProgressBar {
     bar
 }
 
-/// Lets the first Ctrl-C end the work in good order, and the second at once: all files are whole at any time.
-fn stop_at_interruption() -> Result<(), Ending> {
-    ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(1);
+/// Lets the first Ctrl-C, or another request to end, end the work in good order, and the second at once: all files are whole at any
+/// time. A request that the caller has chosen to ignore, as `nohup` does, stays ignored.
+fn stop_at_interruption() -> Result<Arc<AtomicBool>, Ending> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in STOPPING {
+        if is_ignored(signal) {
+            continue;
         }
-    })
-    .map_err(Ending::failed)
+        signal_hook::flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Ending::failed)?;
+        signal_hook::flag::register(signal, Arc::clone(&stop)).map_err(Ending::failed)?;
+    }
+    Ok(stop)
+}
+
+/// Lets the system tell by an error that a file may not grow further, instead of ending the program.
+fn tell_of_full_files() {
+    // Where this cannot be had, the program ends as it did.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
+/// Requests to end.
+#[cfg(unix)]
+const STOPPING: [c_int; 3] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP];
+
+/// Requests to end.
+#[cfg(not(unix))]
+const STOPPING: [c_int; 2] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM];
+
+/// Whether the caller has chosen to ignore a signal, where the system tells.
+fn is_ignored(signal: c_int) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| u64::from_str_radix(line.strip_prefix("SigIgn:")?.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }

@@ -28,6 +28,7 @@ use host_memory::{Items, Target, readable, text};
 use instance::{Instance, Request};
 use logger::Logger;
 use refusal::Refusal;
+use saved::{CHECKED, Saved};
 use std::ffi::{CStr, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, null_mut};
@@ -297,6 +298,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
             let handle = target.first();
             (Items::new("serializedState", bytes.cast::<u8>(), size)?, target, handle)
         };
+        Saved::check_length(&bytes.first(CHECKED), bytes.len())?;
         target.put(0, ptr::without_provenance_mut(instance.deserialize(&bytes.to_vec(), handle.addr())?));
         Ok(())
     })

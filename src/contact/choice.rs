@@ -77,8 +77,8 @@ impl LawChoice {
             return Some(Objection {
                 table: "cohesion",
                 key: "",
-                reason: "an attraction by the overlap found beside a normal model that pulls beyond touch by itself; \
-                         none is right",
+                reason: "expected none beside a normal model that pulls beyond touch by itself, found an attraction \
+                         by the overlap",
             });
         }
         if cohesion.does.beyond_touch && normal.has_pair_constant {
@@ -93,8 +93,8 @@ impl LawChoice {
             return Some(Objection {
                 table: "rolling",
                 key: "",
-                reason: "a torque by the overlap found, which is below 0 while the normal model pulls beyond touch; \
-                         epsd, epsd2 or none is right",
+                reason: "expected epsd, epsd2 or none, found a torque by the overlap, which is below 0 while the \
+                         normal model pulls beyond touch",
             });
         }
         if self.scheme.carries() {
@@ -103,8 +103,8 @@ impl LawChoice {
                 return Some(Objection {
                     table,
                     key: "engine_exact",
-                    reason: "true found, which is the engine's in its own scheme; false, or [run] scheme = \"engine\", is \
-                             right",
+                    reason: "expected false, or [run] scheme = \"engine\", found true, which is the engine's in its \
+                             own scheme",
                 });
             }
         }
@@ -112,32 +112,32 @@ impl LawChoice {
             return Some(Objection {
                 table: "",
                 key: "limit_force",
-                reason: "true found, which would cut the pull that the normal model is for; false is right",
+                reason: "expected false, found true, which would cut the pull that the normal model is for",
             });
         }
         if !friction.is_active() && self.cohesion.reduces_friction() {
             return Some(Objection {
                 table: "cohesion",
                 key: "tangential_reduce",
-                reason: "true found, but without a tangential model there is no friction to reduce; \
-                         false, or a tangential model, is right",
+                reason: "expected false, or a tangential model, found true without one, where there is no friction to \
+                         reduce",
             });
         }
         if !friction.does.has_spring && !self.switches.damps_slip() {
             return Some(Objection {
                 table: "",
                 key: "tangential_damping",
-                reason: "false found, but without a tangential spring nothing tangential is left; \
-                         true, or tangential model none without this key, is right",
+                reason: "expected true, or tangential model none without this key, found false, which leaves \
+                         nothing tangential without a tangential spring",
             });
         }
         if self.is_damped_at_touch() && self.stretches_backwards() {
             return Some(Objection {
                 table: "tangential",
                 key: "backward_spring",
-                reason: "true found, with a normal model whose dashpot acts in full at first touch, before the spring has a stiffness: \
-                         it would stretch the spring without bound; false, another tangential model, or \
-                         tangential_damping = false is right",
+                reason: "expected false, another tangential model, or tangential_damping = false, found true, with \
+                         a normal model whose dashpot acts in full at first touch, before the spring has a \
+                         stiffness: it would stretch the spring without bound",
             });
         }
         None

@@ -27,7 +27,7 @@ pub enum LibraryError {
         looked_at: Vec<PathBuf>,
     },
     /// It cannot be read.
-    #[error("{}: {cause}; the unit's library is right", path.display())]
+    #[error("{}: {cause}; name the unit's library", path.display())]
     Read {
         /// Its path.
         path: PathBuf,
@@ -41,7 +41,7 @@ pub enum LibraryError {
         path: PathBuf,
     },
     /// FMI 2.0 has no name for this system.
-    #[error("FMI 2.0 knows no units for {system} on {processor}; linux, windows and macos on x86_64 are right")]
+    #[error("expected linux, windows or macos on x86_64, which FMI 2.0 knows, found {system} on {processor}")]
     Platform {
         /// The operating system.
         system: &'static str,

@@ -24,7 +24,7 @@ pub enum PackageError {
     #[error(transparent)]
     Library(#[from] LibraryError),
     /// The file was not written.
-    #[error("{}: {cause}; a path that can be written is right", path.display())]
+    #[error("{}: {cause}; take a path that can be written", path.display())]
     Write {
         /// The unit's file.
         path: PathBuf,

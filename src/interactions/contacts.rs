@@ -35,10 +35,7 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        match state.particles.plane_rows {
-            false => self.evaluate::<false>(state, context),
-            true => self.evaluate::<true>(state, context),
-        }
+        self.evaluate(state, context);
         Ok(())
     }
 
@@ -98,12 +95,12 @@ impl Pass for ContactPass {
 }
 
 impl ContactPass {
-    /// Evaluates the law on all contacts, with PLANE, of particles in plane rows.
-    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context) {
+    /// Evaluates the law on all contacts.
+    fn evaluate(&self, state: &mut State, context: &Context) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let batches = Batches {
-            bodies: Pairs::<PLANE> {
+            bodies: Pairs {
                 first: &list.first,
                 second: &list.second,
                 position: &particles.position,

@@ -3,22 +3,12 @@
 use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
-use crate::boundaries::felt::Swept;
 use crate::contact::Response;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
 use crate::threads::Context;
-
-/// A sweep over dashpots that are integrated by themselves.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sweep {
-    /// Time in which rates decay: half of a time step \[s\].
-    pub time: f64,
-    /// Whether it goes from the last bond to the first: after a time step.
-    pub backwards: bool,
-}
 
 /// One kind of interaction, composed for the scene.
 pub(crate) trait Pass: Send + Sync {
@@ -31,20 +21,6 @@ pub(crate) trait Pass: Send + Sync {
     fn create(&self, _state: &mut State, _moment: &Moment, _step: f64) -> bool {
         false
     }
-
-    /// Whether it has dashpots that are integrated by themselves.
-    fn sweeps(&self) -> bool {
-        false
-    }
-
-    /// Lets dashpots that are integrated by themselves change velocities; what boundaries felt is added to `felt`, one each. Returns
-    /// the kinetic energy that particles moved by forces gained \[J\].
-    fn sweep(&self, _state: &mut State, _sweep: Sweep, _felt: &mut [Swept], _context: &Context) -> f64 {
-        0.0
-    }
-
-    /// Adds the present loads of such dashpots on boundaries, in place of impulses.
-    fn add_swept_loads(&self, _state: &State, _felt: &mut [Swept]) {}
 
     /// Whether particles need an orientation for it.
     fn needs_orientations(&self) -> bool {

@@ -41,8 +41,8 @@ pub enum InterfaceError {
     },
     /// An input that has no second derivative.
     #[error(
-        "order 2 for {index} ({name}); order 1, or the displacement along an axis of a boundary with input = \"quadratic\", is \
-         right"
+        "{index} ({name}): expected order 1, or the displacement along an axis of a boundary with input = \
+         \"quadratic\", found order 2"
     )]
     NoAcceleration {
         /// Its index.
@@ -99,7 +99,7 @@ pub enum InterfaceError {
     #[error(transparent)]
     Tune(#[from] TuneError),
     /// The value is not a finite number.
-    #[error("{value} for {index} ({name}); a finite number is right")]
+    #[error("{index} ({name}): expected a finite number, found {value}")]
     NotFinite {
         /// Its index.
         index: usize,

@@ -21,7 +21,7 @@ impl Interface {
         is_finite(variable, index, value)?;
         if variable.minimum.is_some_and(|minimum| value < minimum) {
             let refusal =
-                format!("{value:?} found; a number of {:?} or above is right", variable.minimum.unwrap_or(0.0));
+                format!("expected a number of {:?} or above, found {value:?}", variable.minimum.unwrap_or(0.0));
             return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
         }
         Ok(())
@@ -38,7 +38,8 @@ impl Interface {
         Ok(())
     }
 
-    /// Sets tunable parameters between communication steps, all or none. Parameters that are not tunable are ignored.
+    /// Sets tunable parameters between communication steps, all or none. A parameter that is not tunable is refused; inputs are
+    /// only checked.
     pub fn tune(&self, simulation: &mut Simulation, values: &[(usize, f64)]) -> Result<(), InterfaceError> {
         let mut changes = Vec::new();
         for &(index, value) in values {

@@ -65,7 +65,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&simulation);
-    simulation.restore(&present).expect("a state of this simulation");
+    simulation.return_to(&present);
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
     let savings = savings::of(scene, &simulation);

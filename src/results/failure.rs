@@ -39,13 +39,13 @@ pub enum Refusal {
         source: EncodeError,
     },
     /// The results have no place there.
-    #[error("{}: is a file; a folder, or a name that is not there yet, is right", folder.display())]
+    #[error("{}: expected a folder, or a name that is not there yet, found a file", folder.display())]
     NotAFolder {
         /// Where they were to be.
         folder: PathBuf,
     },
     /// Another process writes into the folder.
-    #[error("{}: in use by {holder}; another folder is right, or the same one when that run has ended", folder.display())]
+    #[error("{}: in use by {holder}; take another folder, or the same one when that run has ended", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
@@ -64,7 +64,8 @@ pub enum Refusal {
         held: String,
     },
     /// The folder holds results, and nothing else may be written there.
-    #[error("{}: holds results of an earlier run ({held}); an empty folder, or a name that is not there yet, is right", folder.display())]
+    #[error("{}: expected an empty folder, or a name that is not there yet, found results of an earlier run \
+             ({held})", folder.display())]
     Taken {
         /// The folder.
         folder: PathBuf,
@@ -73,7 +74,8 @@ pub enum Refusal {
     },
     /// More outputs than anybody can mean.
     #[error(
-        "{scene}, [output] {key}: {interval:e} s gives {count:.3e} {what} up to t = {end} s; at most {most:e} are right"
+        "{scene}, [output] {key}: expected at most {most:e} {what} up to t = {end} s, found {count:.3e}, one every \
+         {interval:e} s"
     )]
     Counts {
         /// File name of the scene.
@@ -93,7 +95,7 @@ pub enum Refusal {
     },
     /// More time steps than a clock can count.
     #[error(
-        "{scene}, [run] step: {step:e} s gives {count:.3e} time steps up to t = {end} s; at most {most:e} are right"
+        "{scene}, [run] step: expected at most {most:e} time steps up to t = {end} s, found {count:.3e} of {step:e} s"
     )]
     Steps {
         /// File name of the scene.
@@ -111,9 +113,7 @@ pub enum Refusal {
     #[error(transparent)]
     Resume(#[from] ResumeError),
     /// The run ends before it begins.
-    #[error(
-        "{scene}, [run] end: {end} s is not behind t = {time} s, where the checkpoint stands; a later end is right"
-    )]
+    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s")]
     Ended {
         /// File name of the scene.
         scene: String,

@@ -35,8 +35,9 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
     let stable = simulation.state().clock.stable;
     if scene.run.allow_unstable {
+        let found = if stable.is_finite() { format!(" ({stable:.3e} s as last found)") } else { String::new() };
         return Some(format!(
-            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one ({stable:.3e} s as last found); its numbers are worth nothing then"
+            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one{found}; its numbers are worth nothing then"
         ));
     }
     (step > NEAR_THE_BOUND * stable).then(|| {

@@ -2,7 +2,7 @@
 
 use crate::results::files::{Checkpoint, write_checkpoint};
 use crate::results::{Failure, Refusal};
-use crate::scene::{AxisMotion, Boundary, Scene};
+use crate::scene::{AxisMotion, Boundary, Scene, SceneDraft};
 use crate::step::{Description, Simulation};
 use std::collections::VecDeque;
 use std::path::Path;
@@ -204,8 +204,8 @@ fn why_not(simulation: &Simulation) -> String {
         && scene.gravity != [0.0; 3]
     {
         return format!(
-            "[damping.{}] gravity_damped = false: what it leaves of the load is not the whole load, so that bodies swing \
-             about rest; gravity_damped = true while it settles is right",
+            "[damping.{}]: expected gravity_damped = true while it settles, found false, which leaves a part of the \
+             load undamped, so that bodies swing about rest",
             damping.name
         );
     }
@@ -228,7 +228,7 @@ fn unbalanced_force(simulation: &mut Simulation) -> f64 {
 
 /// The scene with boundaries that stand still but for their free axes, insertions without a rate, and without books to keep.
 fn standing_still(scene: &Scene) -> Arc<Scene> {
-    let mut still = scene.clone();
+    let mut still = SceneDraft::clone(scene);
     for boundary in &mut still.boundaries {
         for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
             *axis = AxisMotion::Fixed;
@@ -238,5 +238,6 @@ fn standing_still(scene: &Scene) -> Arc<Scene> {
         insertion.stop();
     }
     still.output.energy = false;
-    Arc::new(still)
+    // What stands still is right wherever what moves is.
+    Arc::new(Scene::of_checked(still))
 }

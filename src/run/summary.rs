@@ -210,6 +210,39 @@ impl Summary {
         }
     }
 
+    /// What of it is no finite number, if anything.
+    pub(super) fn lacking(&self) -> Option<&'static str> {
+        let book = self.energy.iter().flat_map(|book| {
+            let EnergyBook {
+                initial_kinetic,
+                kinetic,
+                initial_elastic,
+                elastic,
+                dissipated,
+                work,
+                residual,
+                relative_residual,
+            } = book;
+            let numbers = [initial_kinetic, kinetic, initial_elastic, elastic, dissipated, residual, relative_residual];
+            numbers.into_iter().chain(work.values())
+        });
+        let losses = self.losses.iter().flat_map(|book| book.lost.values().chain([&book.sum, &book.residual]));
+        let finite = |number: &f64| number.is_finite();
+        if !book.chain(losses).all(finite) {
+            return Some("the energy books");
+        }
+        if !self.momentum.is_finite() {
+            return Some("the momentum balance");
+        }
+        (![self.largest_overlap, self.time_step.current].iter().all(finite)).then_some("the summary")
+    }
+
+    /// Notes how the run ended.
+    pub(super) fn end_with(&mut self, failure: &Failure) {
+        self.ended = if matches!(failure, Failure::Interrupted { .. }) { Ending::Interrupted } else { Ending::Failed };
+        self.reason = Some(failure.to_string());
+    }
+
     /// The text of `summary.json`.
     pub fn to_json(&self) -> String {
         // Plain numbers and strings: writing them to memory has no way to fail.

@@ -1,11 +1,12 @@
 //! The scene: its particles, laws, boundaries and settings, checked, in SI units.
 //!
-//! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
-//! tables; [`Scene::check`] checks scenes that are built in code. Later code need not check again.
+//! A [`SceneDraft`] has public parts that code may fill in; [`SceneDraft::build`] checks all of them and makes a [`Scene`], which nothing
+//! changes any more. The text of a scene becomes a draft, too, and passes the same checks. Later code need not check again.
 
 mod accuracy;
 mod body;
 mod boundary;
+mod checked;
 mod damping;
 mod exchange;
 mod governing;
@@ -25,9 +26,10 @@ pub use crate::surface::Shape;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
+pub use checked::Scene;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::Known;
-pub use exchange::{FlowMeter, Insertion, Outlet, Way};
+pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
@@ -44,11 +46,35 @@ use crate::contact::{
 };
 use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
-/// A scene that can be run: everything the file says, checked, in SI units.
+/// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
-/// The default is the empty scene, from which code can build others.
+/// The default is the empty scene, from which code builds others:
+///
+/// ```
+/// use cograin::contact::Material;
+/// use cograin::quantity::{MaterialIndex, ParticleId, SetIndex};
+/// use cograin::scene::{Particle, SceneDraft};
+///
+/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None };
+/// let marble = Particle {
+///     id: ParticleId(1), set: SetIndex(0), material: MaterialIndex(0), shape: Default::default(), radius: 0.01,
+///     density: 2500.0, position: [0.0, 0.0, 0.02], velocity: [0.0; 3], angular_velocity: [0.0; 3],
+/// };
+/// let mut draft = SceneDraft {
+///     gravity: [0.0, 0.0, -9.81],
+///     materials: vec![glass],
+///     pairs: vec![Default::default()],
+///     sets: vec!["marbles".into()],
+///     particles: vec![marble],
+///     ..SceneDraft::default()
+/// };
+/// assert_eq!(draft.clone().build()?.particles.len(), 1);
+/// draft.particles[0].radius = -0.01;
+/// assert!(draft.build().is_err());
+/// # Ok::<(), cograin::scene::SceneErrors>(())
+/// ```
 #[derive(Clone, Debug, Default)]
-pub struct Scene {
+pub struct SceneDraft {
     /// Settings of the run.
     pub run: Run,
     /// Acceleration of gravity \[m/s²\].
@@ -219,17 +245,6 @@ impl Bond {
     }
 }
 
-impl Scene {
-    /// The boundaries that bonds of a law may hold: its plane, and groups with particles of its sets.
-    pub(crate) fn held_by<'a>(&'a self, bond: &'a Bond) -> impl Iterator<Item = &'a Boundary> {
-        let is_of = |member: &u32| bond.between.contains(&self.particles[*member as usize].set);
-        let holds = move |(place, boundary): &(usize, &Boundary)| {
-            bond.plane.is_some_and(|plane| plane.index() == *place) || boundary.shape.members().iter().any(is_of)
-        };
-        self.boundaries.iter().enumerate().filter(holds).map(|(_, boundary)| boundary)
-    }
-}
-
 /// A particle as the scene starts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
@@ -265,7 +280,7 @@ impl Particle {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Cohesion energy density of two materials (by their index) over their effective modulus, where a law has both.
     pub fn cohesion_ratio(&self, a: usize, b: usize) -> Option<f64> {
         let entry = a * self.materials.len() + b;

@@ -12,10 +12,12 @@ use check::raw_tables;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Error, ErrorKind};
+use std::num::NonZeroUsize;
 use std::path::Path;
+use std::str::FromStr;
 
 impl Scene {
-    /// Reads a scene and the files that it names, which it searches in the folder of the scene.
+    /// Reads a scene and the files that it names, whose paths count from the folder of the scene.
     pub fn read(path: &Path) -> Result<(Self, Source), SceneErrors> {
         Models::standard().read(path, &[], &mut |_| {})
     }
@@ -37,7 +39,8 @@ impl Models {
         tell: &mut dyn FnMut(PackingProgress),
     ) -> Result<(Scene, Source), SceneErrors> {
         let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
-        let text = fs::read_to_string(path).map_err(|error| unreadable(&name, &error))?;
+        let text = bytes(path).map_err(|reason| unreadable(&name, reason))?;
+        let text = String::from_utf8(text).map_err(|_| unreadable(&name, "it is not UTF-8 text".to_owned()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut source = Source { name, text, files: BTreeMap::new() };
         let changes = document::apply(&mut source.text, settings);
@@ -103,26 +106,43 @@ impl Models {
             };
             settings.extend(text.parse::<Setting>());
         }
-        let mut scene = self.scene(source, &settings)?;
-        if let Some(threads) = threads {
-            scene.run.threads = Some(threads as usize).filter(|&threads| threads > 0);
-        }
-        Ok(scene)
+        let scene = self.scene(source, &settings)?;
+        Ok(match threads {
+            Some(threads) => scene.with_threads(NonZeroUsize::new(threads as usize)),
+            None => scene,
+        })
+    }
+}
+
+impl FromStr for Scene {
+    type Err = SceneErrors;
+
+    /// Reads a scene that names no files from its text.
+    fn from_str(text: &str) -> Result<Self, SceneErrors> {
+        Self::from_source(&Source { name: "scene".to_owned(), text: text.to_owned(), files: BTreeMap::new() })
     }
 }
 
 /// The scene itself cannot be read.
-fn unreadable(name: &str, error: &Error) -> SceneErrors {
-    let mistake = Mistake::Unreadable { file: "the scene".to_owned(), reason: reason(error) };
+fn unreadable(name: &str, reason: String) -> SceneErrors {
+    let mistake = Mistake::Unreadable { file: "the scene".to_owned(), reason };
     let (file, table, key) = (name.to_owned(), String::new(), String::new());
     SceneErrors { list: vec![SceneError { file, line: None, table, key, mistake }] }
 }
 
 /// The bytes of a file that there is memory for; otherwise why it cannot be read.
 fn bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let length = fs::metadata(path).map_or(0, |about| about.len());
+    let about = fs::metadata(path).map_err(|error| reason(&error))?;
+    if about.is_dir() {
+        return Err("it is a folder".to_owned());
+    }
+    // Devices and pipes may have no end.
+    if !about.is_file() {
+        return Err("expected a file, found a device or a pipe".to_owned());
+    }
+    let length = about.len();
     if let Some(right) = memory::lacking(length) {
-        return Err(format!("it has {:.2} GB; {right} is right", length as f64 / 1e9));
+        return Err(format!("expected {right}, found {:.2} GB", length as f64 / 1e9));
     }
     fs::read(path).map_err(|error| reason(&error))
 }

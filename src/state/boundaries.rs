@@ -50,9 +50,6 @@ pub struct BoundaryState {
     pub force_before: [f64; 3],
     /// Moment one time step ago \[N m\].
     pub moment_before: [f64; 3],
-    /// What of both is of bond dashpots that are integrated by themselves, where that is shown: at the end of a communication step
-    /// \[N, N m\].
-    pub swept: [[f64; 3]; 2],
     /// Power of a surface that runs in itself, on the particles, at the present time \[W\].
     pub conveying_power: f64,
     /// Sum of the half-kick impulses of the present communication step \[N s\].
@@ -77,14 +74,11 @@ pub struct BoundaryState {
 impl BoundaryState {
     /// Rates of force and moment after a time step of this length \[s\], 0 before the first \[N/s, N m/s\].
     pub(crate) fn rates(&self, step: f64) -> [[f64; 3]; 2] {
-        let Self { force, moment, swept, force_before, moment_before, .. } = self;
-        let rate = |axis: usize, now: &[f64; 3], swept: &[f64; 3], before: &[f64; 3]| {
-            if step > 0.0 { (now[axis] - swept[axis] - before[axis]) / step } else { 0.0 }
+        let Self { force, moment, force_before, moment_before, .. } = self;
+        let rate = |axis: usize, now: &[f64; 3], before: &[f64; 3]| {
+            if step > 0.0 { (now[axis] - before[axis]) / step } else { 0.0 }
         };
-        [
-            [0, 1, 2].map(|axis| rate(axis, force, &swept[0], force_before)),
-            [0, 1, 2].map(|axis| rate(axis, moment, &swept[1], moment_before)),
-        ]
+        [[0, 1, 2].map(|axis| rate(axis, force, force_before)), [0, 1, 2].map(|axis| rate(axis, moment, moment_before))]
     }
 
     /// Counts impulse and work from here.
@@ -118,9 +112,9 @@ pub struct Inertial {
     pub support: [f64; 6],
     /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
     /// \[N/m, N, N m\].
-    pub stiffness: [f64; 21],
+    pub stiffness: [[f64; 6]; 6],
     /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
-    pub damping: [f64; 21],
+    pub damping: [[f64; 6]; 6],
     /// How many contacts there were when these were found.
     pub contacts: u64,
     /// Impulse of the input loads since time 0 \[N s, N m s\].

@@ -102,8 +102,8 @@ impl Simulation {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;
             for axis in 0..3 {
-                boundary.force_before[axis] = boundary.force[axis] - boundary.swept[0][axis];
-                boundary.moment_before[axis] = boundary.moment[axis] - boundary.swept[1][axis];
+                boundary.force_before[axis] = boundary.force[axis];
+                boundary.moment_before[axis] = boundary.moment[axis];
             }
         }
         for nodes in &mut self.state.nodes {

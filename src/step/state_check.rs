@@ -1,11 +1,17 @@
 //! States from outside are checked before they are used.
 
-use super::{LONGEST_AUTOMATIC_STEP, Simulation};
+use super::{LONGEST_AUTOMATIC_STEP, RunError, Simulation};
 use crate::flow;
 use crate::scene::Step;
 use crate::state::{State, StateFault, demand};
 
 impl Simulation {
+    /// Refuses a present state that could not be taken up again.
+    pub(crate) fn check_present(&self) -> Result<(), RunError> {
+        let invalid = |StateFault { part, place, right }| RunError::Invalid { part, place, right, time: self.time() };
+        self.check(&self.state).map_err(invalid)
+    }
+
     /// Whether a state can be one of this simulation: everything that the passes trust (slots, lengths and order of the
     /// lists, finite numbers) and what never changes (radii, masses, materials, groups). Takes a time in proportion to
     /// the state.

@@ -6,7 +6,7 @@ use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, prope
 use cograin::contact::normal::hooke;
 use cograin::contact::{LawChoice, NoKeys, NormalModel, Scheme, TangentialModel, normal, tangential};
 use cograin::quantity::Positive;
-use cograin::scene::{Accuracy, Scene, Step};
+use cograin::scene::{Accuracy, SceneDraft, Step};
 use cograin::step::Simulation;
 use std::sync::Arc;
 
@@ -27,9 +27,9 @@ const PHASES: u32 = 12;
 
 /// A sphere before a plane, or two spheres before each other; velocity and spin of the first afterwards, and the steps that
 /// the impact took about.
-fn rebound(mut scene: Scene, step: Step, duration: f64) -> ([f64; 3], [f64; 3], f64) {
+fn rebound(mut scene: SceneDraft, step: Step, duration: f64) -> ([f64; 3], [f64; 3], f64) {
     scene.run.step = step;
-    let mut simulation = Simulation::new(Arc::new(scene)).unwrap();
+    let mut simulation = Simulation::new(Arc::new(scene.build().unwrap())).unwrap();
     simulation.advance(5.0 * duration).unwrap();
     let steps = duration / simulation.state().clock.step;
     let stage = Stage { simulation, step: 0.0 };
@@ -37,7 +37,7 @@ fn rebound(mut scene: Scene, step: Step, duration: f64) -> ([f64; 3], [f64; 3], 
 }
 
 /// An oxide sphere before a rigid plane, this angle \[°\] from its normal, this far \[m\] away; and the duration of the impact.
-fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f64) -> (Scene, f64) {
+fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f64) -> (SceneDraft, f64) {
     let (sine, cosine) = angle.to_radians().sin_cos();
     let mut body = sphere(R, 4000.0);
     body.velocity = [SPEED * sine, 0.0, -SPEED * cosine];

@@ -7,7 +7,7 @@ use crate::physics::stage::{HERTZ, SPRING, Stage, assert_close, material, plane,
 use cograin::contact::cohesion::sjkr;
 use cograin::contact::{CohesionModel, LawChoice, NoKeys, PairProperties, TangentialModel, cohesion, tangential};
 use cograin::quantity::NonNegative;
-use cograin::scene::Scene;
+use cograin::scene::SceneDraft;
 use std::f64::consts::PI;
 
 /// Radius \[m\].
@@ -83,7 +83,7 @@ fn friction(tangential_reduce: bool) -> (f64, f64) {
         ..HERTZ
     };
     let pair = PairProperties { cohesion_energy_density: NonNegative::new(density), ..properties(0.5, 0.1) };
-    let mut scene: Scene = scene(law, 1e-7, vec![material(1e7, 0.0); 2], pair, vec![body]);
+    let mut scene: SceneDraft = scene(law, 1e-7, vec![material(1e7, 0.0); 2], pair, vec![body]);
     scene.boundaries = vec![plane([0.0; 3], [0.0, 0.0, 1.0], 1)];
     (-Stage::of(scene).force(0)[0], 0.1 * elastic)
 }

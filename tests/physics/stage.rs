@@ -7,7 +7,8 @@ use cograin::contact::{
 };
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{
-    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, Scene, Shape, Step,
+    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, SceneDraft, Shape,
+    Step,
 };
 use cograin::step::Simulation;
 use cograin::surface::Plane;
@@ -98,10 +99,12 @@ pub(crate) fn scene(
     materials: Vec<Material>,
     properties: PairProperties,
     particles: Vec<Particle>,
-) -> Scene {
+) -> SceneDraft {
     let pairs = materials.len() * materials.len();
+    let named = materials.into_iter().zip(0..).map(|(it, place)| Material { name: format!("material_{place}"), ..it });
+    let materials: Vec<Material> = named.collect();
     let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
-    Scene {
+    SceneDraft {
         run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
         contacts: vec![ContactLaw {
             name: "contact".into(),
@@ -118,7 +121,7 @@ pub(crate) fn scene(
         bonds: Vec::new(),
         sets: vec!["particles".into()],
         particles: numbered.collect(),
-        ..Scene::default()
+        ..SceneDraft::default()
     }
 }
 
@@ -132,9 +135,9 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// Starts.
-    pub(crate) fn of(scene: Scene) -> Self {
+    pub(crate) fn of(scene: SceneDraft) -> Self {
         let Step::Given(step) = scene.run.step else { panic!("physics tests give the step") };
-        Self { simulation: Simulation::new(Arc::new(scene)).unwrap(), step }
+        Self { simulation: Simulation::new(Arc::new(scene.build().unwrap())).unwrap(), step }
     }
 
     /// Makes time steps.

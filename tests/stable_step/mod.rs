@@ -21,10 +21,10 @@ const LEAST: f64 = 0.90;
 
 /// The scene with this time step, unstable or not.
 fn with_step(scene: &Scene, step: f64) -> Simulation {
-    let mut scene = scene.clone();
+    let mut scene = scene.clone().into_draft();
     scene.run.step = Step::Given(step);
     scene.run.allow_unstable = true;
-    Simulation::new(Arc::new(scene)).expect("it starts")
+    Simulation::new(Arc::new(scene.build().expect("the scene is right"))).expect("it starts")
 }
 
 /// Whether the motion grows by more than ten thousand in energy at this step.
@@ -41,9 +41,9 @@ fn grows(scene: &Scene, step: f64, steps: u32) -> bool {
 
 /// The stated stable step \[s\].
 fn stated(scene: &Scene) -> f64 {
-    let mut free = scene.clone();
+    let mut free = scene.clone().into_draft();
     free.run.step = Step::Automatic { safety: 0.2 };
-    Simulation::new(Arc::new(free)).expect("it starts").state().clock.stable
+    Simulation::new(Arc::new(free.build().expect("the scene is right"))).expect("it starts").state().clock.stable
 }
 
 /// The stated stable step over the true one, by bisection on the engine, to one in two hundred.
@@ -152,51 +152,6 @@ fn of_predicted_bond_dashpots() {
             let what = format!("predicted bond dashpots, {} spheres, ratio {ratio}", spheres.len());
             assert!((0.88..=1.005).contains(&tried), "{what}: {tried:.3}");
         }
-    }
-}
-
-/// Blocks, a chain and a random network of bonded spheres, of which some are held.
-fn bonded_networks() -> [(&'static str, Vec<Sphere>); 3] {
-    let chain = (0..12).map(|i| [2e-3 * f64::from(i), 0.0, 0.0, 1e-3]).collect();
-    [("chain", chain), ("face-centred", face_centred(2, 2e-3)), ("random 1:2", packing(30, 2.0))]
-}
-
-#[test]
-fn of_split_bond_dashpots_is_that_without_dashpots() {
-    for (name, spheres) in bonded_networks() {
-        let text = |more: &str| block(&spheres, |sphere| *sphere == spheres[0], &bonds(more));
-        let bare = scene(&text(""));
-        let undamped = linearised::stable_step(&text(""), stated(&bare));
-        for ratio in [0.3, 1.0, 3.0] {
-            let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(ratio))));
-            assert_eq!(stated(&split), stated(&bare), "{name}, ratio {ratio}");
-            assert!(!grows(&split, 0.97 * undamped, 4000), "{name}, ratio {ratio}: unstable below the undamped step");
-            assert!(grows(&split, 1.03 * undamped, 4000), "{name}, ratio {ratio}: stable above the undamped step");
-            let acting = stated(&scene(&text(&dashpots(ratio))));
-            assert!(acting < 0.8 * stated(&split), "{name}, ratio {ratio}: dashpots that act as forces");
-        }
-    }
-}
-
-#[test]
-fn of_split_bond_dashpots_beside_contact_dashpots_is_that_of_the_contacts() {
-    let spheres = cubic(4, 1.998e-3);
-    let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
-    let soft = |more: &str| bonds(more).replace("1e12", "3e10").replace("4e11", "1e10");
-    for ratio in [0.05, 0.3] {
-        let damping = 2.0 * ratio * (1e5 * 0.5 * mass).sqrt() / (0.5 * mass);
-        let pair = format!(
-            "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = {damping:?}\ntangential_damping = {damping:?}"
-        );
-        let contacts = contacts("hooke_stiffness", &pair);
-        let text = |more: &str| {
-            let text = block(&spheres, near_faces(&spheres, 1.1e-3), &format!("{contacts}{}", soft(more)));
-            text.replace("threads = 1\n", "threads = 1\nscheme = \"engine\"\n")
-        };
-        let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(1.0))));
-        assert_eq!(stated(&split), stated(&scene(&text(""))));
-        let tried = ratio_on_the_engine(&split, stated(&split));
-        assert!((0.88..=1.005).contains(&tried), "contact dashpots, ratio {ratio}: {tried:.3}");
     }
 }
 

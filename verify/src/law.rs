@@ -57,7 +57,7 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
         if let Some(value) = material.poissons_ratio.filter(|value| PoissonsRatio::new(*value).is_none()) {
             return Err(Mistake::new(
                 place("poissons_ratio"),
-                format!("{value} found; a number from 0 to 0.5 is right"),
+                format!("expected a number from 0 to 0.5, found {value}"),
             ));
         }
         Ok(Material {
@@ -68,7 +68,7 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
         })
     });
     let all: Vec<Material> = all.collect::<Result<_, Mistake>>()?;
-    if all.is_empty() { Err(Mistake::new("materials", "none found; at least one is right")) } else { Ok(all) }
+    if all.is_empty() { Err(Mistake::new("materials", "expected at least one, found none")) } else { Ok(all) }
 }
 
 /// Properties of each two materials.
@@ -86,7 +86,7 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
             }
             let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
             set(&mut pairs[at], ours, value)
-                .map_err(|right| Mistake::new(field(), format!("{value} found; {right} is right")))?;
+                .map_err(|right| Mistake::new(field(), format!("expected {right}, found {value}")))?;
         }
     }
     if case.model.mixing == "lammps" {
@@ -132,7 +132,7 @@ fn mixed(case: &Case, pairs: &mut [PairProperties]) {
 fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64>, Mistake> {
     let field = || format!("pair_properties.{name}");
     let rows: Vec<Vec<f64>> = serde_json::from_value(value.clone())
-        .map_err(|cause| Mistake::new(field(), format!("{cause}; a matrix of numbers is right")))?;
+        .map_err(|cause| Mistake::new(field(), format!("expected a matrix of numbers: {cause}")))?;
     if rows.len() != count || rows.iter().any(|row| row.len() != count) {
         return Err(Mistake::new(field(), format!("not {count} rows of {count} numbers, one for each type")));
     }
@@ -140,7 +140,7 @@ fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64
         for j in 0..i {
             if row[j] != rows[j][i] {
                 let found = format!("[{i}][{j}] is {} and [{j}][{i}] is {}", row[j], rows[j][i]);
-                return Err(Mistake::new(field(), format!("{found}; a symmetric matrix is right")));
+                return Err(Mistake::new(field(), format!("expected a symmetric matrix, found {found}")));
             }
         }
     }
@@ -183,12 +183,15 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
 pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     let model = &case.model;
     let unknown = |field: &str, found: &str, right: &str| {
-        Mistake::new(format!("model.{field}"), format!("\"{found}\" found; {right} is right"))
+        Mistake::new(format!("model.{field}"), format!("expected {right}, found \"{found}\""))
     };
     for (flag, value) in model.others.iter().filter(|(flag, _)| !bond::has_flag(case, flag)) {
         let off = value.is_null() || *value == serde_json::json!(false) || *value == serde_json::json!("off");
         if !off {
-            return Err(Mistake::new(format!("model.{flag}"), format!("{value} found; this flag is not known here")));
+            return Err(Mistake::new(
+                format!("model.{flag}"),
+                format!("expected no flag of this name, found it ({value})"),
+            ));
         }
     }
     let speed = || {
@@ -276,14 +279,14 @@ fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
         Some("mass_velocity") => sticky::DampingKind::MassVelocity,
         Some("velocity") => sticky::DampingKind::Velocity,
         Some(other) => {
-            let message = format!("\"{other}\" found; viscoelastic, mass_velocity or velocity is right");
+            let message = format!("expected viscoelastic, mass_velocity or velocity, found \"{other}\"");
             return Err(Mistake::new("model.damping", message));
         }
     };
     let engine_exact = match case.model.arms.as_str() {
         "lammps" => true,
         "overlap" => false,
-        other => return Err(Mistake::new("model.arms", format!("\"{other}\" found; lammps or overlap is right"))),
+        other => return Err(Mistake::new("model.arms", format!("expected lammps or overlap, found \"{other}\""))),
     };
     Ok(sticky::Keys { damping, given_tangential_modulus: case.model.mixing == "lammps", engine_exact })
 }
@@ -292,7 +295,13 @@ fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
 fn misplaced(case: &Case) -> Result<(), Mistake> {
     let model = &case.model;
     let refused = |flag: &str, home: &str| {
-        Err(Mistake::new(format!("model.{flag}"), format!("true found; this flag belongs to {home} alone")))
+        Err(Mistake::new(
+            format!("model.{flag}"),
+            format!(
+                "expected false, as this flag belongs to {home} alone, \
+                                                           found true"
+            ),
+        ))
     };
     if model.viscous && model.normal != "hooke" {
         return refused("viscous", "hooke");

@@ -31,7 +31,7 @@ const SMALL: f64 = 1000.0;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum StartError {
     /// An argument is missing.
-    #[error("{argument} is missing; {right} is right")]
+    #[error("{argument}: expected {right}, found none")]
     Missing {
         /// The argument.
         argument: &'static str,
@@ -39,7 +39,7 @@ pub(crate) enum StartError {
         right: &'static str,
     },
     /// Model exchange.
-    #[error("fmuType {found} is not provided; fmi2CoSimulation (1) is right")]
+    #[error("fmuType: expected fmi2CoSimulation (1), found {found}")]
     Type {
         /// The type asked for.
         found: i32,
@@ -52,8 +52,8 @@ pub(crate) enum StartError {
     Resources(#[from] ResourceError),
     /// Description and resources do not belong together.
     #[error(
-        "fmuGUID {given} is not that of the resources with this library, {expected}; the description, resources \
-             and library of one export are right"
+        "fmuGUID: expected {expected}, that of the resources with this library, found {given}; take the \
+         description, resources and library of one export"
     )]
     Identity {
         /// The GUID given.

@@ -32,7 +32,6 @@ impl Instance {
         let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name() == kind);
         let mut values = std::mem::take(&mut self.values);
         values.clear();
-        values.reserve(references.len());
         for reference in references.iter() {
             let index = reference as usize;
             if wanted.is_none() || self.unit.interface.type_of(index) != wanted {
@@ -97,8 +96,8 @@ impl Instance {
         references.iter().map(text).collect()
     }
 
-    /// `fmi2SetString`: all or nothing.
-    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) -> Result<(), Refusal> {
+    /// Whether all of these are texts that may be set now.
+    pub(crate) fn check_texts(&self, references: Items<Reference>) -> Result<(), Refusal> {
         let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
         for reference in references.iter() {
             let (index, variable) = self.variable(reference, "String")?;
@@ -106,10 +105,14 @@ impl Instance {
                 return Err(InterfaceError::Fixed { index, name: variable.name.clone() }.into());
             }
         }
+        Ok(())
+    }
+
+    /// `fmi2SetString`, once the references are checked: all or nothing.
+    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) {
         for (reference, value) in references.iter().zip(values) {
             self.frames.set_text(reference as usize, value);
         }
-        Ok(())
     }
 
     /// The other setters: there are no inputs of these types, so every reference is a wrong one.

@@ -39,7 +39,7 @@ pub(crate) struct SurfacePass {
     /// The surfaces, in the order of their lists.
     surfaces: Vec<AtSurface>,
     /// Working space of a step.
-    room: Mutex<Room>,
+    workspace: Mutex<Workspace>,
 }
 
 /// One surface and one contact law that meet.
@@ -74,9 +74,9 @@ enum Touched {
     Nodes(RwLock<Box<Deforming>>),
 }
 
-/// Working space of a step, kept from one step to the next.
+/// Working arrays of a step, kept from one step to the next.
 #[derive(Default)]
-struct Room {
+struct Workspace {
     /// What the lists store.
     entries: Vec<Entries>,
     /// Loads of each piece on each surface, piece by piece.
@@ -227,35 +227,35 @@ impl SurfacePass {
             AtSurface::of(scene, index, (&scene.boundaries[boundary as usize], law as usize))
         };
         let surfaces: Vec<AtSurface> = meetings.iter().enumerate().map(surface).collect();
-        (!surfaces.is_empty()).then(|| Self { surfaces, room: Mutex::default() })
+        (!surfaces.is_empty()).then(|| Self { surfaces, workspace: Mutex::default() })
     }
 }
 
 impl Pass for SurfacePass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         self.surfaces.iter().try_for_each(|surface| surface.follow(state))?;
-        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
-        let (room, count) = (&mut *room, self.surfaces.len());
+        let mut workspace = self.workspace.lock().unwrap_or_else(PoisonError::into_inner);
+        let (workspace, count) = (&mut *workspace, self.surfaces.len());
         let pieces = state.particles.len().div_ceil(PIECE);
-        room.entries.clear();
+        workspace.entries.clear();
         let lists = state.walls.iter_mut();
-        room.entries.extend(
+        workspace.entries.extend(
             lists.map(|it| Entries::of(&mut it.flags, it.history.rows(), it.history.all_mut(), &mut it.pair_constant)),
         );
-        room.loads.clear();
-        room.loads.resize(pieces * count, Load::default());
-        room.contacts.resize_with(pieces * count, FeatureContacts::default);
-        room.spare.resize_with(count, Spare::default);
+        workspace.loads.clear();
+        workspace.loads.resize(pieces * count, Load::default());
+        workspace.contacts.resize_with(pieces * count, FeatureContacts::default);
+        workspace.spare.resize_with(count, Spare::default);
         let particles = state.particles.len();
         let work = Work {
             walls: &state.walls,
-            entries: &room.entries,
+            entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
             particles: Loaded::of(&mut state.particles),
             context,
         };
-        let (loads, contacts) = (Shared::new(&mut room.loads), Shared::new(&mut room.contacts));
+        let (loads, contacts) = (Shared::new(&mut workspace.loads), Shared::new(&mut workspace.contacts));
         let evaluate = |piece: usize| {
             let slots = piece * PIECE..((piece + 1) * PIECE).min(particles);
             for (place, surface) in (piece * count..).zip(&self.surfaces) {
@@ -267,12 +267,12 @@ impl Pass for SurfacePass {
         let mut result = Ok(());
         for (place, surface) in self.surfaces.iter().enumerate() {
             if surface.has_features() {
-                let found = || room.contacts.iter().skip(place).step_by(count);
-                let (list, spare) = (&mut state.walls[surface.index], &mut room.spare[place]);
+                let found = || workspace.contacts.iter().skip(place).step_by(count);
+                let (list, spare) = (&mut state.walls[surface.index], &mut workspace.spare[place]);
                 features::replace(list, surface.kept_rows, spare, found());
                 surface.load_nodes(state, found().map(FeatureContacts::held));
             }
-            result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
+            result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
         result
     }

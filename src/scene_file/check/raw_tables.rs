@@ -117,7 +117,7 @@ impl RawTables {
         };
         let count = document.names("material").len();
         if count > MOST_MATERIALS {
-            let (found, right) = (format!("{count} materials"), format!("{MOST_MATERIALS} at most"));
+            let (found, right) = (format!("{count}"), format!("at most {MOST_MATERIALS} materials"));
             faults.add("material", "", Mistake::Wrong { found, right });
             return None;
         }

@@ -7,7 +7,7 @@ mod values;
 
 pub(super) use crate::quantity::{Corners, Triple};
 pub(super) use crate::surface::Selection;
-pub(super) use body::{Inertia, Supports};
+pub(super) use body::{Inertia, Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{Between, StepKey};
