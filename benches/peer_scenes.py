@@ -2,6 +2,7 @@
 
 import gzip
 import math
+import random
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +20,12 @@ BLOCK_STEP, BLOCK_RADIUS, BLOCK_SPACING = 2.0e-6, 0.005, 0.01001
 BOND_STIFFNESS, SHEAR_STIFFNESS, BOND_REACH = 1.0e10, 4.0e9, 0.0105
 BLOCK_SPEED = 0.005  # [m/s]
 
+# Spheres of 1 mm, closely packed about spheres of 5 mm that stand on a cubic lattice, in a box, with small random velocities.
+SMALL, LARGE, PITCH, BIMODAL_EDGE, BIMODAL_SPEED = 0.001, 0.005, 0.016, 0.048, 0.01
+
+# Spheres of 5 mm +- 20 % on a cubic lattice in a box, with random velocities and without gravity: they fill 7 % of it.
+GAS_EDGE, GAS_PITCH, GAS_SPEED = 27, 0.02, 1.0
+
 
 class Scene(NamedTuple):
     """A scene and how long it is run to be timed."""
@@ -30,6 +37,7 @@ class Scene(NamedTuple):
     wide: float = 1.0  # how far the wall at high x stands away, over the width of the packing
     factor: float = 1.0  # time step over STEP
     bonds: str = ""  # formulation, in the bonded block
+    spheres: str = ""  # bimodal or gas instead of the packing
     facet: float = 0.0  # edge of the facets of the walls [m]; 0: they are planes
     moving: bool = False  # whether walls of facets swing
     peers: tuple = ()  # those that can run it
@@ -44,6 +52,8 @@ SCENES = [
     Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation", peers=("lammps", "yade")),
     Scene("s1_20k_mesh", (100, 1100), facet=4.5e-3, peers=("liggghts",)),
     Scene("s4_20k", (500, 5500), wide=3.0, factor=1.5, peers=("liggghts", "lammps", "yade")),
+    Scene("bimodal", (200, 2200), spheres="bimodal", factor=0.25),
+    Scene("gas", (500, 5500), spheres="gas"),
 ]
 
 
@@ -75,8 +85,44 @@ def block():
     return rows
 
 
+def bimodal():
+    """Rows x, y, z, radius and velocities of the large spheres and of the small ones between them, which just touch."""
+    chance, spacing = random.Random(1), 2 * SMALL * (1 - 1e-3)
+
+    def row(x, y, z, radius):
+        return (x, y, z, radius, *(BIMODAL_SPEED * chance.uniform(-1, 1) for _ in range(3)))
+
+    places = [PITCH * (number + 0.5) for number in range(round(BIMODAL_EDGE / PITCH))]
+    large = [(x, y, z) for x in places for y in places for z in places]
+    rows = [row(*centre, LARGE) for centre in large]
+    high = BIMODAL_EDGE - SMALL
+    for k in range(int((high - SMALL) / (spacing * math.sqrt(6) / 3)) + 1):
+        z = SMALL + spacing * math.sqrt(6) / 3 * k
+        for j in range(int((high - SMALL) / (spacing * math.sqrt(3) / 2)) + 1):
+            y = SMALL + spacing * math.sqrt(3) / 2 * (j + (k % 2) / 3)
+            for i in range(int((high - SMALL) / spacing) + 1):
+                x = SMALL + spacing * (i + 0.5 * ((j + k) % 2))
+                near = min(math.dist((x, y, z), centre) for centre in large)
+                if max(x, y) <= high and near >= LARGE + SMALL * (1 - 1e-2):
+                    rows.append(row(x, y, z, SMALL))
+    return rows
+
+
+def gas():
+    """Rows x, y, z, radius and velocities of spheres that fly."""
+    chance, places = random.Random(1), [GAS_PITCH * (number + 0.5) for number in range(GAS_EDGE)]
+    return [
+        (x, y, z, MEAN_RADIUS * chance.uniform(0.8, 1.2), *(GAS_SPEED * chance.uniform(-1, 1) for _ in range(3)))
+        for x in places
+        for y in places
+        for z in places
+    ]
+
+
 def box(scene):
     """Walls of a scene [m]."""
+    if scene.spheres:
+        return [(0.0, BIMODAL_EDGE if scene.spheres == "bimodal" else GAS_EDGE * GAS_PITCH)] * 3
     (low, high), *others = BOX
     return [(low, high * scene.copies * scene.wide), *others]
 
@@ -88,12 +134,13 @@ def time_step(scene):
 
 def cograin(scene, steps, threads, folder):
     """Scene file and particles; returns the arguments of the program."""
-    rows = block() if scene.bonds else packing(scene.copies)
-    columns = "x,y,z,radius,vx,vy,vz" if scene.bonds else "x,y,z,radius"
+    makers = {"bimodal": bimodal, "gas": gas}
+    rows = block() if scene.bonds else makers[scene.spheres]() if scene.spheres else packing(scene.copies)
+    columns = "x,y,z,radius,vx,vy,vz" if scene.bonds or scene.spheres else "x,y,z,radius"
     if not (folder / "bed.csv").exists():
         (folder / "bed.csv").write_text("\n".join([columns, *(",".join(map(repr, row)) for row in rows), ""]))
     step = time_step(scene)
-    text = f"gravity = [0.0, 0.0, {0.0 if scene.bonds else -9.81}]\n[run]\nend = {steps * step!r}\nstep = {step!r}\n"
+    text = f"gravity = [0.0, 0.0, {0.0 if scene.bonds or scene.spheres == 'gas' else -9.81}]\n[run]\nend = {steps * step!r}\nstep = {step!r}\n"
     text += f"threads = {threads}\n[material.grain]\nyoungs_modulus = {YOUNGS_MODULUS!r}\n"
     text += f"poissons_ratio = {POISSONS_RATIO}\ndensity = {DENSITY}\n"
     text += '[particles.bed]\nmaterial = "grain"\nfile = "bed.csv"\n'

@@ -2,8 +2,8 @@
 """Whole time steps of common scenes in cograin and in the peers that are installed, in one go.
 
 The programs run in turn, one thread each. Set-up is removed by two numbers of steps: cost of a step = (user CPU of the
-longer run - that of the shorter) / (difference of steps), each the least of the repeats; divided by contacts (bonds) as
-cograin counts them, mean over the run. Memory is the program's own peak (VmHWM).
+longer run - that of the shorter) / (difference of steps), each the least of the repeats; divided by contacts (bonds, in a gas
+particles) as cograin counts them, mean over the run. Memory is the program's own peak (VmHWM).
 
 A peer is looked for under its usual name, or is the file that its option names. One that is not installed is left out, and
 the last line of the table says so. How each is installed:
@@ -140,14 +140,19 @@ def measure(scene, programs, repeats, folder):
         for program in chosen:
             program.once()
     counts = json.loads((chosen[0].folder / "out/summary.json").read_text())["counts"]
-    number = counts["bonds_intact"] if scene.bonds else counts["mean_contacts"]
+    number = counts[counted(scene)]
     return chosen, number, counts
+
+
+def counted(scene):
+    """What the cost of a step is divided by, as the summary calls it."""
+    return "bonds_intact" if scene.bonds else "particles" if scene.spheres == "gas" else "mean_contacts"
 
 
 def table(options, scenes, programs, folder):
     """The table, line by line, and the versions of the peers."""
     versions = {}
-    lines = ["| scene | program | ns per contact (bond) and step | peer over cograin | peak MiB |", "|---|---|---|---|---|"]
+    lines = ["| scene | program | ns per contact (bond, particle of a gas) and step | peer over cograin | peak MiB |", "|---|---|---|---|---|"]
     whole = any(options.only == scene.name for scene in scenes)
     for scene in scenes:
         if options.only != scene.name if whole else options.only not in scene.name:
@@ -160,7 +165,7 @@ def table(options, scenes, programs, folder):
             ratio = "" if program is chosen[0] else f"{program.ratio_to(chosen[0]) if program.name == 'before' else cost / own:.2f}"
             lines.append(f"| {scene.name} | {program.name} | {cost / number * 1e9:.1f} | {ratio} | {program.memory():.0f} |")
         renewed = counts["neighbour_rebuilds"]
-        kind = "bonds" if scene.bonds else "contacts"
+        kind = {"bonds_intact": "bonds", "particles": "particles", "mean_contacts": "contacts"}[counted(scene)]
         print("\n".join(lines[-len(chosen):]), f"   {number:.0f} {kind}, lists made {renewed} times", sep="\n", flush=True)
     return lines, versions
 

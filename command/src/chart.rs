@@ -35,13 +35,13 @@ pub(super) fn chart(models: &Models, arguments: &ChartArguments) -> Result<(), E
         say(format_args!(
             "{name}: outputs over the time step against the finest one, about {:.1} s of processor time",
             chart.seconds
-        ));
+        ))?;
         let drawing = chart.draw().map_err(Ending::failed)?;
         for path in drawing.write(&arguments.output, &name).map_err(Ending::failed)? {
-            say(format_args!("  wrote {}", path.display()));
+            say(format_args!("  wrote {}", path.display()))?;
         }
         for note in &drawing.notes {
-            say(format_args!("  {note}"));
+            say(format_args!("  {note}"))?;
         }
     }
     Ok(())

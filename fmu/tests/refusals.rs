@@ -208,3 +208,31 @@ fn a_message_holds_no_percent_sign() {
     let status = unsafe { fmi2SetDebugLogging(host.component, 1, 1, name.as_ptr()) };
     host.refused(status, &["expected a category among"]);
 }
+
+/// Room was once made for as many values as the host said, before the first reference was looked at.
+#[test]
+fn counts_that_no_memory_holds_are_refused_before_anything_is_done() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    let force = unit.reference("floor.force.z");
+    let (mut real, mut flag, mut text) = (7.0, 7, c"a".as_ptr());
+    for count in [1_usize << 33, 1 << 40, 1 << 60, usize::MAX] {
+        // SAFETY: the count is refused before anything is read or written.
+        unsafe {
+            host.refused(fmi2GetReal(host.component, &raw const force, count, &raw mut real), &["fewer are right"]);
+            host.refused(fmi2GetBoolean(host.component, &raw const force, count, &raw mut flag), &["fewer are right"]);
+            host.refused(fmi2SetString(host.component, &raw const force, count, &raw const text), &["fewer are right"]);
+            host.refused(fmi2GetString(host.component, &raw const force, count, &raw mut text), &["fewer are right"]);
+        }
+    }
+    assert_eq!((real, flag), (7.0, 7));
+    let bytes = host.serialize(host.save());
+    let mut state = null_mut();
+    for size in [1_usize << 33, 1 << 45, isize::MAX.unsigned_abs()] {
+        // SAFETY: the state says how long it is: the size is refused before more is read.
+        let status = unsafe { fmi2DeSerializeFMUstate(host.component, bytes.as_ptr().cast(), size, &raw mut state) };
+        host.refused(status, &["its length or checksum does not fit"]);
+    }
+    assert!(state.is_null());
+    assert_eq!(host.step(0.0, 1.0e-4), Status::Ok);
+}

@@ -98,8 +98,8 @@ fn steps(scene: &Arc<Scene>, present: &Simulation, (schedule, begins): (&Schedul
     for velocity in &mut falling.particles.velocity {
         velocity[0] = speed;
     }
-    let limit = Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.limit(), |it| it.limit());
-    let bound = limit.safe;
+    let bound =
+        Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.stable_step(), |it| it.stable_step());
     let shortest = (IN_A_PACKING * safety * bound).min(present.state().clock.step);
     Steps { least: schedule.steps(begins, LONGEST_AUTOMATIC_STEP), most: schedule.steps(begins, shortest) }
 }

@@ -52,6 +52,9 @@ pub struct Report {
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
+    if let Some(schedule) = &schedule {
+        schedule.check_step(scene_name, simulation.state().clock.step)?;
+    }
     let begins = schedule.as_ref().map_or(0.0, |schedule| {
         let time = simulation.time();
         schedule.point_of(time).unwrap_or(time)
@@ -137,7 +140,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .bonds
             .iter()
             .zip(&simulation.state().bonds)
-            .map(|(bond, list)| format!("bond {}: {} bonds at the start", bond.name, list.first.len())),
+            .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, count(list.first.len(), "bond"))),
     );
     uses.extend(scene.boundaries.iter().map(boundary));
     if scene.gravity.iter().any(|part| *part != 0.0) {
@@ -145,9 +148,11 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     }
     uses.extend(scene.damping.iter().map(|damping| {
         let damped = damping.linear.iter().zip(&damping.angular).filter(|(a, b)| **a != 0.0 || **b != 0.0).count();
-        format!("damping {} of {damped} particles", damping.name)
+        format!("damping {} of {}", damping.name, count(damped, "particle"))
     }));
-    uses.extend(scene.forces.iter().map(|force| format!("force {} on {} particles", force.name, force.members.len())));
+    uses.extend(
+        scene.forces.iter().map(|force| format!("force {} on {}", force.name, count(force.members.len(), "particle"))),
+    );
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(exchange(scene));
     if scene.output.energy {

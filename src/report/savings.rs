@@ -49,7 +49,7 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
 /// A given step that is much shorter than an automatic one.
 fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
-    let (safety, stable) = (crate::scene::Run::SAFETY, present.state().clock.stable);
+    let (safety, stable) = (crate::scene::Run::SAFETY, present.stable_step());
     let part = step / (safety * stable);
     (stable.is_finite() && part < SHORT).then(|| {
         format!(

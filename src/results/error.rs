@@ -27,6 +27,34 @@ pub enum OutputError {
         /// What the encoder said.
         source: EncodeError,
     },
+    /// Something that no run has made stands where a run writes.
+    #[error("{}: expected {right}, found {found}; move it away", path.display())]
+    NotOwn {
+        /// The file or folder.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+        /// What would be right.
+        right: String,
+    },
+    /// A file of the run is gone.
+    #[error("{}: expected the file that this run writes, found none or another one: it was moved or deleted meanwhile", path.display())]
+    Gone {
+        /// The file.
+        path: PathBuf,
+    },
+    /// There is no memory for an output.
+    #[error("{}: expected {right} for {what}, which needs about {:.2} GB", path.display(), *needed as f64 / 1e9)]
+    Memory {
+        /// The folder of the results.
+        path: PathBuf,
+        /// What it is needed for.
+        what: &'static str,
+        /// Bytes that are needed.
+        needed: u64,
+        /// What would be right.
+        right: String,
+    },
     /// A child of the process that writes.
     #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
     Forked {
@@ -42,6 +70,11 @@ pub enum OutputError {
 }
 
 impl OutputError {
+    /// Something that no run has made.
+    pub(crate) fn not_own(path: &Path, found: impl Into<String>, right: impl Into<String>) -> Self {
+        Self::NotOwn { path: path.to_owned(), found: found.into(), right: right.into() }
+    }
+
     /// Ties what the system said to the file.
     pub(crate) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |source| Self::Write { path: path.to_owned(), source }

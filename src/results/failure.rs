@@ -44,6 +44,34 @@ pub enum Refusal {
         /// Where they were to be.
         folder: PathBuf,
     },
+    /// A file that is not to be replaced.
+    #[error("{}: expected a name that is not there yet, found a file; --overwrite replaces it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder where a file is to be written.
+    #[error("{}: expected a file or a name that is not there yet, found a folder", path.display())]
+    NotAFile {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that the command reads itself.
+    #[error("{}: expected a file that the command does not read itself, found {}", path.display(), read.display())]
+    Read {
+        /// The file that was to be written or replaced.
+        path: PathBuf,
+        /// The same file as the command reads it.
+        read: PathBuf,
+    },
+    /// Files of the folder have names of results, and no run has written them.
+    #[error("{}: expected results that a run has written, found {file} of another kind; move it away", folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the file.
+        file: String,
+    },
     /// Another process writes into the folder.
     #[error("{}: in use by {holder}; take another folder, or the same one when that run has ended", folder.display())]
     InUse {
@@ -148,8 +176,10 @@ pub enum Failure {
         folder: PathBuf,
     },
     /// Someone asked to stop before the packing had come to rest.
-    #[error("interrupted after {steps} steps {}; nothing was written", reached(*ratio))]
+    #[error("interrupted after {steps} steps {}; {}", reached(*ratio), going_on(kept))]
     SettlingInterrupted {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
@@ -158,9 +188,12 @@ pub enum Failure {
     /// The packing will not come to rest.
     #[error(
         "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
-         the mean force, above settle_tolerance, {tolerance:e}: {why}"
+         the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
+        going_on(kept)
     )]
     Restless {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -173,8 +206,10 @@ pub enum Failure {
         why: String,
     },
     /// The packing did not come to rest.
-    #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
+    #[error("not settled after {steps} steps (t = {time} s): {}; {}", unsettled(*ratio, *tolerance), going_on(kept))]
     Unsettled {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -200,6 +235,11 @@ impl From<ResumeError> for Failure {
     fn from(error: ResumeError) -> Self {
         Self::Refused(error.into())
     }
+}
+
+/// Where a packing that is not at rest is kept, and how to go on with it.
+fn going_on(kept: &std::path::Path) -> String {
+    format!("{} holds the state so far: settle --from it to go on", kept.display())
 }
 
 /// How far settling had come.

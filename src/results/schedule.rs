@@ -141,20 +141,27 @@ impl Schedule {
         for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
             let Some(interval) = interval else { continue };
             let count = end / interval;
-            if count > most {
+            if count > most * (1.0 + SAME) {
                 return Err(Refusal::Counts { scene: scene_name.to_owned(), key, interval, count, what, end, most });
             }
-        }
-        if let Step::Given(step) = scene.run.step
-            && end / step > MOST_STEPS
-        {
-            let (scene, count) = (scene_name.to_owned(), end / step);
-            return Err(Refusal::Steps { scene, step, count, end, most: MOST_STEPS });
         }
         let [history, frames, checkpoints] = intervals.map(|interval| interval.map(Series::every));
         let named = history.or(frames).or(checkpoints).is_some();
         let plain = (!named).then(|| Series::every(end / DEFAULT_STEPS));
-        Ok(Self { history, frames, checkpoints, plain, end })
+        let schedule = Self { history, frames, checkpoints, plain, end };
+        if let Step::Given(step) = scene.run.step {
+            schedule.check_step(scene_name, step)?;
+        }
+        Ok(schedule)
+    }
+
+    /// Refuses a time step of which nobody can mean so many \[s\].
+    pub(crate) fn check_step(&self, scene_name: &str, step: f64) -> Result<(), Refusal> {
+        let count = self.end / step;
+        if count <= MOST_STEPS {
+            return Ok(());
+        }
+        Err(Refusal::Steps { scene: scene_name.to_owned(), step, count, end: self.end, most: MOST_STEPS })
     }
 
     /// All intervals.

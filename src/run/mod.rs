@@ -127,6 +127,7 @@ impl<'a> Session<'a> {
                 (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
             }
         };
+        schedule.check_step(order.scene_name, simulation.state().clock.step)?;
         let lock = early_lock.map_or_else(|| claim(&order), Ok)?;
         let outputs = interface.recorded().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();

@@ -49,10 +49,8 @@ pub struct Counts {
 pub struct TimeSteps {
     /// The present one \[s\].
     pub current: f64,
-    /// The largest stable one, as last computed \[s\]; none where nothing is stiff.
+    /// A stable one, as last computed \[s\]: the largest unless the given step is far below it. None where nothing is stiff.
     pub stable: Option<f64>,
-    /// What limits the stable one at the end: the pair and how it moves.
-    pub limited_by: Option<String>,
     /// What scheme and time step were chosen for.
     pub accuracy: &'static str,
     /// How springs and dashpots of contacts went on in time.
@@ -159,7 +157,6 @@ impl Summary {
         let particles = state.particles.len();
         let nanoseconds = meter.stepping.as_secs_f64() * 1e9;
         let share = |count: f64| (count > 0.0).then(|| nanoseconds / count);
-        let limit = simulation.limit();
         Self {
             program: concat!("cograin ", env!("CARGO_PKG_VERSION")).to_owned(),
             scene: order.scene_name.to_owned(),
@@ -175,8 +172,7 @@ impl Summary {
             session_steps,
             time_step: TimeSteps {
                 current: state.clock.step,
-                stable: Some(limit.safe).filter(|stable| stable.is_finite()),
-                limited_by: limit.by.map(|by| simulation.words(&by)),
+                stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
                 accuracy: order.scene.run.accuracy.name(),
                 scheme: order.scene.run.scheme.name(),
                 allow_unstable: order.scene.run.allow_unstable,
@@ -252,12 +248,21 @@ impl Summary {
     }
 }
 
+/// A number of things, in words.
+fn counted(number: u64, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
 impl std::fmt::Display for Summary {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "{} steps to t = {} s, {} particles, {:.0} contacts on average, {:.3} s wall",
-            self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
+            "{} to t = {} s, {}, {:.0} contacts on average, {:.3} s wall",
+            counted(self.session_steps, "step"),
+            self.time,
+            counted(self.counts.particles as u64, "particle"),
+            self.counts.mean_contacts,
+            self.wall_time
         )?;
         let costs = [
             (self.ns_per_interaction_and_step, "contact or bond"),

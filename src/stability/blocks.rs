@@ -6,9 +6,10 @@
 //! over the traces of the blocks ([`super::shares`]); whatever they find is a bound. Most bodies are far below it. Those that
 //! are not are taken together where that brings the bound down ([`super::cluster`]).
 
-use super::network::Network;
-use super::shares::Shares;
+use super::network::{Element, Network};
+use super::shares::{Shares, divided};
 use super::triangle::{Place, Triangle, add_group, whole};
+use crate::interactions::Link;
 use nalgebra::{Matrix6, Vector6};
 
 /// How often bodies hand load on.
@@ -19,6 +20,9 @@ const ITERATIONS: usize = 8;
 
 /// What a trial root grows by until it is above the root.
 const TRIAL: f64 = 1.002;
+
+/// What rounding in single precision may take from a bound, with room.
+pub(super) const ROUNDING: f64 = 1e-5;
 
 /// Where iterations begin: across no direction that a block is likely to single out.
 const ASKEW: [f64; 6] = [0.5, 0.4, 0.35, 0.45, 0.3, 0.4];
@@ -47,6 +51,16 @@ pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec
     motion
 }
 
+/// The largest root \[1/s\] of the blocks of interactions that are told one after the other, none of which is kept, from the safe side;
+/// and the body that has it. Bodies that share one bear of it as if they had no others.
+pub(super) fn quick_root(bodies: &Network, tell: impl FnOnce(&mut dyn FnMut(Link))) -> (f64, Option<usize>) {
+    let (movers, shares) = (bodies.movers(), Shares::of_none(bodies));
+    let mut blocks = Blocks { network: bodies, shares, stiffness: vec![[0.0; 21]; movers], damping: Vec::new() };
+    tell(&mut |link| blocks.add_link(&link));
+    let (root, mover) = blocks.largest_of_all();
+    (root * (1.0 + ROUNDING), mover)
+}
+
 impl<'a> Blocks<'a> {
     /// Those of a network; shares are weighed about this root \[1/s\], or one of their own.
     pub(super) fn filled(network: &'a Network<'a>, guess: f64) -> Self {
@@ -68,6 +82,26 @@ impl<'a> Blocks<'a> {
 }
 
 impl Blocks<'_> {
+    /// Adds an interaction that the network does not keep.
+    fn add_link(&mut self, link: &Link) {
+        let Some((element, parts)) = self.network.between(link) else { return };
+        let movers = element.slots.map(|slot| self.network.mover(slot));
+        let mut shares = [1.0; 2];
+        if let [Some(_), Some(_)] = movers {
+            let strengths = [0, 1].map(|end| self.network.trace(&element, end, parts[0]).sqrt());
+            shares = divided(strengths);
+        }
+        let parts = parts.map(|parts| parts.map(|part| part as f32));
+        if self.damping.is_empty() && parts[1] != [0.0; 4] {
+            self.damping = vec![[0.0; 21]; self.stiffness.len()];
+        }
+        for end in 0..2 {
+            if let Some(mover) = movers[end] {
+                self.add_end(mover, (&element, end), parts, shares[end]);
+            }
+        }
+    }
+
     /// Whether anything is damped.
     pub(super) fn is_damped(&self) -> bool {
         self.network.is_damped()
@@ -109,7 +143,9 @@ impl Blocks<'_> {
             }
             for (end, borne) in self.shares.borne(place).into_iter().enumerate() {
                 if let Some((mover, factor)) = borne.filter(|(mover, _)| chosen(*mover)) {
-                    self.add_end(mover, place, end, factor);
+                    let network = self.network;
+                    let parts = [network.stiffness.of(place), network.damping.of(place)];
+                    self.add_end(mover, (&network.elements[place], end), parts, factor);
                 }
             }
         }
@@ -142,11 +178,15 @@ impl Blocks<'_> {
         self.network.part(chosen, borne)
     }
 
-    /// Adds one end of an element to the block of its body.
-    fn add_end(&mut self, mover: usize, place: usize, end: usize, share: f64) {
+    /// Adds one end of an element, with its springs and dashpots, to the block of its body, which bears this share of them.
+    fn add_end(
+        &mut self,
+        mover: usize,
+        (element, end): (&Element, usize),
+        [stiffness, damping]: [[f32; 4]; 2],
+        share: f64,
+    ) {
         let network = self.network;
-        let element = &network.elements[place];
-        let (stiffness, damping) = (network.stiffness.of(place), network.damping.of(place));
         let damped = damping != [0.0; 4];
         match mover.checked_sub(network.roots.len()) {
             None => {

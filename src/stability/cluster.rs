@@ -6,13 +6,10 @@
 //! what they bear of contacts with others. The root of the whole is at most the larger one of the root of that network, which
 //! Lanczos' method certifies, and of the largest root of the blocks of the others.
 
-use super::blocks::Blocks;
+use super::blocks::{Blocks, ROUNDING};
 use super::lanczos::{Method, products};
 use super::network::Network;
 use crate::threads::Context;
-
-/// What rounding in single precision may take from the bound, with room.
-const ROUNDING: f64 = 1e-5;
 
 /// Part of the bound by blocks that the true root certainly reaches where that bound is left as it is.
 const SHARP: f64 = 0.93;

@@ -3,7 +3,7 @@
 //! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
 //! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
-//! [`cluster`] takes the bodies together that limit it. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
+//! [`cluster`] takes the bodies together that limit it; a given step far below that bound needs no more than the blocks. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
 //! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
@@ -72,8 +72,24 @@ impl Found {
 
 impl System<'_> {
     /// The stable time step of the network as it may get, and of impacts to come at up to twice this speed \[m/s\].
-    /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on.
-    pub(crate) fn find(&self, ahead: &Ahead, speed: f64, guess: f64, counter: &mut u64, context: &Context) -> Found {
+    /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on. Where a time step that is known
+    /// to be stable is `enough` \[s\], a quick bound that is not shorter is the answer.
+    pub(crate) fn find(
+        &self,
+        ahead: &Ahead,
+        speed: f64,
+        guess: f64,
+        enough: f64,
+        counter: &mut u64,
+        context: &Context,
+    ) -> Found {
+        let impacts = self.impact(speed, ahead.acceleration).unwrap_or(0.0);
+        if enough.is_finite() {
+            let (network, body) = self.quick_root(ahead);
+            if network * enough <= 2.0 {
+                return Found { network, body, impacts };
+            }
+        }
         let network = self.network(ahead);
         let (root, body) = if network.elements.is_empty() {
             (0.0, None)
@@ -82,7 +98,13 @@ impl System<'_> {
         } else {
             cluster::largest_root(&network, guess, context)
         };
-        Found { network: root, body, impacts: self.impact(speed, ahead.acceleration).unwrap_or(0.0) }
+        Found { network: root, body, impacts }
+    }
+
+    /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
+    fn quick_root(&self, ahead: &Ahead) -> (f64, Option<usize>) {
+        let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
+        blocks::quick_root(&bodies, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
     }
 
     /// Whether there are bonds, or are about to be.

@@ -101,14 +101,8 @@ pub(crate) struct Network<'a> {
 }
 
 impl<'a> Network<'a> {
-    /// What is at work or, looking ahead, may be.
-    pub(crate) fn of(
-        state: &'a State,
-        bodies: &[Option<RigidBody>],
-        fields: &Fields,
-        passes: &[Box<dyn Pass>],
-        ahead: &Ahead,
-    ) -> Self {
+    /// The bodies without interactions.
+    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
@@ -122,7 +116,7 @@ impl<'a> Network<'a> {
             let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
         };
-        let mut network = Self {
+        Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
             groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
@@ -130,7 +124,18 @@ impl<'a> Network<'a> {
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
-        };
+        }
+    }
+
+    /// The bodies with what is at work between them or, looking ahead, may be.
+    pub(crate) fn of(
+        state: &'a State,
+        bodies: &[Option<RigidBody>],
+        fields: &Fields,
+        passes: &[Box<dyn Pass>],
+        ahead: &Ahead,
+    ) -> Self {
+        let mut network = Self::of_bodies(state, bodies, fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
@@ -170,13 +175,18 @@ impl<'a> Network<'a> {
 
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
-        if let Some(element) = self.element(link) {
-            let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
-            let share = |part: f64| if twice { 2.0 * part } else { part };
-            self.stiffness.push(link.stiffness.map(share), self.elements.len(), most);
-            self.damping.push(link.damping.map(share), self.elements.len(), most);
+        if let Some((element, [stiffness, damping])) = self.between(link) {
+            self.stiffness.push(stiffness, self.elements.len(), most);
+            self.damping.push(damping, self.elements.len(), most);
             self.elements.push(element);
         }
+    }
+
+    /// An interaction between what moves, with its springs and dashpots as they count; none if nothing moves by it.
+    pub(super) fn between(&self, link: &Link) -> Option<(Element, [[f64; 4]; 2])> {
+        let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
+        let share = |part: f64| if twice { 2.0 * part } else { part };
+        Some((self.element(link)?, [link.stiffness.map(share), link.damping.map(share)]))
     }
 
     /// Whether any interaction has a dashpot.
@@ -225,11 +235,9 @@ impl<'a> Network<'a> {
         self.groups.get(mover.checked_sub(self.roots.len())?)?.as_ref()
     }
 
-    /// The trace of what the body at one end of an element would feel of it alone, at this root \[1/s\]; 0 where none moves.
-    pub(super) fn trace(&self, place: usize, end: usize, root: f64) -> f64 {
-        let element = &self.elements[place];
+    /// The trace of what the body at one end of an element with these springs would feel of it alone; 0 where none moves.
+    pub(super) fn trace(&self, element: &Element, end: usize, [along, across, twisting, bending]: [f64; 4]) -> f64 {
         let Some(mover) = self.mover(element.slots[end]) else { return 0.0 };
-        let [along, across, twisting, bending] = self.parts(place, root);
         let Some(group) = self.group(mover) else {
             let ([v, w], arm) = (self.roots[mover], f64::from(element.arms[end]));
             let turning = 2.0 * (arm * arm * across + bending) + twisting;

@@ -5,7 +5,7 @@
 //! and Wielandt). Bodies limit the step by the largest eigenvalue of their block, but its trace costs a hundredth and tells
 //! nearly as well what a body could still bear.
 
-use super::network::Network;
+use super::network::{Element, Network};
 
 /// Sweeps. More of them level the traces further than what the traces stand for.
 const SWEEPS: usize = 2;
@@ -57,8 +57,11 @@ impl<'a> Shares<'a> {
     /// Finds the traces of all elements at this root \[1/s\].
     fn weigh(&mut self, root: f64) {
         let network = self.network;
-        let trace = |place: usize, end: usize| network.trace(place, end, root).sqrt() as f32;
-        self.traces = (0..network.elements.len()).map(|place| [trace(place, 0), trace(place, 1)]).collect();
+        let traces = |(place, element): (usize, &Element)| {
+            let parts = network.parts(place, root);
+            [0, 1].map(|end| network.trace(element, end, parts).sqrt() as f32)
+        };
+        self.traces = network.elements.iter().enumerate().map(traces).collect();
     }
 
     /// The traces of all blocks \[1/s²\].
@@ -82,10 +85,13 @@ impl<'a> Shares<'a> {
             return [first, second].map(|end| end.map(|mover| (mover, 1.0)));
         };
         let strength = |end: usize, mover: usize| f64::from(self.traces[place][end]) * f64::from(self.weights[mover]);
-        let ratio = strength(1, b) / strength(0, a);
-        // It is not a number where neither end can move.
-        let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
-        [Some((a, 1.0 + share)), Some((b, 1.0 + 1.0 / share))]
+        let [first, second] = divided([strength(0, a), strength(1, b)]);
+        [Some((a, first)), Some((b, second))]
+    }
+
+    /// Of no interaction.
+    pub(super) fn of_none(network: &'a Network<'a>) -> Self {
+        Self { network, traces: Vec::new(), weights: Vec::new() }
     }
 
     /// Lets a body, whose root is to shrink by this ratio, bear less of all that it shares.
@@ -93,4 +99,13 @@ impl<'a> Shares<'a> {
         let square = ratio * ratio;
         self.weights[mover] *= (1.05 * square * square) as f32;
     }
+}
+
+/// How many times what it would feel alone each of two bodies bears of what they share, by these strengths: the stronger one bears less.
+#[inline]
+pub(super) fn divided([first, second]: [f64; 2]) -> [f64; 2] {
+    let ratio = second / first;
+    // It is not a number where neither end can move.
+    let share = if ratio.is_nan() { 1.0 } else { ratio.clamp(1.0 / MOST_UNEVEN, MOST_UNEVEN) };
+    [1.0 + share, 1.0 + 1.0 / share]
 }

@@ -14,7 +14,7 @@ pub struct Clock {
     /// Length of the last step made, 0 before the first \[s\]: an interval that is not a whole number of time steps
     /// is divided into shorter ones.
     pub last_step: f64,
-    /// Largest stable time step, as last found \[s\].
+    /// A stable time step, as last found \[s\]: the largest one unless the given step is far below it.
     pub stable: f64,
     /// Largest speed of a particle expected in the middle of the next step \[m/s\].
     pub speed: f64,

@@ -106,7 +106,7 @@ impl Simulation {
             pass.prepare(&mut self.state);
         }
         if let Step::Automatic { safety } = self.scene.run.step {
-            self.state.clock.stable = self.limit().safe;
+            self.state.clock.stable = self.stable_step();
             self.state.clock.step = self.state.clock.step.min(safety * self.state.clock.stable);
         }
     }

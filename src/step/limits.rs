@@ -10,7 +10,7 @@ use crate::stability::{self, Limit, System};
 use crate::state::State;
 use crate::threads::Context;
 
-/// Stable time steps over a given one from which more is foreseen.
+/// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
 
 /// The most that is foreseen of the growth of speeds then.
@@ -34,10 +34,22 @@ pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
 impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
-        let (mut counter, context) = (self.state.foresight.counter, self.standing());
-        let (sight, found) = self.foresee(self.state.clock.step, Horizon::NEAR, 0.0, &mut counter, &context);
-        let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &context);
+        let (sight, found, counter) = self.present_bound();
+        let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &self.standing());
         Limit { safe: found.safe(), by }
+    }
+
+    /// The stable time step alone \[s\].
+    pub fn stable_step(&self) -> f64 {
+        self.present_bound().1.safe()
+    }
+
+    /// The stable time step, what it was foreseen for, and how many iterations have been started.
+    fn present_bound(&self) -> (Sight, stability::Found, u64) {
+        let mut counter = self.state.foresight.counter;
+        let (step, near) = (self.state.clock.step, Horizon::NEAR);
+        let (sight, found) = self.foresee(step, near, (0.0, f64::INFINITY), &mut counter, &self.standing());
+        (sight, found, counter)
     }
 
     /// What the stable time step is found from.
@@ -46,19 +58,20 @@ impl Simulation {
         System { scene, state, bodies, fields, passes }
     }
 
-    /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer.
+    /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer: from a root found
+    /// earlier \[1/s\], and until it is known that a time step that is `enough` \[s\] is stable.
     fn foresee(
         &self,
         step: f64,
         horizon: Horizon,
-        guess: f64,
+        (guess, enough): (f64, f64),
         counter: &mut u64,
         context: &Context,
     ) -> (Sight, stability::Found) {
         let (mut step, mut tries) = (step, 0);
         loop {
             let sight = self.sight(step, horizon, guess);
-            let mut found = self.system().find(&sight.ahead, sight.speed, guess, counter, context);
+            let mut found = self.system().find(&sight.ahead, sight.speed, guess, enough, counter, context);
             // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
             if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
                 found.impacts = 0.0;
@@ -102,11 +115,12 @@ impl Simulation {
 
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
     pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
-        let (mut counter, guess, horizon) =
-            (self.state.foresight.counter, self.state.foresight.root, self.horizon(step));
-        let (mut sight, mut found) = self.foresee(step, horizon, guess, &mut counter, context);
+        let (mut counter, horizon) = (self.state.foresight.counter, self.horizon(step));
+        let enough = if let Step::Given(step) = self.scene.run.step { FAR_BELOW * step } else { f64::INFINITY };
+        let from = (self.state.foresight.root, enough);
+        let (mut sight, mut found) = self.foresee(step, horizon, from, &mut counter, context);
         if horizon.is_far && found.safe() < FAR_BELOW * step {
-            (sight, found) = self.foresee(step, Horizon::NEAR, guess, &mut counter, context);
+            (sight, found) = self.foresee(step, Horizon::NEAR, from, &mut counter, context);
         }
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();

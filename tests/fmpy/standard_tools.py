@@ -186,7 +186,7 @@ def main():
         for model in MODELS:
             path = Path(folder) / f"{model}.fmu"
             scene = ROOT / "models" / model / "scene.toml"
-            subprocess.run([given_programs["program"], "export", scene, "-o", path], check=True, capture_output=True)
+            subprocess.run([given_programs["program"], "export", scene, "-o", path, "--overwrite"], check=True, capture_output=True)
             course = course_of(model)
             expected = with_fmpy(path, course)
             cells = []

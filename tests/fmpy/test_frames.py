@@ -95,7 +95,7 @@ def exported(cograin, tmp_path_factory):
             (folder / part.name).write_bytes(part.read_bytes())
     scene = folder / "scene.toml"
     scene.write_text(text.replace("[output]", "[output]\nboundaries = true\ncontacts = true"))
-    cograin("export", scene, "-o", folder / "piston.fmu")
+    cograin("export", scene, "-o", folder / "piston.fmu", "--overwrite")
     cograin("run", scene, "-o", folder / "run")
     return folder / "piston.fmu", written_frames(folder / "run")
 

@@ -55,7 +55,7 @@ def path(cograin, tmp_path_factory):
             lines += [f"f {a} {b} {b + 1}", f"f {a} {b + 1} {a + 1}"]
     (folder / "skin.obj").write_text("\n".join(lines) + "\n")
     (folder / "scene.toml").write_text(SCENE)
-    cograin("export", folder / "scene.toml", "-o", folder / "skin.fmu")
+    cograin("export", folder / "scene.toml", "-o", folder / "skin.fmu", "--overwrite")
     return folder / "skin.fmu"
 
 

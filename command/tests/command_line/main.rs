@@ -5,6 +5,7 @@ mod charts;
 mod checks;
 mod folders;
 mod ground;
+mod hostile;
 mod inputs;
 mod protocols;
 mod refusals;

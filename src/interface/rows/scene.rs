@@ -168,7 +168,7 @@ pub(super) static OF_SCENE: [Row; 14] = [
     },
     Row {
         name: "time_step.stable",
-        description: "the largest stable time step, as last computed",
+        description: "a stable time step, as last computed; the largest one unless the given step is far below it",
         quantity: Quantity::Time,
         variability: Variability::Discrete,
         minimum: Some(0.0),

@@ -35,7 +35,7 @@ impl Stage {
 
     /// The stable time step as the program states it \[s\].
     pub(crate) fn stable(&self) -> f64 {
-        self.simulation.state().clock.stable
+        self.simulation.stable_step()
     }
 
     /// How many particles there are.
