@@ -216,7 +216,7 @@ impl Contents {
                 });
             }
             "Piece" => {
-                self.counts.push(["NumberOfPoints", "NumberOfCells", "NumberOfPolys", "NumberOfStrips"].map(whole))
+                self.counts.push(["NumberOfPoints", "NumberOfCells", "NumberOfPolys", "NumberOfStrips"].map(whole));
             }
             "DataArray" if !self.counts.is_empty() => self.arrays.push(Found {
                 piece: self.counts.len() - 1,
