@@ -287,7 +287,7 @@ impl Law {
         (self.normal.reach)(row, radius)
     }
 
-    /// What is kept of each near pair ([`NormalForm::pair_constant`]).
+    /// What is kept of each near pair, as the normal sub-model says.
     pub fn pair_constant(&self, row: &[f64], radius: f64, mass: f64) -> f64 {
         (self.normal.pair_constant)(row, radius, mass)
     }
