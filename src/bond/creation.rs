@@ -152,8 +152,7 @@ impl Creation {
 
     /// What is wrong with the value, if anything.
     pub fn contradiction(&self) -> Option<&'static str> {
-        (*self == Self::Step(0))
-            .then_some("step 0 found; the first step that can bond is 1, and \"start\" bonds before it")
+        (*self == Self::Step(0)).then_some("expected a step from 1 on, found 0; \"start\" bonds before the first step")
     }
 }
 

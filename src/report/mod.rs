@@ -116,7 +116,7 @@ impl fmt::Display for Report {
             write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
         }
         for saving in &self.savings {
-            write!(formatter, "\nspare      {saving}")?;
+            write!(formatter, "\nunused     {saving}")?;
         }
         for remark in &self.remarks {
             write!(formatter, "\nremark     {remark}")?;

@@ -102,7 +102,7 @@ impl Simulation {
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
-        Ok(())
+        self.check_present()
     }
 
     /// Restores a state of this simulation, which is checked first ([`Simulation::check`]); the simulation continues from

@@ -82,11 +82,12 @@ impl Simulation {
     /// The step as the cause, or none that is seen.
     fn step_or_unseen(&self) -> Cause {
         let Clock { last_step: step, stable, .. } = self.state.clock;
-        self.step_as_cause().or_else(|| self.coincident()).unwrap_or(Cause::Unseen { step, stable })
+        self.step_as_cause().or_else(|| Some(self.coincident()?.1)).unwrap_or(Cause::Unseen { step, stable })
     }
 
-    /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more.
-    fn coincident(&self) -> Option<Cause> {
+    /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more: the number
+    /// of the first, and what is said of both.
+    pub(super) fn coincident(&self) -> Option<(u32, Cause)> {
         let particles = &self.state.particles;
         let centre = |slot: u32| {
             let [x, y, z, _] = *particles.position.get(slot as usize)?;
@@ -96,7 +97,7 @@ impl Simulation {
         let pairs = self.state.contacts.iter().flat_map(|list| list.first.iter().zip(&list.second));
         let (&i, &j) = pairs.into_iter().find(|&(&i, &j)| centre(i).is_some() && centre(i) == centre(j))?;
         let [first, second] = [i, j].map(|slot| self.number(particles.id[slot as usize]));
-        Some(Cause::Coincident { first, second })
+        Some((first, Cause::Coincident { first, second }))
     }
 
     /// Stops where particles are so deep in each other that no law holds, and before energy comes out of nothing.

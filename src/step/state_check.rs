@@ -8,8 +8,10 @@ use crate::state::{State, StateFault, demand};
 impl Simulation {
     /// Refuses a present state that could not be taken up again.
     pub(crate) fn check_present(&self) -> Result<(), RunError> {
-        let invalid = |StateFault { part, place, right }| RunError::Invalid { part, place, right, time: self.time() };
-        self.check(&self.state).map_err(invalid)
+        self.check(&self.state).map_err(|StateFault { part, place, right }| match self.coincident() {
+            Some((id, cause)) => RunError::NotFinite { id, quantity: "force", time: self.time(), cause },
+            None => RunError::Invalid { part, place, right, time: self.time() },
+        })
     }
 
     /// Whether a state can be one of this simulation: everything that the passes trust (slots, lengths and order of the

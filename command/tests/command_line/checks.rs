@@ -39,9 +39,9 @@ fn check_tells_what_a_scene_could_drop() {
     fs::write(&scene, text).unwrap();
     let said = report(&scene);
     for part in [
-        "spare      [contact.touch.tangential.history]: friction is 0 in all its pairs: without it a step takes ",
-        "spare      [output] energy: the book is kept, and without history_interval only summary.json tells of it: without",
-        "spare      [run] step = 1e-7: ",
+        "unused     [contact.touch.tangential.history]: friction is 0 in all its pairs: without it a step takes ",
+        "unused     [output] energy: the book is kept, and without history_interval only summary.json tells of it: without",
+        "unused     [run] step = 1e-7: ",
     ] {
         assert!(said.contains(part), "{part} is missing in:\n{said}");
     }
