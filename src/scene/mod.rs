@@ -234,7 +234,7 @@ pub struct Bond {
     pub create: crate::bond::creation::Creation,
     /// Centres nearer than this are bonded \[m\].
     pub create_distance: Option<f64>,
-    /// Listed pairs: indices into [`Scene::particles`].
+    /// Listed pairs: indices into [`SceneDraft::particles`].
     pub pairs: Vec<[u32; 2]>,
 }
 

@@ -32,7 +32,7 @@ struct PairRows {
 }
 
 impl Simulation {
-    /// Gives tunable parameters, by their places among [`Scene::tunables`](crate::scene::Scene::tunables), other values
+    /// Gives tunable parameters, by their places among [`SceneDraft::tunables`](crate::scene::SceneDraft::tunables), other values
     /// from now on, between communication steps: all of them or none. The values are part of the state, and are saved and
     /// restored with it. What contacts and bonds remember stays; forces change in the next time step.
     pub fn tune(&mut self, changes: &[(usize, f64)]) -> Result<(), TuneError> {
