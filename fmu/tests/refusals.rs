@@ -219,10 +219,22 @@ fn counts_that_no_memory_holds_are_refused_before_anything_is_done() {
     for count in [1_usize << 33, 1 << 40, 1 << 60, usize::MAX] {
         // SAFETY: the count is refused before anything is read or written.
         unsafe {
-            host.refused(fmi2GetReal(host.component, &raw const force, count, &raw mut real), &["expected an array that memory can hold"]);
-            host.refused(fmi2GetBoolean(host.component, &raw const force, count, &raw mut flag), &["expected an array that memory can hold"]);
-            host.refused(fmi2SetString(host.component, &raw const force, count, &raw const text), &["expected an array that memory can hold"]);
-            host.refused(fmi2GetString(host.component, &raw const force, count, &raw mut text), &["expected an array that memory can hold"]);
+            host.refused(
+                fmi2GetReal(host.component, &raw const force, count, &raw mut real),
+                &["expected an array that memory can hold"],
+            );
+            host.refused(
+                fmi2GetBoolean(host.component, &raw const force, count, &raw mut flag),
+                &["expected an array that memory can hold"],
+            );
+            host.refused(
+                fmi2SetString(host.component, &raw const force, count, &raw const text),
+                &["expected an array that memory can hold"],
+            );
+            host.refused(
+                fmi2GetString(host.component, &raw const force, count, &raw mut text),
+                &["expected an array that memory can hold"],
+            );
         }
     }
     assert_eq!((real, flag), (7.0, 7));
