@@ -4,11 +4,14 @@ use super::bond;
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
-use cograin::contact::cohesion::{CohesionChoice, sjkr};
-use cograin::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
-use cograin::contact::rolling::{RollingChoice, rocking};
-use cograin::contact::tangential::{TangentialChoice, turned_history::Keys as Turned};
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
+use cograin::contact::cohesion::sjkr;
+use cograin::contact::normal::{eepa, hooke, hooke_stiffness, sticky};
+use cograin::contact::rolling::rocking;
+use cograin::contact::tangential::turned_history::Keys as Turned;
+use cograin::contact::{
+    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
+    TangentialModel, cohesion, normal, rolling, tangential,
+};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
 /// The other engine's name of each pair property, with ours.
@@ -198,16 +201,16 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         Ok(hooke::Keys { characteristic_velocity: positive(field, value)? })
     };
     let normal = match model.normal.as_str() {
-        "hertz" => NormalChoice::Hertz(NoKeys {}),
-        "hertz/stiffness" => NormalChoice::HertzStiffness(NoKeys {}),
-        "hooke" if model.viscous => NormalChoice::HookeViscous(speed()?),
-        "hooke" => NormalChoice::Hooke(speed()?),
-        "hooke/stiffness" => {
-            NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: model.absolute_damping })
-        }
-        "edinburgh" => NormalChoice::Eepa(eepa(case)?),
-        "jkr" => NormalChoice::Jkr(sticky(case)?),
-        "dmt" => NormalChoice::Dmt(sticky(case)?),
+        "hertz" => NormalModel::of::<normal::hertz::Hertz>(NoKeys {}),
+        "hertz/stiffness" => NormalModel::of::<normal::hertz_stiffness::HertzStiffness>(NoKeys {}),
+        "hooke" if model.viscous => NormalModel::of::<normal::hooke_viscous::HookeViscous>(speed()?),
+        "hooke" => NormalModel::of::<normal::hooke::Hooke>(speed()?),
+        "hooke/stiffness" => NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys {
+            absolute_damping: model.absolute_damping,
+        }),
+        "edinburgh" => NormalModel::of::<normal::eepa::Eepa>(eepa(case)?),
+        "jkr" => NormalModel::of::<normal::jkr::Jkr>(sticky(case)?),
+        "dmt" => NormalModel::of::<normal::dmt::Dmt>(sticky(case)?),
         other => {
             let right = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
             return Err(unknown("normal", other, right));
@@ -221,28 +224,33 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     Ok(LawChoice {
         normal,
         tangential: match model.tangential.as_str() {
-            "off" => TangentialChoice::None(NoKeys {}),
-            "history" => TangentialChoice::History(NoKeys {}),
-            "no_history" | "linear_nohistory" => TangentialChoice::NoHistory(NoKeys {}),
-            "linear_history" => TangentialChoice::TurnedHistory(Turned { given_stiffness: true, ..turned }),
-            "mindlin" => TangentialChoice::TurnedHistory(turned),
-            "mindlin_rescale" => TangentialChoice::TurnedHistory(Turned { rescale: true, ..turned }),
+            "off" => TangentialModel::of::<tangential::none::None>(NoKeys {}),
+            "history" => TangentialModel::of::<tangential::history::History>(NoKeys {}),
+            "no_history" | "linear_nohistory" => TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {}),
+            "linear_history" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned {
+                given_stiffness: true,
+                ..turned
+            }),
+            "mindlin" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(turned),
+            "mindlin_rescale" => {
+                TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned { rescale: true, ..turned })
+            }
             other => {
                 let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
                 return Err(unknown("tangential", other, right));
             }
         },
         rolling: match model.rolling_friction.as_str() {
-            "off" => RollingChoice::None(NoKeys {}),
-            "cdt" => RollingChoice::Cdt(NoKeys {}),
-            "epsd" => RollingChoice::Epsd(rocking),
-            "epsd2" => RollingChoice::Epsd2(rocking),
+            "off" => RollingModel::of::<rolling::none::None>(NoKeys {}),
+            "cdt" => RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
+            "epsd" => RollingModel::of::<rolling::epsd::Epsd>(rocking),
+            "epsd2" => RollingModel::of::<rolling::epsd2::Epsd2>(rocking),
             other => return Err(unknown("rolling_friction", other, "cdt, epsd, epsd2 or off")),
         },
         cohesion: match model.cohesion.as_str() {
-            "off" | "bond" => CohesionChoice::None(NoKeys {}),
-            "sjkr" => CohesionChoice::Sjkr(keys),
-            "sjkr2" => CohesionChoice::Sjkr2(keys),
+            "off" | "bond" => CohesionModel::of::<cohesion::none::None>(NoKeys {}),
+            "sjkr" => CohesionModel::of::<cohesion::sjkr::Sjkr>(keys),
+            "sjkr2" => CohesionModel::of::<cohesion::sjkr2::Sjkr2>(keys),
             other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
         },
         scheme: Scheme::Engine,

@@ -242,6 +242,8 @@ fn course(scene: &Scene) -> u64 {
     rest.run.settle_tolerance = defaults.settle_tolerance;
     rest.run.settle_damping = defaults.settle_damping;
     rest.run.max_overlap = defaults.max_overlap;
+    rest.run.central_derivatives = defaults.central_derivatives;
+    rest.run.derivative_displacement = defaults.derivative_displacement;
     let Output { energy, losses, .. } = scene.output;
     rest.output = Output { energy, losses, ..Output::default() };
     // Writing to a fingerprint has no way to fail.
