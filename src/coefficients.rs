@@ -1,12 +1,9 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
+use crate::contact::batch::CoefficientRows;
 use crate::contact::{Contact, Law, MOST_HISTORY, MaterialPair, Response};
-use crate::lanes::Lane;
 use crate::number::Vector;
 use crate::scene::{ContactLaw, Scene};
-
-/// Most coefficients that a composed law may have.
-pub(crate) const MOST_COEFFICIENTS: usize = 32;
 
 /// The coefficients that the scene gives a law for all pairs of materials it governs, row by row; others get zeros.
 pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
@@ -106,15 +103,9 @@ impl CoefficientTable {
         a * self.materials as u32 + b
     }
 
-    /// The coefficient of each lane that stands at this place in the rows with these numbers.
-    ///
-    /// # Safety
-    /// `place` is below the number of coefficients; `entry` points to [`Lane::WIDTH`] results of
-    /// [`CoefficientTable::entry`].
-    #[inline(always)]
-    pub(crate) unsafe fn gather<N: Lane>(&self, place: usize, entry: *const u32) -> N {
-        // SAFETY: the table has a row for each two materials.
-        unsafe { N::gather(self.rows.as_ptr().add(place), entry, self.count) }
+    /// Its rows.
+    pub(crate) fn rows(&self) -> CoefficientRows<'_> {
+        CoefficientRows { numbers: &self.rows, count: self.count }
     }
 
     /// The stiffest response of an impact between bodies that the scene has.

@@ -9,7 +9,6 @@ pub mod bond;
 mod bond_passes;
 mod books;
 mod boundaries;
-mod choices;
 mod coefficients;
 pub mod contact;
 mod document;

@@ -12,16 +12,16 @@ const FILE: usize = 300;
 
 /// Files above that, each with its reason.
 const LONG: [(&str, &str); 22] = [
-    ("command/src/main.rs", "one command after another; each is a few lines"),
+    ("command/src/lib.rs", "one command after another; each is a few lines"),
     ("fmu/src/instance/mod.rs", "the life of an instance: every call that FMI allows in each of its states"),
-    ("src/batches/buffer.rs", "one buffer: its columns, and how each is written and read"),
+    ("src/contact/batch/buffer.rs", "one buffer: its columns, and how each is written and read"),
     ("src/batches/mod.rs", "a batch from its entries to its loads, phase after phase"),
     ("src/bond/formulation/finite_rotation.rs", "one formulation, with the tests that its equations are held to"),
     ("src/bond_passes/batch.rs", "the four stages of a pass, which hand columns to each other"),
     ("src/bond_passes/mod.rs", "the pass over bonds: what it begins with, asks for and leaves"),
     ("src/bond_passes/pipeline_buffer.rs", "one buffer: its columns, and how each is written and read"),
     ("src/bond_passes/walls.rs", "bonds to planes: the pass, its books and its records"),
-    ("src/contact/law/mod.rs", "what a law says of one contact, sub-model by sub-model"),
+    ("src/contact/law.rs", "what a law says of one contact, sub-model by sub-model"),
     ("src/contact/normal/eepa.rs", "one sub-model, with the tests that its branches are held to"),
     ("src/export/tests.rs", "tests"),
     ("src/interactions/suppression.rs", "the life of a suppressed contact: entered, carried, released"),
@@ -38,7 +38,7 @@ const LONG: [(&str, &str); 22] = [
 
 /// Folders that are rooms of their own though they stand inside of another.
 const INNER_ROOMS: [&str; 11] = [
-    "contact/law",
+    "contact/batch",
     "contact/normal",
     "contact/tangential",
     "contact/rolling",

@@ -4,7 +4,7 @@ use crate::picture::{Panel, Picture, logarithmic};
 use crate::table::Table;
 use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
-use cograin::scene::{Scene, SceneDraft, Setting, Step};
+use cograin::scene::{Models, Scene, SceneDraft, Setting, Step};
 use cograin::step::Simulation;
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -55,9 +55,9 @@ struct Run {
 }
 
 impl SceneChart {
-    /// Reads a scene and finds out what its chart costs.
-    pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
-        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+    /// Reads a scene, which may name these sub-models, and finds out what its chart costs.
+    pub fn of(models: &Models, path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
+        let (scene, _) = models.read(path, settings, &mut |_| {})?;
         // The runs are made side by side, a thread each.
         let scene = scene.with_threads(NonZeroUsize::new(1));
         let end = scene.run.end.ok_or(ChartError::NoEnd)?;

@@ -2,7 +2,7 @@
 
 use super::{Ending, say};
 use clap::Args;
-use cograin::scene::Setting;
+use cograin::scene::{Models, Setting};
 use cograin_chart::SceneChart;
 use std::path::PathBuf;
 
@@ -24,10 +24,10 @@ pub(super) struct ChartArguments {
 }
 
 /// `cograin chart`
-pub(super) fn chart(arguments: &ChartArguments) -> Result<(), Ending> {
+pub(super) fn chart(models: &Models, arguments: &ChartArguments) -> Result<(), Ending> {
     let read = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        let chart = SceneChart::of(path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
+        let chart = SceneChart::of(models, path, &arguments.settings, arguments.wanted).map_err(Ending::refused)?;
         Ok((name, chart))
     };
     let charts = arguments.scenes.iter().map(read).collect::<Result<Vec<_>, Ending>>()?;

@@ -1,7 +1,7 @@
 //! What is lost with a contact whose bodies have parted.
 
-use super::lost::Sums;
 use super::{Batches, Bodies, FOUND};
+use crate::contact::batch::Sums;
 use crate::contact::{Contact, parting};
 use crate::state::Row;
 

@@ -8,7 +8,7 @@ mod page;
 mod resources;
 
 pub use description::LOG_CATEGORIES;
-pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, find_library};
+pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_library};
 pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
 use crate::interface::Interface;

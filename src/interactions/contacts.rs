@@ -110,7 +110,7 @@ impl ContactPass {
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
             },
-            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
+            entries: Entries::of(&mut list.flags, list.history.rows(), list.history.all_mut(), &mut list.pair_constant),
             law: &self.law,
             table: &self.table,
             uniform: self.table.uniform(),

@@ -2,7 +2,7 @@
 
 use super::{Causality, Interface, InterfaceError, Source, Value, Variable, rows};
 use crate::quantity::BoundaryIndex;
-use crate::scene::{self, InputCourse, Scene, SceneErrors};
+use crate::scene::{self, InputCourse, Models, Scene, SceneErrors};
 use crate::step::{Input, Simulation};
 use std::collections::BTreeMap;
 
@@ -53,10 +53,15 @@ impl Interface {
         if changes.is_empty() { Ok(()) } else { Ok(simulation.tune(&changes)?) }
     }
 
-    /// The scene of this source with these values of parameters, by index.
-    pub fn scene_with(&self, source: &scene::Source, values: &BTreeMap<usize, f64>) -> Result<Scene, SceneErrors> {
+    /// The scene of this source, which may name these sub-models, with these values of parameters, by index.
+    pub fn scene_with(
+        &self,
+        models: &Models,
+        source: &scene::Source,
+        values: &BTreeMap<usize, f64>,
+    ) -> Result<Scene, SceneErrors> {
         let named = values.iter().map(|(&index, &value)| (self.variables[index].name.as_str(), value));
-        Scene::with_parameters(source, named)
+        models.with_parameters(source, named)
     }
 
     /// Whether the variable at an index may be given a rate.

@@ -1,12 +1,9 @@
 //! What a scene pays for and could drop, with the saving measured: the scene is run for a moment with and without it.
 
 use super::trial;
-use crate::contact::cohesion::CohesionChoice;
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
-use crate::contact::{NoKeys, PairProperties};
+use crate::contact::PairProperties;
 use crate::quantity::NonNegative;
-use crate::scene::{ContactLaw, Scene, SceneDraft, Step};
+use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
 use crate::step::Simulation;
 use std::sync::Arc;
 use std::time::Duration;
@@ -92,16 +89,14 @@ fn spares(scene: &Scene) -> Vec<Spare> {
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             spares.push(Spare { what, without });
         };
-        if law.tangential.name() != "none" && zero(|pair| pair.friction) {
-            let drop = |law: &mut ContactLaw| law.tangential = TangentialChoice::None(NoKeys {});
-            add("tangential", law.tangential.name(), "friction", drop);
+        if law.tangential.row().is_active() && zero(|pair| pair.friction) {
+            add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
         }
-        if law.rolling.name() != "none" && zero(|pair| pair.rolling_friction) {
-            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = RollingChoice::None(NoKeys {}));
+        if law.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = ROLLING_FREELY);
         }
-        if law.cohesion.name() != "none" && zero(|pair| pair.cohesion_energy_density) {
-            let drop = |law: &mut ContactLaw| law.cohesion = CohesionChoice::None(NoKeys {});
-            add("cohesion", law.cohesion.name(), "cohesion_energy_density", drop);
+        if law.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+            add("cohesion", law.cohesion.name(), "cohesion_energy_density", |law| law.cohesion = DRY);
         }
     }
     for (index, damping) in scene.damping.iter().enumerate() {

@@ -10,6 +10,7 @@ mod checked;
 mod damping;
 mod exchange;
 mod governing;
+mod models;
 mod output;
 mod parameters;
 mod plane;
@@ -30,6 +31,8 @@ pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::Known;
 pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
+pub use models::Models;
+pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
@@ -38,11 +41,9 @@ pub use plane::{MotionPlane, ParticleShape};
 pub use region::Region;
 pub use source::Source;
 
-use crate::contact::cohesion::CohesionChoice;
-use crate::contact::normal::NormalChoice;
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
-use crate::contact::{LawChoice, Material, PairProperties, Scheme, Switches};
+use crate::contact::{
+    CohesionModel, LawChoice, Material, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
+};
 use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
 /// Everything that a scene says, in SI units, before it is checked as a whole.
@@ -195,13 +196,13 @@ pub struct ContactLaw {
     /// Whose contacts it governs; `between[a * materials + b]` and the mirrored entry are equal.
     pub between: Vec<bool>,
     /// Normal sub-model.
-    pub normal: NormalChoice,
+    pub normal: NormalModel,
     /// Tangential sub-model.
-    pub tangential: TangentialChoice,
+    pub tangential: TangentialModel,
     /// Rolling sub-model.
-    pub rolling: RollingChoice,
+    pub rolling: RollingModel,
     /// Cohesion sub-model.
-    pub cohesion: CohesionChoice,
+    pub cohesion: CohesionModel,
     /// Switches of every law.
     pub switches: Switches,
     /// How springs and dashpots are integrated in time.
@@ -283,7 +284,7 @@ impl SceneDraft {
     /// Cohesion energy density of two materials (by their index) over their effective modulus, where a law has both.
     pub fn cohesion_ratio(&self, a: usize, b: usize) -> Option<f64> {
         let entry = a * self.materials.len() + b;
-        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.name() != "none";
+        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.row().is_active();
         if !self.contacts.iter().any(cohesive) {
             return None;
         }

@@ -1,7 +1,6 @@
 //! Scenes whose particles stay in one plane.
 
 use super::{Mistake, Particle, SceneDraft};
-use crate::contact::rolling::RollingChoice;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -107,7 +106,7 @@ fn discs(scene: &SceneDraft) -> Vec<Objection> {
             Mistake::Wrong { found: found.to_owned(), right: format!("{right} with plane_particles = \"discs\"") },
         )
     };
-    let epsd = scene.contacts.iter().filter(|law| matches!(law.rolling, RollingChoice::Epsd(_))).map(|law| {
+    let epsd = scene.contacts.iter().filter(|law| law.rolling.name() == "epsd").map(|law| {
         let found = "epsd, whose dashpot is made for the moment of inertia of spheres";
         refused(format!("contact.{}.rolling.epsd", law.name), found, "another rolling model")
     });

@@ -78,10 +78,7 @@ impl BoundaryState {
         let rate = |axis: usize, now: &[f64; 3], before: &[f64; 3]| {
             if step > 0.0 { (now[axis] - before[axis]) / step } else { 0.0 }
         };
-        [
-            [0, 1, 2].map(|axis| rate(axis, force, force_before)),
-            [0, 1, 2].map(|axis| rate(axis, moment, moment_before)),
-        ]
+        [[0, 1, 2].map(|axis| rate(axis, force, force_before)), [0, 1, 2].map(|axis| rate(axis, moment, moment_before))]
     }
 
     /// Counts impulse and work from here.

@@ -3,8 +3,8 @@
 //! `cargo test --test physics orders -- --nocapture` prints the errors.
 
 use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, scene, sphere};
-use cograin::contact::rolling::{RollingChoice, rocking};
-use cograin::contact::{LawChoice, PairProperties, Scheme};
+use cograin::contact::rolling::rocking;
+use cograin::contact::{LawChoice, PairProperties, RollingModel, Scheme, rolling};
 use cograin::quantity::NonNegative;
 use cograin::scene::{AppliedForce, SceneDraft};
 
@@ -160,7 +160,7 @@ fn damped() -> [Case; 2] {
 /// Rolling springs without dashpots, in permanent contact.
 fn rolling() -> [Case; 3] {
     /// With this rolling model, elastic.
-    fn with(scheme: Scheme, rolling: RollingChoice) -> (LawChoice, PairProperties) {
+    fn with(scheme: Scheme, rolling: RollingModel) -> (LawChoice, PairProperties) {
         let pair = PairProperties {
             rolling_friction: NonNegative::new(ROLLING),
             rolling_viscous_damping: NonNegative::new(0.0),
@@ -170,14 +170,17 @@ fn rolling() -> [Case; 3] {
     }
     /// The spring as stiff as friction, with torsion.
     fn twisting(scheme: Scheme) -> (LawChoice, PairProperties) {
-        with(scheme, RollingChoice::Epsd2(rocking::Keys { torsion: true, ..rocking::Keys::default() }))
+        with(
+            scheme,
+            RollingModel::of::<rolling::epsd2::Epsd2>(rocking::Keys { torsion: true, ..rocking::Keys::default() }),
+        )
     }
     let rest = |scheme, _| {
-        let (law, pair) = with(scheme, RollingChoice::Epsd(rocking::Keys::default()));
+        let (law, pair) = with(scheme, RollingModel::of::<rolling::epsd::Epsd>(rocking::Keys::default()));
         resting(law, pair)
     };
     let press = |scheme, _| {
-        let (law, pair) = with(scheme, RollingChoice::Epsd(rocking::Keys::default()));
+        let (law, pair) = with(scheme, RollingModel::of::<rolling::epsd::Epsd>(rocking::Keys::default()));
         pressed(law, pair)
     };
     let twist = |scheme, _| {

@@ -3,9 +3,8 @@
 //! `cargo test --test physics scheme_impacts -- --nocapture` prints the tables.
 
 use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, rigid, scene, sphere};
-use cograin::contact::normal::{NormalChoice, hooke};
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, NoKeys, Scheme};
+use cograin::contact::normal::hooke;
+use cograin::contact::{LawChoice, NoKeys, NormalModel, Scheme, TangentialModel, normal, tangential};
 use cograin::quantity::Positive;
 use cograin::scene::{Accuracy, SceneDraft, Step};
 use cograin::step::Simulation;
@@ -53,7 +52,7 @@ fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f6
 /// The law with hooke's spring as stiff as Hertz's at the speed of the impacts.
 fn hooke(law: LawChoice) -> LawChoice {
     let keys = hooke::Keys { characteristic_velocity: Positive::new(SPEED).unwrap() };
-    LawChoice { normal: NormalChoice::Hooke(keys), ..law }
+    LawChoice { normal: NormalModel::of::<normal::hooke::Hooke>(keys), ..law }
 }
 
 /// Gap in a phase: up to a seventh of a step of the longest \[m\].
@@ -132,7 +131,7 @@ fn table(what: &str, law: (&str, LawChoice), error: impl Fn(LawChoice, Step) -> 
 
 #[test]
 fn restitution_is_right_to_a_five_hundredth_with_high_accuracy() {
-    let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+    let smooth = LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), ..HERTZ };
     for law in [("hertz", smooth), ("hooke", hooke(smooth))] {
         let high = table("restitution", law, restitution_error);
         assert!(high <= 2e-3, "{}: {high:.2e}", law.0);
@@ -142,7 +141,7 @@ fn restitution_is_right_to_a_five_hundredth_with_high_accuracy() {
 #[test]
 fn restitution_is_right_to_a_hundredth_at_the_default_step() {
     let law = LawChoice { scheme: Accuracy::Standard.scheme(), ..HERTZ };
-    let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..law };
+    let smooth = LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), ..law };
     for (name, law) in [("hertz", law), ("hertz without friction", smooth), ("hooke", hooke(smooth))] {
         let (error, _) = restitution_error(law, Step::Automatic { safety: Accuracy::Standard.safety() });
         assert!(error <= 1e-2, "{name}: {error:.2e}");
@@ -162,7 +161,8 @@ fn oblique_rebounds_are_right_to_two_per_cent_at_the_default_step() {
 #[test]
 fn a_linear_dashpot_that_is_predicted_is_of_second_order_from_touch_to_touch() {
     for scheme in [Scheme::PredictedNormal, Scheme::Predicted] {
-        let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), scheme, ..HERTZ };
+        let smooth =
+            LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), scheme, ..HERTZ };
         let errors = [0.1, 0.05, 0.025].map(|safety| restitution_error(hooke(smooth), Step::Automatic { safety }).0);
         for pair in errors.windows(2) {
             assert!(pair[0] / pair[1] > 3.0, "{errors:?}");

@@ -1,10 +1,10 @@
 //! Scenes built in code, for physics tests.
 
-use cograin::contact::cohesion::CohesionChoice;
-use cograin::contact::normal::{NormalChoice, hooke_stiffness};
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
+use cograin::contact::normal::hooke_stiffness;
+use cograin::contact::{
+    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
+    TangentialModel, cohesion, normal, rolling, tangential,
+};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{
     AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, SceneDraft, Shape,
@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 /// Hertz with a tangential spring.
 pub(crate) const HERTZ: LawChoice = LawChoice {
-    normal: NormalChoice::Hertz(NoKeys {}),
-    tangential: TangentialChoice::History(NoKeys {}),
-    rolling: RollingChoice::None(NoKeys {}),
-    cohesion: CohesionChoice::None(NoKeys {}),
+    normal: NormalModel::fixed::<normal::hertz::Hertz>(&NoKeys {}),
+    tangential: TangentialModel::fixed::<tangential::history::History>(&NoKeys {}),
+    rolling: RollingModel::fixed::<rolling::none::None>(&NoKeys {}),
+    cohesion: CohesionModel::fixed::<cohesion::none::None>(&NoKeys {}),
     switches: Switches {
         least_force: f64::NEG_INFINITY,
         tangential_damping_factor: 1.0,
@@ -29,11 +29,16 @@ pub(crate) const HERTZ: LawChoice = LawChoice {
 };
 
 /// Hertz without friction.
-pub(crate) const SMOOTH: LawChoice = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+pub(crate) const SMOOTH: LawChoice =
+    LawChoice { tangential: TangentialModel::fixed::<tangential::none::None>(&NoKeys {}), ..HERTZ };
 
 /// A given linear spring without friction.
-pub(crate) const SPRING: LawChoice =
-    LawChoice { normal: NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: false }), ..SMOOTH };
+pub(crate) const SPRING: LawChoice = LawChoice {
+    normal: NormalModel::fixed::<normal::hooke_stiffness::HookeStiffness>(&hooke_stiffness::Keys {
+        absolute_damping: false,
+    }),
+    ..SMOOTH
+};
 
 /// A material with these moduli \[Pa, 1\].
 pub(crate) fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {

@@ -92,7 +92,7 @@ pub enum AdhesionKind {
 }
 
 /// `[contact.<law>.normal.eepa]`
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// n, 1 or 1.5.
@@ -108,6 +108,7 @@ pub struct Keys {
 }
 
 impl Normal for Eepa {
+    const NAME: &'static str = "eepa";
     type Keys = Keys;
     type Form = Self;
     const ONSET: Onset = Onset::Constant;

@@ -35,6 +35,7 @@ coefficients! {
 }
 
 impl Tangential for History {
+    const NAME: &'static str = "history";
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> =

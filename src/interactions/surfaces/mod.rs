@@ -239,7 +239,9 @@ impl Pass for SurfacePass {
         let pieces = state.particles.len().div_ceil(PIECE);
         workspace.entries.clear();
         let lists = state.walls.iter_mut();
-        workspace.entries.extend(lists.map(|it| Entries::of(&mut it.flags, &mut it.history, &mut it.pair_constant)));
+        workspace.entries.extend(
+            lists.map(|it| Entries::of(&mut it.flags, it.history.rows(), it.history.all_mut(), &mut it.pair_constant)),
+        );
         workspace.loads.clear();
         workspace.loads.resize(pieces * count, Load::default());
         workspace.contacts.resize_with(pieces * count, FeatureContacts::default);

@@ -64,14 +64,18 @@ fn touching(scene: &SceneDraft) -> Vec<(usize, usize)> {
 /// What speaks against a law where a bond suppresses contacts: its normal force must be one that an offset can be taken from.
 fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding> {
     let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
-    if Law::of(&law.choice()).takes_offset() {
+    let composed = Law::of(&law.choice());
+    if composed.takes_offset() {
         return None;
     }
+    let (kind, model, why) = match composed.presses() {
+        false => ("normal", law.normal.name(), "adheres or remembers"),
+        true => ("cohesion", law.cohesion.name(), "acts beyond touch or remembers"),
+    };
     let message = format!(
-        "expected \"parallel\", or another normal model of [contact.{}] than {}, which adheres or remembers, found \
+        "expected \"parallel\", or another {kind} model of [contact.{}] than {model}, which {why}, found \
          a policy that suppresses contacts",
         law.name,
-        law.normal.name()
     );
     Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
 }

@@ -24,7 +24,7 @@ use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
 use crate::parameters;
 use crate::region;
-use crate::scene::{Output, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Models, Output, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::surface::Files;
 use finding::Finding;
 use raw_tables::RawTables;
@@ -34,9 +34,10 @@ pub(super) fn scene(
     source: &Source,
     document: &Document,
     mut faults: Faults,
+    models: &Models,
     tell: &mut dyn FnMut(PackingProgress),
 ) -> Result<Scene, SceneErrors> {
-    let written = RawTables::read(document, &mut faults);
+    let written = RawTables::read(document, models, &mut faults);
     faults.so_far()?;
     let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
     let materials = contacts::materials(&written);

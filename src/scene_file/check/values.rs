@@ -3,7 +3,7 @@
 
 use super::named_tables::is_name;
 use crate::document::{Faults, Mistake};
-use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, SceneDraft, Step, OutletPlace};
+use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use crate::scene_file::tables::is_positive_definite;
 use std::collections::BTreeSet;
 

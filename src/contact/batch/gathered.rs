@@ -1,11 +1,11 @@
 //! Coefficients of a law in lanes.
 
+use super::MOST_COEFFICIENTS;
 use super::stage::Stage;
-use crate::coefficients::MOST_COEFFICIENTS;
 use crate::lanes::Lane;
 
 /// Coefficients in lanes: some that stand side by side in the rows of the law.
-pub(super) struct Gathered<N> {
+pub(crate) struct Gathered<N> {
     /// The numbers.
     numbers: [N; MOST_COEFFICIENTS],
     /// Where the first of them stands in a row.
@@ -17,7 +17,7 @@ pub(super) struct Gathered<N> {
 impl<N: Lane> Gathered<N> {
     /// Those of a stage, if they are the same for all entries; otherwise room for them.
     #[inline(always)]
-    pub(super) fn of(stage: &Stage, from: usize, count: usize) -> Self {
+    pub(crate) fn of(stage: &Stage, from: usize, count: usize) -> Self {
         let mut numbers = [N::zero(); MOST_COEFFICIENTS];
         if let Some(row) = stage.uniform {
             let mut k = 0;
@@ -34,7 +34,7 @@ impl<N: Lane> Gathered<N> {
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most the room of the buffer, and the rows there are of the table.
     #[inline(always)]
-    pub(super) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N; MOST_COEFFICIENTS] {
+    pub(crate) unsafe fn at(&mut self, stage: &Stage, place: usize) -> &[N; MOST_COEFFICIENTS] {
         if stage.uniform.is_none() {
             let mut k = 0;
             while k < self.count {

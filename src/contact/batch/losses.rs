@@ -3,12 +3,11 @@
 //!
 //! Losses are summed in eight columns, by the place of the contact in the batch: the same bits in every lane width.
 
-use super::Manner;
 use super::stage::Stage;
+use super::{Manner, SLIDING};
 use crate::contact::{Booked, Contact, LossKind, Seen};
 use crate::lanes::{self, Kernel, Lane, Width, vector};
 use crate::number::Vector;
-use crate::state::contacts::SLIDING;
 
 /// Most entries of a batch, with the register that fills it.
 const PLACES: usize = 80;
@@ -25,22 +24,22 @@ const RAMP: [f64; PLACES] = {
 };
 
 /// Keeps what sub-models change and a book wants to know.
-pub(super) fn keep_before(width: Width, stage: &mut Stage) {
+pub(crate) fn keep_before(width: Width, stage: &mut Stage) {
     lanes::run(width, KeepBefore(stage));
 }
 
 /// Books what contacts lose on which the whole law acts.
-pub(super) fn book_open(width: Width, stage: &mut Stage) {
+pub(crate) fn book_open(width: Width, stage: &mut Stage) {
     lanes::run(width, Book { stage, manner: Manner::Open });
 }
 
 /// The same of those whose normal force a bond suppresses.
-pub(super) fn book_bonded(width: Width, stage: &mut Stage) {
+pub(crate) fn book_bonded(width: Width, stage: &mut Stage) {
     lanes::run(width, Book { stage, manner: Manner::Bonded });
 }
 
 /// The same of those whose normal force is taken from an offset.
-pub(super) fn book_released(width: Width, stage: &mut Stage) {
+pub(crate) fn book_released(width: Width, stage: &mut Stage) {
     lanes::run(width, Book { stage, manner: Manner::Released });
 }
 
@@ -107,7 +106,7 @@ impl Kernel for Book<'_, '_> {
 /// # Safety
 /// As for [`Stage::press`]; `place` is a multiple of the width, so that the register ends in the eight columns.
 #[inline(always)]
-pub(super) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<N>, booked: &Booked) {
+pub(crate) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<N>, booked: &Booked) {
     let (mut lost, loads) = seen.twice_losses(booked);
     // SAFETY: the caller's promise.
     unsafe {

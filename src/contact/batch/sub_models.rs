@@ -1,66 +1,68 @@
 //! The sub-models of a law, one after another on the columns of a batch.
-//!
-//! Each sub-model is compiled once for each lane width, whatever it is combined with: sub-models add, they do not
-//! multiply. What one hands to the next stands in columns of the buffer, which the first-level cache holds.
 
 use super::gathered::Gathered;
 use super::stage::Stage;
-use crate::contact::cohesion::TakeCohesion;
-use crate::contact::normal::TakeNormal;
-use crate::contact::rolling::TakeRolling;
-use crate::contact::tangential::TakeTangential;
+use super::{Run, SLIDING};
 use crate::contact::{
-    Carry, Coefficients, Cohesion, CohesionForm, Contact, Normal, NormalForm, Rolling, Scheme, Switches, Tangential,
+    Carry, Coefficients, CohesionForm, Contact, NormalForm, Rolling, Scheme, Switches, Tangential, pressing_force,
 };
 use crate::lanes::{self, Kernel, Lane, Width};
 use std::marker::PhantomData;
 
-/// A sub-model, or several as one, over a batch.
-pub(super) type Run = fn(Width, &mut Stage);
-
-/// Goes from the name of a sub-model to what it does to a batch.
-#[derive(Clone, Copy)]
-pub(super) struct RunOf {
-    /// Whether springs are carried at mid-step.
-    pub(super) carries: bool,
-}
-
-impl TakeNormal for RunOf {
-    type Output = Run;
-    fn take<M: Normal>(self, _keys: &M::Keys) -> Run {
-        |width, stage| lanes::run(width, NormalRun::<M::Form>(stage, PhantomData))
-    }
-}
-
-impl TakeCohesion for RunOf {
-    type Output = Run;
-    fn take<M: Cohesion>(self, _keys: &M::Keys) -> Run {
-        |width, stage| lanes::run(width, CohesionRun::<M::Form>(stage, PhantomData))
-    }
-}
-
-impl TakeTangential for RunOf {
-    type Output = Run;
-    fn take<M: Tangential>(self, _keys: &M::Keys) -> Run {
-        match self.carries && M::HAS_SPRING {
-            false => |width, stage| lanes::run(width, TangentialRun::<M, false>(stage, PhantomData)),
-            true => |width, stage| lanes::run(width, TangentialRun::<M, true>(stage, PhantomData)),
-        }
-    }
-}
-
-impl TakeRolling for RunOf {
-    type Output = Run;
-    fn take<M: Rolling>(self, _keys: &M::Keys) -> Run {
-        match self.carries && M::HISTORY.is_some() {
-            false => |width, stage| lanes::run(width, RollingRun::<M, false>(stage, PhantomData)),
-            true => |width, stage| lanes::run(width, RollingRun::<M, true>(stage, PhantomData)),
-        }
-    }
-}
-
 /// Slip and arms of undeformed bodies, for laws that take them.
-pub(super) struct ArmsRun<'a, 'b>(pub(super) &'a mut Stage<'b>);
+pub(crate) fn undeform_arms(width: Width, stage: &mut Stage) {
+    lanes::run(width, ArmsRun(stage));
+}
+
+/// What a scheme does before the sub-models, if anything.
+pub(crate) fn before_sub_models(scheme: Scheme) -> Option<Run> {
+    match scheme {
+        Scheme::Engine => None,
+        Scheme::PredictedNormal => Some(|width, stage| lanes::run(width, ForeseeNormalRun(stage))),
+        Scheme::Midway | Scheme::Predicted => Some(|width, stage| lanes::run(width, CarryRun(stage))),
+    }
+}
+
+/// A normal model over a batch. OFFSET: the force is taken from the overlap beyond an offset, with the stiffness and the damping of the
+/// whole overlap.
+pub(crate) fn normal<A: NormalForm, const OFFSET: bool>(width: Width, stage: &mut Stage) {
+    lanes::run(width, NormalRun::<A, OFFSET>(stage, PhantomData));
+}
+
+/// A cohesion model over a batch. OFFSET: less what it holds at the offset already.
+pub(crate) fn cohesion<D: CohesionForm, const OFFSET: bool>(width: Width, stage: &mut Stage) {
+    lanes::run(width, CohesionRun::<D, OFFSET>(stage, PhantomData));
+}
+
+/// A tangential model over a batch; it writes the whole force. CARRIES: springs are carried at mid-step; so below.
+pub(crate) fn tangential<B: Tangential, const CARRIES: bool>(width: Width, stage: &mut Stage) {
+    lanes::run(width, TangentialRun::<B, CARRIES>(stage, PhantomData));
+}
+
+/// A rolling model over a batch.
+pub(crate) fn rolling<C: Rolling, const CARRIES: bool>(width: Width, stage: &mut Stage) {
+    lanes::run(width, RollingRun::<C, CARRIES>(stage, PhantomData));
+}
+
+/// Leaves of contacts whose bodies are apart what a cohesion model does beyond touch: other forces and what is remembered of them end
+/// at touch.
+pub(crate) fn part(_width: Width, stage: &mut Stage) {
+    let (entries, of_touch) = (stage.entries, stage.history);
+    for place in 0..stage.buffer.ready {
+        if stage.buffer.part(place) {
+            let entry = stage.buffer.entry[place] as usize;
+            // SAFETY: the entries belong to this piece of the list; there is a flag and a row for each.
+            unsafe {
+                *entries.flags.pointer().add(entry) &= !SLIDING;
+                let history = entries.history(entry);
+                of_touch.of_touch().for_each(|row| history[row] = [0.0; 4]);
+            }
+        }
+    }
+}
+
+/// [`undeform_arms`]
+struct ArmsRun<'a, 'b>(&'a mut Stage<'b>);
 
 impl Kernel for ArmsRun<'_, '_> {
     #[inline(always)]
@@ -71,15 +73,6 @@ impl Kernel for ArmsRun<'_, '_> {
             unsafe { self.0.buffer.undeform_arms::<N>(done) };
             done += N::WIDTH;
         }
-    }
-}
-
-/// What a scheme does before the sub-models, if anything.
-pub(super) fn before_sub_models(scheme: Scheme) -> Option<Run> {
-    match scheme {
-        Scheme::Engine => None,
-        Scheme::PredictedNormal => Some(|width, stage| lanes::run(width, ForeseeNormalRun(stage))),
-        Scheme::Midway | Scheme::Predicted => Some(|width, stage| lanes::run(width, CarryRun(stage))),
     }
 }
 
@@ -133,10 +126,10 @@ impl Kernel for ForeseeNormalRun<'_, '_> {
     }
 }
 
-/// A normal model over a batch.
-struct NormalRun<'a, 'b, A>(&'a mut Stage<'b>, PhantomData<fn() -> A>);
+/// [`normal`]
+struct NormalRun<'a, 'b, A, const OFFSET: bool>(&'a mut Stage<'b>, PhantomData<fn() -> A>);
 
-impl<A: NormalForm> Kernel for NormalRun<'_, '_, A> {
+impl<A: NormalForm, const OFFSET: bool> Kernel for NormalRun<'_, '_, A, OFFSET> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
@@ -144,12 +137,21 @@ impl<A: NormalForm> Kernel for NormalRun<'_, '_, A> {
         let mut done = 0;
         while done < stage.buffer.ready {
             // SAFETY: the batch is filled up to a whole register, for which there is room; its entries belong to this
-            // piece of the list; so in the other loops.
+            // piece of the list, which keeps offsets where they are asked for; so in the other loops.
             unsafe {
                 let row = coefficients.at(stage, done);
                 let contact = stage.contact(done, A::HAS_PAIR_CONSTANT);
                 let roots = A::roots(contact.overlap, contact.radius, contact.mass);
-                let normal = stage.press::<N, A>(done, row, &contact, roots);
+                let normal = if OFFSET {
+                    let [.., offset] = stage.kept_offset::<N>(done);
+                    let offset = offset.min(contact.overlap);
+                    let pressing = contact.overlap - offset;
+                    stage.buffer.put_offset(done, [offset, pressing]);
+                    let response = A::response_at(A::lanes(row), &contact, roots);
+                    pressing_force(response, Switches::lanes(&row[A::COUNT..]), pressing, contact.normal_velocity)
+                } else {
+                    stage.press::<N, A>(done, row, &contact, roots)
+                };
                 stage.buffer.put_normal(done, &normal);
             }
             done += N::WIDTH;
@@ -157,22 +159,35 @@ impl<A: NormalForm> Kernel for NormalRun<'_, '_, A> {
     }
 }
 
-/// A cohesion model over a batch.
-struct CohesionRun<'a, 'b, D>(&'a mut Stage<'b>, PhantomData<fn() -> D>);
+/// [`cohesion`]
+struct CohesionRun<'a, 'b, D, const OFFSET: bool>(&'a mut Stage<'b>, PhantomData<fn() -> D>);
 
-impl<D: CohesionForm> Kernel for CohesionRun<'_, '_, D> {
+impl<D: CohesionForm, const OFFSET: bool> Kernel for CohesionRun<'_, '_, D, OFFSET> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
+        let (remembers, own) = (D::HISTORY.is_some(), stage.history.cohesion);
         let mut coefficients = Gathered::<N>::of(stage, stage.places.cohesion, D::COUNT);
         let mut done = 0;
         while done < stage.buffer.ready {
             // SAFETY: as above.
             unsafe {
                 let law = D::lanes(coefficients.at(stage, done));
-                let contact = stage.contact(done, false);
+                let contact = stage.contact(done, D::BEYOND_TOUCH);
                 let mut normal = stage.buffer.normal(done);
-                D::add(law, D::force(law, &contact), &mut normal);
+                if OFFSET {
+                    let before = stage.buffer.contact_at_offset(done);
+                    D::add(law, D::force(law, &contact) - D::force(law, &before), &mut normal);
+                } else {
+                    let history = stage.remembered(remembers, own, done);
+                    if D::BEYOND_TOUCH {
+                        normal = normal.in_touch(contact.overlap);
+                        stage.buffer.put_normal(done, &normal);
+                    }
+                    let (pull, history) = D::pull(law, &contact, history, N::splat(stage.step));
+                    stage.remember(remembers, own, history, done);
+                    D::add(law, pull, &mut normal);
+                }
                 stage.buffer.put_force(done, &normal);
             }
             done += N::WIDTH;
@@ -180,7 +195,7 @@ impl<D: CohesionForm> Kernel for CohesionRun<'_, '_, D> {
     }
 }
 
-/// A tangential model over a batch; it writes the whole force.
+/// [`tangential`]
 struct TangentialRun<'a, 'b, B, const CARRIES: bool>(&'a mut Stage<'b>, PhantomData<fn() -> B>);
 
 impl<B: Tangential, const CARRIES: bool> Kernel for TangentialRun<'_, '_, B, CARRIES> {
@@ -205,7 +220,7 @@ impl<B: Tangential, const CARRIES: bool> Kernel for TangentialRun<'_, '_, B, CAR
     }
 }
 
-/// A rolling model over a batch.
+/// [`rolling`]
 struct RollingRun<'a, 'b, C, const CARRIES: bool>(&'a mut Stage<'b>, PhantomData<fn() -> C>);
 
 impl<C: Rolling, const CARRIES: bool> Kernel for RollingRun<'_, '_, C, CARRIES> {

@@ -1,12 +1,11 @@
 //! The batch that goes through the phases.
 
-use super::lost::Sums;
-use super::{Bodies, ContactGeometry, FOUND, Touching};
-use crate::batches::sphere_geometry::SpherePair;
+use super::sphere_pair::SpherePair;
+use super::sums::Sums;
+use super::{ContactGeometry, FOUND, Touching};
 use crate::contact::{Carry, Contact, Needs, NormalForce, NormalForm, Response, Roots};
 use crate::lanes::Lane;
-use crate::number::Vector;
-use crate::state::Row;
+use crate::number::{Row, Vector};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::mem::offset_of;
@@ -20,63 +19,63 @@ const ROOM: usize = BATCH + 16;
 /// Columns: what is known of a contact, then what its normal model makes of it.
 mod column {
     /// Overlap.
-    pub(super) const OVERLAP: usize = 0;
+    pub(crate) const OVERLAP: usize = 0;
     /// Effective radius.
-    pub(super) const RADIUS: usize = 1;
+    pub(crate) const RADIUS: usize = 1;
     /// Effective mass.
-    pub(super) const MASS: usize = 2;
+    pub(crate) const MASS: usize = 2;
     /// Unit normal.
-    pub(super) const NORMAL: [usize; 3] = [3, 4, 5];
+    pub(crate) const NORMAL: [usize; 3] = [3, 4, 5];
     /// Velocity along it.
-    pub(super) const NORMAL_VELOCITY: usize = 6;
+    pub(crate) const NORMAL_VELOCITY: usize = 6;
     /// Slip.
-    pub(super) const SLIP: [usize; 3] = [7, 8, 9];
+    pub(crate) const SLIP: [usize; 3] = [7, 8, 9];
     /// Arm at the first body.
-    pub(super) const FIRST_ARM: usize = 10;
+    pub(crate) const FIRST_ARM: usize = 10;
     /// Arm at the second body.
-    pub(super) const SECOND_ARM: usize = 11;
+    pub(crate) const SECOND_ARM: usize = 11;
     /// Relative spin.
-    pub(super) const SPIN: [usize; 3] = [12, 13, 14];
+    pub(crate) const SPIN: [usize; 3] = [12, 13, 14];
     /// Area of the section.
-    pub(super) const SECTION_AREA: usize = 15;
+    pub(crate) const SECTION_AREA: usize = 15;
     /// Radius of the linearised section.
-    pub(super) const SECTION_RADIUS: usize = 16;
+    pub(crate) const SECTION_RADIUS: usize = 16;
     /// k_n.
-    pub(super) const NORMAL_STIFFNESS: usize = 17;
+    pub(crate) const NORMAL_STIFFNESS: usize = 17;
     /// γ_n.
-    pub(super) const NORMAL_DAMPING: usize = 18;
+    pub(crate) const NORMAL_DAMPING: usize = 18;
     /// k_t.
-    pub(super) const TANGENTIAL_STIFFNESS: usize = 19;
+    pub(crate) const TANGENTIAL_STIFFNESS: usize = 19;
     /// γ_t.
-    pub(super) const TANGENTIAL_DAMPING: usize = 20;
+    pub(crate) const TANGENTIAL_DAMPING: usize = 20;
     /// Force along the normal.
-    pub(super) const FORCE: usize = 21;
+    pub(crate) const FORCE: usize = 21;
     /// What of it friction sees.
-    pub(super) const SEEN: usize = 22;
+    pub(crate) const SEEN: usize = 22;
     /// 1/(R_i + R_j).
-    pub(super) const PER_REACH: usize = 23;
+    pub(crate) const PER_REACH: usize = 23;
     /// Moment of inertia of rolling.
-    pub(super) const ROLLING_INERTIA: usize = 24;
+    pub(crate) const ROLLING_INERTIA: usize = 24;
     /// Sum of the spins.
-    pub(super) const SPIN_SUM: [usize; 3] = [25, 26, 27];
+    pub(crate) const SPIN_SUM: [usize; 3] = [25, 26, 27];
     /// Overlap beyond the offset, of a contact that a bond suppresses or has suppressed.
-    pub(super) const PRESSING: usize = 28;
+    pub(crate) const PRESSING: usize = 28;
     /// The offset.
-    pub(super) const OFFSET: usize = 29;
+    pub(crate) const OFFSET: usize = 29;
     /// Angular velocities times arms; then how far the bodies slipped.
-    pub(super) const TURNING: [usize; 3] = [30, 31, 32];
+    pub(crate) const TURNING: [usize; 3] = [30, 31, 32];
     /// 1/distance; then half the turn about the normal.
-    pub(super) const PER_DISTANCE: usize = 33;
+    pub(crate) const PER_DISTANCE: usize = 33;
     /// What the normal gained.
-    pub(super) const TILT: [usize; 3] = [34, 35, 36];
+    pub(crate) const TILT: [usize; 3] = [34, 35, 36];
     /// Part of the step in which the bodies touched.
-    pub(super) const SHARE: usize = 37;
+    pub(crate) const SHARE: usize = 37;
     /// Of a book of losses: the tangential spring before.
-    pub(super) const SPRING: [usize; 3] = [38, 39, 40];
+    pub(crate) const SPRING: [usize; 3] = [38, 39, 40];
     /// Of a book of losses: velocity along the normal at mid-step.
-    pub(super) const VELOCITY: usize = 41;
+    pub(crate) const VELOCITY: usize = 41;
     /// How many there are.
-    pub(super) const COUNT: usize = 42;
+    pub(crate) const COUNT: usize = 42;
 }
 use column as at;
 
@@ -107,7 +106,7 @@ pub(crate) struct Buffer {
     /// Their rows of the table, where they differ.
     pub(crate) row: [u32; ROOM],
     /// What is lost.
-    pub(super) losses: Sums,
+    pub(crate) losses: Sums,
     /// How many were found.
     pub(crate) count: usize,
     /// How many are worked on now.
@@ -141,7 +140,7 @@ impl Buffer {
     }
 
     /// An empty one.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let rows = [[0.0; 4]; ROOM];
         let slots = [0; ROOM];
         Self {
@@ -163,15 +162,15 @@ impl Buffer {
     }
 
     /// Says how many entries are worked on now: whole registers, or all of the last ones, of which the last is
-    /// repeated to fill a register.
-    pub(crate) fn complete<B: Bodies>(&mut self, last: bool) {
+    /// repeated to fill a register. `found` numbers are there of each.
+    pub(crate) fn complete(&mut self, last: bool, found: usize) {
         self.ready = if last { self.count } else { self.count / 8 * 8 };
         if last && self.count > 0 {
             for slots in [&mut self.entry, &mut self.history, &mut self.first, &mut self.second] {
                 let repeated = slots[self.count - 1];
                 slots[self.count..self.count + 8].fill(repeated);
             }
-            for numbers in &mut self.found[..B::FOUND] {
+            for numbers in &mut self.found[..found] {
                 let repeated = numbers[self.count - 1];
                 numbers[self.count..self.count + 8].fill(repeated);
             }
@@ -179,26 +178,26 @@ impl Buffer {
     }
 
     /// Keeps what was not worked on for the next batch.
-    pub(crate) fn proceed<B: Bodies>(&mut self) {
+    pub(crate) fn proceed(&mut self, found: usize) {
         // Fewer than 8 are left. Copies of a length that is known are a register each.
         for slots in [&mut self.entry, &mut self.first, &mut self.second] {
             to_front(slots, self.ready);
         }
-        for numbers in &mut self.found[..B::FOUND] {
+        for numbers in &mut self.found[..found] {
             to_front(numbers, self.ready);
         }
         self.count -= self.ready;
     }
 
-    /// Reads a register's worth of what was found.
+    /// Reads a register's worth of what was found: `count` numbers each.
     ///
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(crate) unsafe fn found<N: Lane, B: Bodies>(&self, place: usize) -> [N; FOUND] {
+    pub(crate) unsafe fn found<N: Lane>(&self, place: usize, count: usize) -> [N; FOUND] {
         let mut found = [N::zero(); FOUND];
         let mut column = 0;
-        while column < B::FOUND {
+        while column < count {
             // SAFETY: the caller's promise.
             found[column] = unsafe { N::load(self.found[column].as_ptr().add(place)) };
             column += 1;
@@ -366,7 +365,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn put_foreseen<N: Lane>(&mut self, place: usize, velocity: N, weight: N) {
+    pub(crate) unsafe fn put_foreseen<N: Lane>(&mut self, place: usize, velocity: N, weight: N) {
         // SAFETY: the caller's promise.
         unsafe {
             self.store(at::NORMAL_VELOCITY, place, velocity);
@@ -379,7 +378,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn weight<N: Lane>(&self, place: usize) -> N {
+    pub(crate) unsafe fn weight<N: Lane>(&self, place: usize) -> N {
         // SAFETY: the caller's promise.
         unsafe { self.load(at::SHARE, place) }
     }
@@ -458,7 +457,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn put_before<N: Lane>(&mut self, place: usize, spring: Vector<N>, velocity: N) {
+    pub(crate) unsafe fn put_before<N: Lane>(&mut self, place: usize, spring: Vector<N>, velocity: N) {
         // SAFETY: the caller's promise.
         unsafe {
             self.store_vector(at::SPRING, place, spring);
@@ -471,7 +470,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn before<N: Lane>(&self, place: usize) -> (Vector<N>, N) {
+    pub(crate) unsafe fn before<N: Lane>(&self, place: usize) -> (Vector<N>, N) {
         // SAFETY: the caller's promise.
         unsafe { (self.load_vector(at::SPRING, place), self.load(at::VELOCITY, place)) }
     }
@@ -481,7 +480,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn pressing<N: Lane>(&self, place: usize) -> N {
+    pub(crate) unsafe fn pressing<N: Lane>(&self, place: usize) -> N {
         // SAFETY: the caller's promise.
         unsafe { self.load(at::PRESSING, place) }
     }
@@ -491,7 +490,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn put_offset<N: Lane>(&mut self, place: usize, [offset, pressing]: [N; 2]) {
+    pub(crate) unsafe fn put_offset<N: Lane>(&mut self, place: usize, [offset, pressing]: [N; 2]) {
         // SAFETY: the caller's promise.
         unsafe {
             self.store(at::OFFSET, place, offset);
@@ -504,7 +503,7 @@ impl Buffer {
     /// # Safety
     /// As for [`Buffer::store`].
     #[inline(always)]
-    pub(super) unsafe fn contact_at_offset<N: Lane>(&self, place: usize) -> Contact<N> {
+    pub(crate) unsafe fn contact_at_offset<N: Lane>(&self, place: usize) -> Contact<N> {
         // SAFETY: the caller's promise.
         unsafe {
             let (contact, offset): (Contact<N>, N) = (self.contact(place, N::zero()), self.load(at::OFFSET, place));
@@ -519,18 +518,30 @@ impl Buffer {
     }
 
     /// Takes the overlap beyond the offset for the whole.
-    pub(super) fn press(&mut self) {
+    pub(crate) fn press(&mut self) {
         let (from, to) = self.columns.split_at_mut(at::PRESSING);
         from[at::OVERLAP].copy_from_slice(&to[0]);
     }
 
     /// Leaves no normal force of what friction has seen.
-    pub(super) fn mute(&mut self) {
+    pub(crate) fn mute(&mut self) {
         self.columns[at::FORCE] = [0.0; ROOM];
     }
 
+    /// Leaves of an entry of the batch whose bodies are apart the force along the normal alone; whether they are.
+    pub(crate) fn part(&mut self, place: usize) -> bool {
+        let apart = self.columns[at::OVERLAP][place] < 0.0;
+        if apart {
+            let force = self.columns[at::FORCE][place];
+            let [x, y, z] = at::NORMAL.map(|column| self.columns[column][place] * force);
+            self.force[place] = [x, y, z, 0.0];
+            (self.couple[place], self.rolling[place]) = ([0.0; 4], [0.0; 4]);
+        }
+        apart
+    }
+
     /// Overlap and offset of an entry of the batch \[m\].
-    pub(super) fn overlap_and_offset(&self, place: usize) -> [f64; 2] {
+    pub(crate) fn overlap_and_offset(&self, place: usize) -> [f64; 2] {
         [self.columns[at::OVERLAP][place], self.columns[at::OFFSET][place]]
     }
 

@@ -1,52 +1,50 @@
 //! What sub-models work on, and what one does to a register's worth of contacts.
 
-use super::Entries;
 use super::buffer::Buffer;
-use crate::coefficients::CoefficientTable;
+use super::{CoefficientRows, Entries, SLIDING};
 use crate::contact::{
     Booked, Carry, CoefficientPlaces, Coefficients, Contact, Foreseen, HistoryPlaces, NormalForce, NormalForm, Onset,
     Rolling, Switches, Tangential, foresee_normal,
 };
 use crate::lanes::{Lane, columns};
 use crate::number::Vector;
-use crate::state::contacts::SLIDING;
 
 /// What the sub-models of a law work on.
-pub(super) struct Stage<'a> {
+pub(crate) struct Stage<'a> {
     /// What the list keeps.
-    pub(super) entries: &'a Entries,
+    pub(crate) entries: &'a Entries,
     /// Coefficients of the law.
-    pub(super) table: &'a CoefficientTable,
+    pub(crate) table: CoefficientRows<'a>,
     /// The coefficients of all entries, if they are the same.
-    pub(super) uniform: Option<&'a [f64]>,
+    pub(crate) uniform: Option<&'a [f64]>,
     /// Where the coefficients of each sub-model stand.
-    pub(super) places: CoefficientPlaces,
+    pub(crate) places: CoefficientPlaces,
     /// Whose each row of the history is.
-    pub(super) history: HistoryPlaces,
+    pub(crate) history: HistoryPlaces,
     /// Which row behind them is the offset, where bonds suppress contacts.
-    pub(super) offset: usize,
+    pub(crate) offset: usize,
     /// Time since the history was last advanced \[s\].
-    pub(super) step: f64,
+    pub(crate) step: f64,
     /// Whether bodies touch where they overlap and nowhere else.
-    pub(super) touches: bool,
+    pub(crate) touches: bool,
     /// How dashpots begin.
-    pub(super) onset: Onset,
+    pub(crate) onset: Onset,
     /// How often the normal force of each entry counts, and its share of friction, where it is not 1.
-    pub(super) weights: Option<&'a [[f64; 2]]>,
+    pub(crate) weights: Option<&'a [[f64; 2]]>,
     /// What a book of losses has to know of the law.
-    pub(super) booked: &'a Booked,
+    pub(crate) booked: &'a Booked,
     /// The batch.
-    pub(super) buffer: &'a mut Buffer,
+    pub(crate) buffer: &'a mut Buffer,
 }
 
 /// What friction did to a register's worth of contacts.
-pub(super) struct Rubbed<N: Lane> {
+pub(crate) struct Rubbed<N: Lane> {
     /// Force on the first body \[N\].
-    pub(super) force: Vector<N>,
+    pub(crate) force: Vector<N>,
     /// What friction remembers now.
-    pub(super) spring: [N; 4],
+    pub(crate) spring: [N; 4],
     /// Which of them slide.
-    pub(super) sliding: N::Mask,
+    pub(crate) sliding: N::Mask,
 }
 
 impl Stage<'_> {
@@ -55,7 +53,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`]; the entries are of the list, and the row is that of the sub-model.
     #[inline(always)]
-    pub(super) unsafe fn remembered<N: Lane>(&self, remembers: bool, row: Option<usize>, place: usize) -> [N; 4] {
+    pub(crate) unsafe fn remembered<N: Lane>(&self, remembers: bool, row: Option<usize>, place: usize) -> [N; 4] {
         match row {
             // SAFETY: the caller's promise; there is a row for each entry.
             Some(row) if remembers => unsafe {
@@ -70,7 +68,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`]; the list keeps offsets.
     #[inline(always)]
-    pub(super) unsafe fn kept_offset<N: Lane>(&self, place: usize) -> [N; 4] {
+    pub(crate) unsafe fn kept_offset<N: Lane>(&self, place: usize) -> [N; 4] {
         // SAFETY: the caller's promise.
         unsafe { self.remembered(true, Some(self.offset), place) }
     }
@@ -81,7 +79,7 @@ impl Stage<'_> {
     /// As for [`Stage::remembered`]; the entries belong to this piece of the list. A repeated entry is written twice,
     /// with the same.
     #[inline(always)]
-    pub(super) unsafe fn remember<N: Lane>(&self, remembers: bool, row: Option<usize>, values: [N; 4], place: usize) {
+    pub(crate) unsafe fn remember<N: Lane>(&self, remembers: bool, row: Option<usize>, values: [N; 4], place: usize) {
         if let (true, Some(row)) = (remembers, row) {
             // SAFETY: the caller's promise; there is a row for each entry.
             unsafe { N::store_rows(values, self.entries.row(row), self.buffer.history.as_ptr().add(place)) };
@@ -93,7 +91,7 @@ impl Stage<'_> {
     /// # Safety
     /// `place` + [`Lane::WIDTH`] is at most the room of the buffer.
     #[inline(always)]
-    pub(super) unsafe fn contact<N: Lane>(&self, place: usize, has_pair_constant: bool) -> Contact<N> {
+    pub(crate) unsafe fn contact<N: Lane>(&self, place: usize, has_pair_constant: bool) -> Contact<N> {
         // SAFETY: the caller's promise; each entry has a pair constant where the law has one.
         unsafe {
             let entries = self.buffer.entry.as_ptr().add(place);
@@ -110,7 +108,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`]; the entries belong to this piece of the list.
     #[inline(always)]
-    pub(super) unsafe fn press<N: Lane, A: NormalForm>(
+    pub(crate) unsafe fn press<N: Lane, A: NormalForm>(
         &self,
         place: usize,
         row: &[N],
@@ -133,7 +131,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`].
     #[inline(always)]
-    pub(super) unsafe fn normal<N: Lane>(&self, place: usize) -> NormalForce<N> {
+    pub(crate) unsafe fn normal<N: Lane>(&self, place: usize) -> NormalForce<N> {
         // SAFETY: the caller's promise.
         unsafe {
             let mut normal: NormalForce<N> = self.buffer.normal(place);
@@ -150,7 +148,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`].
     #[inline(always)]
-    pub(super) unsafe fn tangential_history<N: Lane, B: Tangential>(&self, place: usize) -> [N; 4] {
+    pub(crate) unsafe fn tangential_history<N: Lane, B: Tangential>(&self, place: usize) -> [N; 4] {
         let remembers = B::ACTIVE && B::HISTORY.is_some();
         // SAFETY: the caller's promise.
         unsafe { self.remembered(remembers, self.history.tangential, place) }
@@ -162,7 +160,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::press`].
     #[inline(always)]
-    pub(super) unsafe fn rub<N: Lane, B: Tangential, const CARRIES: bool>(
+    pub(crate) unsafe fn rub<N: Lane, B: Tangential, const CARRIES: bool>(
         &mut self,
         place: usize,
         row: &[N],
@@ -208,7 +206,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::press`].
     #[inline(always)]
-    pub(super) unsafe fn foresee_normal<N: Lane>(
+    pub(crate) unsafe fn foresee_normal<N: Lane>(
         &self,
         place: usize,
         shared: bool,
@@ -240,7 +238,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::press`].
     #[inline(always)]
-    pub(super) unsafe fn roll<N: Lane, C: Rolling, const CARRIES: bool>(
+    pub(crate) unsafe fn roll<N: Lane, C: Rolling, const CARRIES: bool>(
         &mut self,
         place: usize,
         row: &[N],
@@ -274,7 +272,7 @@ impl Stage<'_> {
     /// # Safety
     /// As for [`Stage::contact`].
     #[inline(always)]
-    pub(super) unsafe fn leave_couple<N: Lane>(&mut self, place: usize) {
+    pub(crate) unsafe fn leave_couple<N: Lane>(&mut self, place: usize) {
         // SAFETY: the caller's promise.
         unsafe { N::store_block([N::zero(); 4], self.buffer.couple.as_mut_ptr().add(place)) };
     }
