@@ -8,7 +8,7 @@
 
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
-use cograin::step::{Input, Simulation};
+use cograin::simulation::{Input, Simulation};
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::sync::Arc;

@@ -5,7 +5,7 @@
 
 use cograin::interface::{Interface, Value};
 use cograin::scene::Scene;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;

@@ -2,8 +2,8 @@
 
 use crate::support::start;
 use cograin::interface::Interface;
+use cograin::simulation::Simulation;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
 
 /// The value of a variable.
 fn value(simulation: &Simulation, name: &str) -> f64 {

@@ -1,7 +1,7 @@
 //! Who is called i and who j, and in which order bodies are listed, changes nothing.
 
 use crate::support::start;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Position, velocity and angular velocity of the particle with this number.

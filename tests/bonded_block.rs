@@ -2,8 +2,8 @@
 
 use crate::support::start;
 use cograin::lanes::Width;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 
 /// A block that is glued to a plane and thrown sideways, half of it faster than the other half.
 const SCENE: &str = r#"

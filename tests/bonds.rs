@@ -2,8 +2,8 @@
 
 use crate::support::start;
 use cograin::interface::Interface;
+use cograin::simulation::{Placement, Simulation};
 use cograin::state::Break;
-use cograin::step::{Placement, Simulation};
 
 /// A sphere over a plane that moves, bonded to it.
 const BONDED: &str = r#"

@@ -2,8 +2,8 @@
 
 use crate::support::start;
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
 
 /// Grains in a moving, tilted tray, some of them a driven group, damped, pushed and shaken.
 const SCENE: &str = r#"

@@ -4,8 +4,8 @@ use crate::support::scene;
 use cograin::contact::PairProperties;
 use cograin::quantity::{MaterialIndex, NonNegative};
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A sphere that slides on a plane with friction µ.

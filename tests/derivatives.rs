@@ -5,8 +5,8 @@ use cograin::interface::{Derivatives, Interface, Value};
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -8,8 +8,8 @@ use crate::support::scene_with;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

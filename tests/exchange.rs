@@ -3,8 +3,8 @@
 use crate::support::scene;
 use cograin::lanes::Width;
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A feed of spheres of several sizes that fall through a hole in a floor, with friction and rolling, both books kept.
@@ -290,7 +290,7 @@ fn stage(stage: &str) -> Arc<Scene> {
 
 #[test]
 fn what_came_in_one_scene_goes_on_in_the_next() {
-    use cograin::step::Description;
+    use cograin::simulation::Description;
     let (fill, open) = (stage("fill"), stage("open"));
     let mut filled = begun(&fill, Width::widest());
     filled.advance(0.1).unwrap();

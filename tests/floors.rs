@@ -48,7 +48,8 @@ fn every_floor_uses_itself_and_those_below() {
     for (height, floor) in FLOORS.into_iter().enumerate() {
         for path in files(&source.join(floor)) {
             let text = fs::read_to_string(&path).expect("sources are text");
-            let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect();
+            let code: String =
+                text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect();
             for name in used(&code) {
                 if FLOORS[height + 1..].contains(&name.as_str()) {
                     faults.push(format!("{}: {floor} uses {name}, which is above", path.display()));

@@ -6,7 +6,7 @@
 
 use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
-use cograin::step::{Cause, RunError, Simulation};
+use cograin::simulation::{Cause, RunError, Simulation};
 
 /// An elastic sphere at rest and a plane that comes at it as this motion says.
 fn plane_hits_sphere(run: &str, motion: &str) -> String {

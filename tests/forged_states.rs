@@ -6,9 +6,9 @@
 use crate::support;
 use cograin::results::{Checkpoint, write_checkpoint};
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::contacts::BONDED;
-use cograin::step::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;

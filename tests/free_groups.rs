@@ -3,8 +3,8 @@
 use crate::support::start;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{AxisMotion, InputCourse};
+use cograin::simulation::{LimiterKind, RunError, Simulation};
 use cograin::state::{BoundaryState, State};
-use cograin::step::{LimiterKind, RunError, Simulation};
 use std::sync::Arc;
 
 /// The first boundary.

@@ -2,9 +2,9 @@
 
 use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
 
 /// The boundary that forces move: boundaries stand in the order of the text.
 const PLATE: BoundaryIndex = BoundaryIndex(0);

@@ -3,8 +3,8 @@
 use crate::support::start;
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::state::Loss;
-use cograin::step::Simulation;
 
 /// What a loss took \[J\].
 fn lost(simulation: &Simulation, loss: Loss) -> f64 {

@@ -15,6 +15,7 @@ mod derivatives;
 mod every_law;
 mod every_surface;
 mod exchange;
+mod floors;
 mod foreseen_step;
 mod forged_states;
 mod free_groups;

@@ -2,7 +2,7 @@
 
 use crate::support::{start, start_with};
 use cograin::quantity::BoundaryIndex;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 
 /// The first boundary.
 const FIRST: BoundaryIndex = BoundaryIndex(0);

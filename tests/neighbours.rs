@@ -3,7 +3,7 @@
 use crate::support::start_with;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 

@@ -6,8 +6,8 @@
 use crate::support::scene_with;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::Scene;
+use cograin::simulation::{RunError, Simulation};
 use cograin::state::{Nodes, State};
-use cograin::step::{RunError, Simulation};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;

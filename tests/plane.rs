@@ -3,7 +3,7 @@
 
 use crate::support::read;
 use cograin::scene::Scene;
-use cograin::step::{RunError, Simulation};
+use cograin::simulation::{RunError, Simulation};
 use std::sync::Arc;
 
 /// Some spheres of one plane between plates, of which one shakes; a bonded bar that falls among them; a rigid group that is

@@ -2,7 +2,7 @@
 
 use crate::support;
 use cograin::quantity::BoundaryIndex;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 
 /// The first boundary.
 const FLOOR: BoundaryIndex = BoundaryIndex(0);

@@ -15,7 +15,7 @@ use crate::support::{start, start_with};
 use cograin::averages::{self, Tensor};
 use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;

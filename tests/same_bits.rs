@@ -6,8 +6,8 @@
 use crate::support::start;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 
 /// Two materials, rolling friction and cohesion, a driven floor, damping, a falling cloud that meets it: enough
 /// particles for several threads, and motion enough for new neighbour lists.

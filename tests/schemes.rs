@@ -5,8 +5,8 @@ use crate::support::checked;
 use cograin::contact::Scheme;
 use cograin::lanes::Width;
 use cograin::scene::{Accuracy, Scene, Step};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A cloud that falls on a plane, on a turning drum's wall and on itself.

@@ -2,8 +2,8 @@
 
 use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::f64::consts::PI;
 
 /// The plate with the servo: boundaries stand in the order of the text.

@@ -7,8 +7,8 @@
 use crate::support;
 use cograin::interface::{Interface, Value};
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A row of bonded spheres, held at one end and driven at the other.

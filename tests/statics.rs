@@ -4,8 +4,8 @@
 use crate::support::start;
 use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
+use cograin::simulation::Simulation;
 use cograin::statics::{Stiffness, stiffness};
-use cograin::step::Simulation;
 
 /// The last boundary of a scene.
 fn last(simulation: &Simulation) -> BoundaryIndex {

@@ -2,9 +2,9 @@
 
 use crate::support::start;
 use cograin::lanes::Width;
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::contacts::{BONDED, RELEASED, TOUCHING, is_resting};
-use cograin::step::Simulation;
 
 /// Two spheres that overlap by 2 % of their radius and are bonded.
 const PAIR: &str = r#"

@@ -4,7 +4,7 @@
 //! Unless something else is said: radius 5 mm, density 2500 kg/m³, E = 5 MPa and ν = 0.3 of both.
 
 use crate::support::start_with;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;

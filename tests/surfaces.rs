@@ -6,7 +6,7 @@
 use crate::support::{scene_with, start_with};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, SceneDraft};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;

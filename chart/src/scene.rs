@@ -5,7 +5,7 @@ use crate::table::Table;
 use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
 use cograin::scene::{Models, Scene, SceneDraft, Setting, Step};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::Path;

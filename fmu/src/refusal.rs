@@ -3,7 +3,7 @@
 use crate::calls::Phase;
 use crate::types::Status;
 use cograin::interface::InterfaceError;
-use cograin::step::RunError;
+use cograin::simulation::RunError;
 
 /// Why a call was refused. Nothing has changed then, but by [`Refusal::Panic`].
 #[derive(Debug, thiserror::Error)]

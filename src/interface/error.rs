@@ -1,6 +1,6 @@
 //! Why a variable was not set.
 
-use crate::step::{NoDerivative, TuneError};
+use crate::engine::simulation::{NoDerivative, TuneError};
 
 /// Why a variable was not set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -4,11 +4,11 @@
 //! checked by the type that reads the key.
 
 use super::SceneDraft;
-use crate::bond::Law;
-use crate::bond::keys::KeyError;
-use crate::contact::PairProperties;
-use crate::document;
-use crate::quantity::{MaterialIndex, Positive};
+use crate::base::document;
+use crate::base::quantity::{MaterialIndex, Positive};
+use crate::laws::bond::Law;
+use crate::laws::bond::keys::KeyError;
+use crate::laws::contact::PairProperties;
 use serde::de::value::{Error, F64Deserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 

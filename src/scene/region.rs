@@ -1,9 +1,9 @@
 //! Regions as parts of a scene.
 
-use crate::document::Mistake;
-use crate::quantity::BoundaryIndex;
-use crate::region::{self, Keys};
-use crate::surface::Files;
+use crate::base::document::Mistake;
+use crate::base::quantity::BoundaryIndex;
+use crate::laws::region::{self, Keys};
+use crate::laws::surface::Files;
 
 /// `[region.<name>]`: a part of space that is looked at.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! What has no static stiffness.
 
 use super::SceneDraft;
-use crate::bond::damping::DampingChoice;
+use crate::laws::bond::damping::DampingChoice;
 
 impl SceneDraft {
     /// What depends on speed or time, however slow, or moves by itself, if anything; and what would be right.

@@ -3,7 +3,7 @@
 use crate::bond_laws::placement::turn;
 use crate::support::start;
 use cograin::number::Vector;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 
 /// The two formulations that repair the engine's.
 const SOUND: [&str; 2] = ["incremental", "finite_rotation"];

@@ -4,7 +4,7 @@
 use crate::physics::chain::{BENDING, CLAMP, LENGTH, MASS, SHEAR, chain, in_order};
 use crate::physics::stage::assert_close;
 use crate::support::start;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::f64::consts::TAU;
 
 /// Deflection of the tip over the length of the beam that the forces are chosen for: what the law neglects is its square.

@@ -1,6 +1,6 @@
 //! Chains of equal bonded spheres along x, as scenes.
 
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::f64::consts::PI;
 
 /// Radius of the spheres and of the bonds; neighbours touch \[m\].

@@ -1,7 +1,7 @@
 //! A ringing block of bonded spheres that nothing damps keeps its energy over a million steps near the stable one.
 
 use crate::support::start;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 
 /// Spheres along each edge.
 const EDGE: usize = 3;

@@ -3,7 +3,7 @@
 use crate::physics::chain::{AXIAL, LENGTH, MASS, chain};
 use crate::physics::stage::assert_close;
 use crate::support::start;
-use cograin::step::{PlacedBond, PlacedParticle, Placement, Simulation};
+use cograin::simulation::{PlacedBond, PlacedParticle, Placement, Simulation};
 use std::f64::consts::{PI, TAU};
 
 /// Angle of a time step \[rad\].

@@ -7,7 +7,7 @@
 
 use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::step::{ContactRecord, Simulation};
+use cograin::simulation::{ContactRecord, Simulation};
 use std::fmt::Write;
 
 /// Walls around the bed: name, axis, place \[m\], direction of the normal.

@@ -4,7 +4,7 @@
 use super::scenes::{Random, random};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, SceneErrors};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::num::NonZero;
 use std::ops::Range;
 use std::sync::Arc;

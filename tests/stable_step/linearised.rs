@@ -4,7 +4,7 @@
 use crate::stable_step::with_step;
 use crate::support::checked;
 use cograin::scene::Scene;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use nalgebra::DMatrix;
 
 /// The stable time step of a scene \[s\]: the largest with 4 M − 2 Δt C − Δt² K positive definite, where dashpots that see

@@ -10,7 +10,7 @@ mod scenes;
 
 use crate::support::checked;
 use cograin::scene::{Scene, Step};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use scenes::{
     Sphere, block, bonds, contacts, cubic, damped_hertz, damped_hooke, dashpots, face_centred, free, hertz, hexagonal,
     near_faces, packing,

@@ -1,7 +1,7 @@
 //! Scenes from text, for all tests of the library.
 
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

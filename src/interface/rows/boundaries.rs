@@ -1,11 +1,11 @@
 //! Variables of each boundary and of its nodes.
 
 use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
+use crate::engine::simulation::Input;
+use crate::engine::state::State;
 use crate::interface::{Quantity, Value, Variability};
-use crate::motion::Seen;
+use crate::laws::motion::Seen;
 use crate::scene::{InputCourse, Scene};
-use crate::state::State;
-use crate::step::Input;
 
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
