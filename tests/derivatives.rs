@@ -30,7 +30,7 @@ fn named(simulation: &Simulation, name: &str) -> BoundaryIndex {
 
 /// Makes a communication step.
 fn advance(simulation: &mut Simulation, length: f64) {
-    simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
+    simulation.advance_or_roll_back(length).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// Outputs of a boundary in which the derivatives of each kind stand side by side: forces, then moments.

@@ -224,12 +224,12 @@ fn a_step_that_fails_gives_back_the_rates_and_what_was_there() {
     let mut simulation = begun(&scene, Width::widest());
     for place in 0..10 {
         simulation.set_insertion_rate(0, 100.0 * f64::from(place));
-        simulation.advance_or_return(0.013).unwrap();
+        simulation.advance_or_roll_back(0.013).unwrap();
     }
     let right = simulation.state().fingerprint();
     let stop = Arc::new(std::sync::atomic::AtomicBool::new(true));
     simulation.stop_when(&stop);
-    simulation.advance_or_return(0.013).unwrap_err();
+    simulation.advance_or_roll_back(0.013).unwrap_err();
     assert_eq!(simulation.state().fingerprint(), right);
 }
 

@@ -98,13 +98,13 @@ fn an_acceleration_counts_for_one_step_and_goes_with_the_state() {
     let mut simulation = start(false, "quadratic");
     give(&mut simulation, 1.0e-5, 50.0, length);
     let saved = simulation.state().clone();
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     let first = simulation.state().clone();
     simulation.restore(&saved).expect("it is its own state");
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     assert_eq!(simulation.state().boundaries, first.boundaries);
     // A second step without: at constant velocity, or rather at rest.
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     let floor = &simulation.state().boundaries[0];
     assert_eq!((floor.displacement[2], floor.velocity[2], floor.acceleration), (1.0e-5, 0.0, [0.0; 3]));
 }

@@ -392,5 +392,5 @@ fn bonds_arrive_by_distance_and_by_list() {
         chain.pairs.iter().map(|pair| pair.map(|index| scene.particles[index as usize].id.0)).collect();
     assert_eq!(ids, [[20, 10], [30, 10]]);
     let limits = &chain.law.breakage[..];
-    assert!(matches!(limits, [Rule::ByStress(rule)] if rule.compression_strength == 1e7), "{limits:?}");
+    assert!(matches!(limits, [Rule::StressLimits(rule)] if rule.compression_strength == 1e7), "{limits:?}");
 }

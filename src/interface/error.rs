@@ -28,7 +28,7 @@ pub enum InterfaceError {
         index: usize,
         /// Its name.
         name: String,
-        /// What was found and what would be right, as the scene says it.
+        /// What was found and what was expected, as the scene says it.
         refusal: String,
     },
     /// A parameter is not an input.

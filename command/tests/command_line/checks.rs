@@ -31,7 +31,7 @@ fn check_tells_what_a_scene_uses_and_costs() {
 
 #[test]
 fn check_tells_what_a_scene_could_drop() {
-    let place = Place::new("spare");
+    let place = Place::new("unused");
     let scene = place.scene("end = 0.1\nstep = 1e-7", "energy = true");
     let needed = report(&scene);
     assert!(!needed.contains("friction is 0"), "{needed}");

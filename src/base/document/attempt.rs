@@ -44,7 +44,7 @@ impl<'d, 'a> Attempt<'d, 'a> {
             path.truncate(end + 1);
         }
         let mistake = messages::mistake(error, path.last().map_or("", String::as_str));
-        let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::NotThere { .. });
+        let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::Unsupported { .. });
         // What was taken out as wrong is not missing, nor is the sub-model that it was.
         let missing = messages::missing_field(error);
         let taken_before = |field| self.wrong.iter().any(|key| key == field);

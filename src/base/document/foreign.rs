@@ -33,9 +33,9 @@ const COMMANDS: [&str; 24] = [
 /// How many lines with commands tell a script.
 const TELLING: usize = 3;
 
-/// What the text looks like, and what would be right; nothing for what may be a scene with mistakes.
+/// What the text looks like, and what was expected; nothing for what may be a scene with mistakes.
 pub(crate) fn looks_like(text: &str) -> Option<Mistake> {
-    let (found, right) = if text.trim_start().is_empty() {
+    let (found, expected) = if text.trim_start().is_empty() {
         return None;
     } else if text.starts_with("ITEM:") {
         ("a dump file of LIGGGHTS or LAMMPS", NAMED)
@@ -53,7 +53,7 @@ pub(crate) fn looks_like(text: &str) -> Option<Mistake> {
     } else {
         return None;
     };
-    Some(Mistake::Wrong { found: found.to_owned(), right: right.to_owned() })
+    Some(Mistake::Unexpected { found: found.to_owned(), expected: expected.to_owned() })
 }
 
 /// What is right for files that hold particles.

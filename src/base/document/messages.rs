@@ -23,7 +23,7 @@ const ABSENT: [(&[&str], &str, &str); 5] = [
 /// The refusal of something that this program does not have.
 pub(crate) fn absent(key: &str) -> Option<Mistake> {
     let (_, what, instead) = ABSENT.iter().find(|(keys, ..)| keys.contains(&key))?;
-    Some(Mistake::NotThere { what, instead })
+    Some(Mistake::Unsupported { what, instead })
 }
 
 /// The field that serde misses.
@@ -41,7 +41,7 @@ pub(crate) fn mistake(error: &Error, key: &str) -> Mistake {
     let message = error.message();
     let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
     if missing_field(error).is_some() {
-        return Mistake::Missing { right: "this table needs it".to_owned() };
+        return Mistake::Missing { expected: "this table needs it".to_owned() };
     }
     if message.starts_with("unknown field") {
         let found = quoted.next().unwrap_or_else(|| key.to_owned());
@@ -53,18 +53,19 @@ pub(crate) fn mistake(error: &Error, key: &str) -> Mistake {
     }
     if message.ends_with("number overflowed") {
         let found = "a number that 64 bits do not hold".to_owned();
-        let right = "a whole number up to 9223372036854775807, or one with a decimal point up to 1.79e308".to_owned();
-        return Mistake::Wrong { found, right };
+        let expected =
+            "a whole number up to 9223372036854775807, or one with a decimal point up to 1.79e308".to_owned();
+        return Mistake::Unexpected { found, expected };
     }
     if let Some(number) = message.strip_prefix("wanted exactly 1 element, ") {
         let found = if number.starts_with("more") { "several" } else { "none" }.to_owned();
-        return Mistake::Wrong { found, right: "one table, named as the model".to_owned() };
+        return Mistake::Unexpected { found, expected: "one table, named as the model".to_owned() };
     }
     if message.starts_with("expected ") {
         return Mistake::Refused { message: message.to_owned() };
     }
-    if let Some((found, right)) = message.split_once(", expected ") {
-        return Mistake::Wrong { found: found_in(found), right: expected_in(right) };
+    if let Some((found, expected)) = message.split_once(", expected ") {
+        return Mistake::Unexpected { found: found_in(found), expected: expected_in(expected) };
     }
     Mistake::Refused { message: message.to_owned() }
 }
@@ -81,7 +82,7 @@ fn found_in(message: &str) -> String {
     }
 }
 
-/// What would be right, from the type that serde expected.
+/// What was expected, from the type that serde expected.
 fn expected_in(message: &str) -> String {
     let words = match message {
         "f64" => "a number",

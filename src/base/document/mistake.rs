@@ -65,7 +65,7 @@ pub enum Mistake {
     },
     /// Something the program does not have.
     #[error("expected {instead}, found {what}, which this program does not have")]
-    NotThere {
+    Unsupported {
         /// What, in the plural.
         what: &'static str,
         /// What is there.
@@ -78,26 +78,26 @@ pub enum Mistake {
         found: String,
     },
     /// Something needed is absent.
-    #[error("missing; {right}")]
+    #[error("missing; {expected}")]
     Missing {
         /// What belongs there, or who needs it.
-        right: String,
+        expected: String,
     },
     /// A value that is not permitted.
-    #[error("expected {right}, found {found}")]
-    Wrong {
+    #[error("expected {expected}, found {found}")]
+    Unexpected {
         /// The value.
         found: String,
         /// What is permitted.
-        right: String,
+        expected: String,
     },
     /// A combination that makes no sense.
-    #[error("{what}; {right}")]
-    Senseless {
+    #[error("{what}; {expected}")]
+    InvalidCombination {
         /// The combination and why it is senseless.
         what: String,
         /// What would make sense.
-        right: String,
+        expected: String,
     },
     /// A value that a type refused in words of its own.
     #[error("{message}")]
@@ -162,21 +162,21 @@ pub enum Mistake {
     },
     /// A bond law without bonds.
     #[error("expected {}, found {}", bonding_distance(*.closest), short(*.distance))]
-    BondsNobody {
+    BondsNoPair {
         /// Centres nearer than this are bonded \[m\].
         distance: f64,
         /// Least distance of two centres that may be bonded \[m\].
         closest: Option<f64>,
     },
     /// A group that holds nothing.
-    #[error("chooses no particle; {right}")]
-    Nobody {
+    #[error("chooses no particle; {expected}")]
+    EmptySelection {
         /// What is there to choose.
-        right: String,
+        expected: String,
     },
     /// A particle that already belongs elsewhere.
     #[error("expected particles that no other one has, found particle {id} of {other}")]
-    Taken {
+    AlreadyTaken {
         /// The particle.
         id: u32,
         /// Where.
@@ -221,7 +221,7 @@ pub enum Mistake {
         "the centre of particle {id} is {depth:.3e} m behind [boundary.{boundary}]{}; \
          its normals point towards the particles", and_more(*.more, "particle")
     )]
-    Behind {
+    BehindSurface {
         /// The particle.
         id: u32,
         /// The plane.
@@ -236,7 +236,7 @@ pub enum Mistake {
         "expected a box that holds every centre, found particle {id} outside at {position:?} m{}",
         and_more(*.more, "particle")
     )]
-    Outside {
+    OutsideDomain {
         /// The particle.
         id: u32,
         /// Where it is \[m\].
@@ -249,7 +249,7 @@ pub enum Mistake {
         "expected room for {count} particles, found room for {reached} ({fraction:.3} of the region is filled); \
          take fewer or smaller ones, a larger region, or solid_fraction instead of count"
     )]
-    Full {
+    RegionFull {
         /// How many found room.
         reached: usize,
         /// How many were asked for.

@@ -5,7 +5,7 @@ use crate::engine::neighbours::bonds::remove;
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::State;
 use crate::engine::state::bonds::Break;
-use crate::laws::bond::{Carried, Reaction};
+use crate::laws::bond::{BondLoads, Reaction};
 
 /// Sums energies of the bonds of a law, takes out what broke and tells of it.
 pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Item = &'a Done>) -> Result<(), RunError> {
@@ -20,7 +20,7 @@ pub(crate) fn book<'a>(state: &mut State, law: usize, results: impl Iterator<Ite
         gone.extend_from_slice(&done.broken);
         if let Some(bond) = done.overbent {
             let (first, second) = (id(list.first[bond as usize]), list.second.get(bond as usize).copied().map(id));
-            outcome = outcome.and(Err(RunError::Overbent { first, second, time, cause: Cause::Unknown }));
+            outcome = outcome.and(Err(RunError::Overbent { first, second, time, cause: Cause::NotSearched }));
         }
     }
     for &Broken { bond, cause, energy, axis, arm, area } in &gone {
@@ -81,9 +81,9 @@ pub(crate) struct Done {
 impl Done {
     /// Finds where broken bonds parted, and what they release: what they held in the middle of the step. Up to there their
     /// force acted, and this is what the books lose, to second order in the step.
-    pub(crate) fn release(&mut self, step: f64, carried: impl Fn(usize) -> Carried) {
+    pub(crate) fn release(&mut self, step: f64, carried: impl Fn(usize) -> BondLoads) {
         for broken in &mut self.broken {
-            let Carried { energy, power, axis, arm, area, .. } = carried(broken.bond as usize);
+            let BondLoads { energy, power, axis, arm, area, .. } = carried(broken.bond as usize);
             *broken = Broken { energy: energy + 0.5 * step * power, axis, arm, area, ..*broken };
         }
     }

@@ -18,7 +18,7 @@ use crate::base::quantity::SetIndex;
 use crate::base::threads::Context;
 use crate::engine::contacts::BondRecord;
 use crate::engine::contacts::Pass;
-use crate::engine::contacts::{Ahead, Kind, Link};
+use crate::engine::contacts::{Kind, Link, SearchLimits};
 use crate::engine::neighbours::PairCache;
 use crate::engine::neighbours::bonds::is_bonded;
 use crate::engine::neighbours::near_pairs;
@@ -27,7 +27,7 @@ use crate::engine::state::ledger::Source;
 use crate::engine::state::{BondList, Particles, Row, State, StateFault};
 use crate::laws::bond::creation::{Creation, Moment, near_pair};
 use crate::laws::bond::damping::LastDamping;
-use crate::laws::bond::{Body, Carried, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
+use crate::laws::bond::{Body, BondLoads, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
 use crate::scene::Scene;
 use after::After;
 use batch::{SlabOf, TakeSlabs, Work};
@@ -89,7 +89,7 @@ impl BondPass {
     }
 
     /// What a bond carries.
-    fn carried(&self, state: &State, bond: usize) -> Carried {
+    fn carried(&self, state: &State, bond: usize) -> BondLoads {
         let list = &state.bonds[self.index];
         let mut rows = Rows::default();
         for (row, column) in rows.iter_mut().zip(&list.rows) {
@@ -100,7 +100,7 @@ impl BondPass {
     }
 
     /// Pairs without a bond that may be bonded before the stable time step is found again.
-    fn coming(&self, state: &State, ahead: &Ahead) -> Vec<[u32; 2]> {
+    fn coming(&self, state: &State, ahead: &SearchLimits) -> Vec<[u32; 2]> {
         if !ahead.window.as_ref().is_some_and(|window| self.creation.comes_within(window)) {
             return Vec::new();
         }
@@ -230,7 +230,7 @@ impl Pass for BondPass {
         Source::Bonds
     }
 
-    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let pair = pair_of(particles, i as usize, j as usize);
@@ -281,14 +281,14 @@ pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; LastDamp
 }
 
 /// Force on body i of a bond that carries this, with that of damping in the last evaluation \[N\].
-pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &Carried) -> [f64; 3] {
+pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &BondLoads) -> [f64; 3] {
     let damping = list.damping.first().map_or([0.0; 4], |rows| rows[bond]);
     (Vector::from(carried.force) + Vector::from(damping)).to_array()
 }
 
 /// Rates at which a bond gives elastic energy to its bodies, and at which its damping takes energy from them, by its loads in the last
 /// evaluation \[W\].
-pub(crate) fn powers(list: &BondList, bond: usize, pair: &Pair, carried: &Carried) -> [f64; 2] {
+pub(crate) fn powers(list: &BondList, bond: usize, pair: &Pair, carried: &BondLoads) -> [f64; 2] {
     let moving = [pair.velocity, pair.spin_i, pair.spin_j];
     let taken = list.damping.iter().zip(moving).map(|(rows, moving)| -Vector::from(rows[bond]).dot(moving));
     [carried.power, taken.sum()]

@@ -6,7 +6,7 @@ use crate::engine::state::Row;
 use crate::laws::bond::breakage::Loaded;
 use crate::laws::bond::damping::DampingLoad;
 use crate::laws::bond::{
-    Coefficients, Elastic, Formulation, Halfway, Lengths, MOST_HALFWAY, Motion, Opening, Pair, Quaternion, Rates,
+    Coefficients, Elastic, Formulation, Intermediate, Lengths, MOST_HALFWAY, Motion, Opening, Pair, Quaternion, Rates,
     Section,
 };
 use std::marker::PhantomData;
@@ -316,7 +316,7 @@ impl PipelineBuffer {
         &mut self,
         turn: usize,
         opening: &Opening<N>,
-        halfway: &Halfway<N>,
+        halfway: &Intermediate<N>,
     ) {
         const { assert!(Columns::<F>::OPENED <= MOST_OPENED) };
         let start = turn % 2 * Columns::<F>::OPENED;
@@ -335,7 +335,7 @@ impl PipelineBuffer {
 
     /// Reads what came next, and what the formulation has halfway; the rest is 0.
     #[inline(always)]
-    pub(super) fn opened<F: Formulation, N: Lane>(&self, turn: usize) -> (Opening<N>, Halfway<N>) {
+    pub(super) fn opened<F: Formulation, N: Lane>(&self, turn: usize) -> (Opening<N>, Intermediate<N>) {
         let start = turn % 2 * Columns::<F>::OPENED;
         let columns = &self.opened[start..start + Columns::<F>::OPENED];
         let [shared] = take(columns, 0);

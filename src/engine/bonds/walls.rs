@@ -10,13 +10,13 @@ use crate::base::quantity::{BoundaryIndex, SetIndex};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::contacts::BondRecord;
 use crate::engine::contacts::Pass;
-use crate::engine::contacts::{Ahead, Kind, Link};
+use crate::engine::contacts::{Kind, Link, SearchLimits};
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Particles, Row, State, StateFault};
 use crate::laws::bond::creation::{Creation, Moment, near_plane};
 use crate::laws::bond::damping::LastDamping;
-use crate::laws::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
+use crate::laws::bond::{Body, BondLoads, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
 use crate::scene::{Boundary, Scene};
 use std::sync::{Mutex, PoisonError};
 
@@ -107,7 +107,7 @@ impl WallBondPass {
     }
 
     /// What a bond carries.
-    fn carried(&self, state: &State, bond: usize) -> Carried {
+    fn carried(&self, state: &State, bond: usize) -> BondLoads {
         let mut rows = Rows::default();
         for (row, column) in rows.iter_mut().zip(&state.bonds[self.index].rows) {
             *row = column[bond];
@@ -303,7 +303,7 @@ impl Pass for WallBondPass {
         Source::Bonds
     }
 
-    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
             let bodies = (first, None, Some(self.boundary.0));

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 
 /// Working space of a time step: what the nodes felt and where they stood at its beginning.
 #[derive(Debug, Default)]
-pub(crate) struct Before {
+pub(crate) struct NodeWorkspace {
     /// Forces of each mesh \[N\].
     force: Vec<Vec<Row>>,
     /// Displacements of each mesh \[m\].
@@ -45,7 +45,7 @@ pub(crate) fn advance(
     scene: &Scene,
     state: &mut State,
     progress: &Progress,
-    before: &mut Before,
+    before: &mut NodeWorkspace,
     travels: &mut [BoundaryTravel],
 ) {
     before.place.resize_with(state.nodes.len(), Vec::new);
@@ -77,7 +77,7 @@ fn lead(nodes: &mut Nodes, before: &[Row], course: InputCourse, progress: &Progr
 }
 
 /// Sets the forces on all nodes to zero, and notes what they were.
-pub(crate) fn clear_loads(state: &mut State, before: &mut Before) {
+pub(crate) fn clear_loads(state: &mut State, before: &mut NodeWorkspace) {
     before.force.resize_with(state.nodes.len(), Vec::new);
     for (nodes, force) in state.nodes.iter_mut().zip(&mut before.force) {
         force.clone_from(&nodes.force);
@@ -86,7 +86,7 @@ pub(crate) fn clear_loads(state: &mut State, before: &mut Before) {
 }
 
 /// Books the impulses of a time step, and the work on its way: the kicks of both its halves, node by node.
-pub(crate) fn book(state: &mut State, before: &Before, step: f64) {
+pub(crate) fn book(state: &mut State, before: &NodeWorkspace, step: f64) {
     let State { nodes, boundaries, .. } = state;
     for ((nodes, force), place) in nodes.iter_mut().zip(&before.force).zip(&before.place) {
         let mut work = 0.0;

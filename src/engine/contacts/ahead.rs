@@ -83,7 +83,7 @@ impl Link {
 
 /// How far ahead the search for stiffnesses looks.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Ahead {
+pub(crate) struct SearchLimits {
     /// Overlaps that grow by no more than this count as if they had \[m\]: certain, whatever moves the bodies.
     pub margin: f64,
     /// Two bodies come no nearer to each other than by this until the next look \[m\].
@@ -98,7 +98,7 @@ pub(crate) struct Ahead {
     pub window: Option<Window>,
 }
 
-impl Ahead {
+impl SearchLimits {
     /// The largest speed at which a pair may close: as it does now \[m/s\], faster by what may come, by what the boundaries
     /// of its particles get and by a fall through the gap \[m\].
     fn closing_speed(&self, closing: f64, gap: f64, boundary: f64) -> f64 {

@@ -3,8 +3,8 @@
 //! Slabs of even and odd number share no particles among themselves; one of odd number waits until both its neighbours are
 //! done. The order in which a particle gets its loads is thus always the same.
 
-use super::ahead::{Ahead, Link};
-use super::listed::{self, Kept, Listed, Met};
+use super::ahead::{Link, SearchLimits};
+use super::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use super::pairs::Pairs;
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
@@ -69,7 +69,7 @@ impl Pass for ContactPass {
         }
     }
 
-    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         listed::stiffness(self, state, ahead, tell);
     }
 
@@ -153,14 +153,14 @@ pub(crate) fn effective(particles: &Particles, i: u32, j: u32) -> (f64, f64) {
     (r * s / (r + s), m * n / (m + n))
 }
 
-impl Listed for ContactPass {
+impl ContactEntries for ContactPass {
     fn law(&self) -> &Law {
         &self.law.law
     }
 
-    fn kept<'a>(&self, state: &'a State) -> Kept<'a> {
+    fn kept<'a>(&self, state: &'a State) -> ListColumns<'a> {
         let ContactList { flags, history, pair_constant, .. } = &state.contacts[self.index];
-        Kept { flags, history, pair_constant }
+        ListColumns { flags, history, pair_constant }
     }
 
     fn bodies(&self, state: &State, entry: usize) -> listed::Bodies {
@@ -168,7 +168,7 @@ impl Listed for ContactPass {
         (list.first[entry], Some(list.second[entry]), None)
     }
 
-    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<Met<'_>> {
+    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<CurrentContact<'_>> {
         let (list, kept) = (&state.contacts[self.index], self.kept(state));
         let Particles { position, material, .. } = &state.particles;
         let (i, j) = (list.first[entry], list.second[entry]);
@@ -181,10 +181,10 @@ impl Listed for ContactPass {
         let geometry = spheres.meet([v, u], [w, z], kept.constant(entry));
         let ContactGeometry { contact, first_arm, second_arm } = geometry;
         let row = self.table.row(material[i as usize], material[j as usize]);
-        Some(Met { contact, arms: [first_arm, second_arm], row })
+        Some(CurrentContact { contact, arms: [first_arm, second_arm], row })
     }
 
-    fn deepest(&self, state: &State, ahead: &Ahead, entry: usize, met: &Met) -> Option<Contact> {
+    fn deepest(&self, state: &State, ahead: &SearchLimits, entry: usize, met: &CurrentContact) -> Option<Contact> {
         let list = &state.contacts[self.index];
         let slots = [list.first[entry], list.second[entry]];
         ahead.between(self.law(), met.row, &met.contact, &state.particles, slots)

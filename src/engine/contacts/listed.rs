@@ -1,6 +1,6 @@
 //! Contacts of a list where their bodies are now: told in one way, whatever the bodies are.
 
-use super::ahead::{Ahead, Kind, Link};
+use super::ahead::{Kind, Link, SearchLimits};
 use super::records::{self, ContactRecord, Motion};
 use crate::base::number::Vector;
 use crate::engine::state::contacts::{BONDED, RELEASED, SILENT, SLIDING, TOUCHING, is_told};
@@ -9,7 +9,7 @@ use crate::laws::contact::{Contact, Law, Reaction};
 
 /// What a list keeps of its contacts, each a column.
 #[derive(Clone, Copy)]
-pub(crate) struct Kept<'a> {
+pub(crate) struct ListColumns<'a> {
     /// Bits.
     pub flags: &'a [u8],
     /// What the law remembers, and offsets behind it.
@@ -18,7 +18,7 @@ pub(crate) struct Kept<'a> {
     pub pair_constant: &'a [f64],
 }
 
-impl Kept<'_> {
+impl ListColumns<'_> {
     /// The pair constant of an entry.
     pub(crate) fn constant(&self, entry: usize) -> f64 {
         self.pair_constant.get(entry).copied().unwrap_or(0.0)
@@ -32,7 +32,7 @@ impl Kept<'_> {
 }
 
 /// A contact at the present time.
-pub(crate) struct Met<'a> {
+pub(crate) struct CurrentContact<'a> {
     /// Geometry and relative motion.
     pub contact: Contact,
     /// Arms at the two bodies \[m\].
@@ -45,27 +45,27 @@ pub(crate) struct Met<'a> {
 pub(crate) type Bodies = (u32, Option<u32>, Option<u32>);
 
 /// A list of contacts of one law.
-pub(crate) trait Listed {
+pub(crate) trait ContactEntries {
     /// The law.
     fn law(&self) -> &Law;
 
     /// What is kept of the contacts.
-    fn kept<'a>(&self, state: &'a State) -> Kept<'a>;
+    fn kept<'a>(&self, state: &'a State) -> ListColumns<'a>;
 
     /// The bodies of an entry.
     fn bodies(&self, state: &State, entry: usize) -> Bodies;
 
     /// The contact of an entry, if the bodies touch, still hold together or are less than `gap` \[m\] apart: the overlap is
     /// then below 0.
-    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<Met<'_>>;
+    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<CurrentContact<'_>>;
 
     /// The contact as deep as it may get, if it may.
-    fn deepest(&self, state: &State, ahead: &Ahead, entry: usize, met: &Met) -> Option<Contact>;
+    fn deepest(&self, state: &State, ahead: &SearchLimits, entry: usize, met: &CurrentContact) -> Option<Contact>;
 }
 
 /// Tells the stiffness of each contact at work or, where `ahead` looks further, as stiff as each may get. Contacts that a bond
 /// suppresses, or has suppressed, count where they touch, as far as they act.
-pub(crate) fn stiffness(list: &impl Listed, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+pub(crate) fn stiffness(list: &impl ContactEntries, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
     let (law, kept) = (list.law(), list.kept(state));
     for (entry, &flags) in kept.flags.iter().enumerate() {
         let bonded = flags & BONDED != 0;
@@ -84,7 +84,7 @@ pub(crate) fn stiffness(list: &impl Listed, state: &State, ahead: &Ahead, tell: 
 }
 
 /// Tells each contact at work as it was in the last evaluation, after a time step of this length \[s\].
-pub(crate) fn records(list: &impl Listed, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
+pub(crate) fn records(list: &impl ContactEntries, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
     let (law, kept) = (list.law(), list.kept(state));
     for (entry, &flags) in kept.flags.iter().enumerate().filter(|(_, flags)| is_told(**flags)) {
         let Some(mut met) = list.meet(state, entry, f64::INFINITY, Motion::shown(law, step)) else { continue };
@@ -108,10 +108,12 @@ pub(crate) const SLIGHT: f64 = 1e-4;
 
 /// How many contacts are near a switch: they would begin or end to slide in a time step of this length \[s\] if their overlap were a
 /// little larger or smaller, or their bodies touch or miss each other by less than `margin` \[m\].
-pub(crate) fn near_switch(list: &impl Listed, state: &State, step: f64, margin: f64) -> u64 {
+pub(crate) fn near_switch(list: &impl ContactEntries, state: &State, step: f64, margin: f64) -> u64 {
     let (law, kept) = (list.law(), list.kept(state));
     let is_near = |entry: &usize| {
-        let Some(Met { contact, row, .. }) = list.meet(state, *entry, margin, Motion::Present) else { return false };
+        let Some(CurrentContact { contact, row, .. }) = list.meet(state, *entry, margin, Motion::Present) else {
+            return false;
+        };
         let slides = |share: f64| {
             let mut contact = Contact { overlap: share * contact.overlap, ..contact };
             law.react(row, &mut contact, &mut records::history(kept.history, *entry), step).sliding
@@ -129,12 +131,12 @@ fn remembered(history: &History, entry: usize, flags: u8) -> (Reaction, bool) {
 }
 
 /// Elastic energy of the contacts \[J\]: none of the normal force while a bond suppresses it.
-pub(crate) fn elastic_energy(list: &impl Listed, state: &State) -> f64 {
+pub(crate) fn elastic_energy(list: &impl ContactEntries, state: &State) -> f64 {
     energy(list, state, Law::elastic_energy)
 }
 
 /// Energy that a law's rolling springs and its sticky or plastic normal forces hold \[J\].
-pub(crate) fn held_energy(list: &impl Listed, state: &State) -> [f64; 3] {
+pub(crate) fn held_energy(list: &impl ContactEntries, state: &State) -> [f64; 3] {
     let (law, mut held) = (list.law(), [0.0; 3]);
     if law.has_rolling() {
         held[0] = energy(list, state, |law, row, contact, _, history| law.rolling_energy(row, contact, history));
@@ -146,11 +148,11 @@ pub(crate) fn held_energy(list: &impl Listed, state: &State) -> [f64; 3] {
 }
 
 /// Sum of an energy of each contact, of its law, coefficients, geometry, offset and history \[J\].
-fn energy(list: &impl Listed, state: &State, of: impl Fn(&Law, &[f64], &Contact, f64, &[Row]) -> f64) -> f64 {
+fn energy(list: &impl ContactEntries, state: &State, of: impl Fn(&Law, &[f64], &Contact, f64, &[Row]) -> f64) -> f64 {
     let (law, kept) = (list.law(), list.kept(state));
     let told = kept.flags.iter().enumerate().filter(|(_, flags)| is_told(**flags));
     let energy = |(entry, &flags): (usize, &u8)| {
-        let Met { contact, row, .. } = list.meet(state, entry, 0.0, Motion::Present)?;
+        let CurrentContact { contact, row, .. } = list.meet(state, entry, 0.0, Motion::Present)?;
         let offset = match flags {
             flags if flags & BONDED != 0 => contact.overlap,
             flags if flags & RELEASED != 0 => {

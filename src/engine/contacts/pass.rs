@@ -1,6 +1,6 @@
 //! What the passes of a time step have in common.
 
-use super::ahead::{Ahead, Link};
+use super::ahead::{Link, SearchLimits};
 use super::records::{BondRecord, ContactRecord};
 use crate::base::threads::Context;
 use crate::engine::run_error::RunError;
@@ -48,7 +48,7 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Tells the stiffness of each interaction at work or, where `ahead` looks further, as stiff as each may get: for the
     /// stable time step.
-    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link));
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link));
 
     /// Tells the stiffest that each kind of contact gets between two bodies of this effective radius \[m\] and mass \[kg\]
     /// which meet at this speed \[m/s\].

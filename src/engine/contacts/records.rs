@@ -3,7 +3,7 @@
 use crate::base::number::Vector;
 use crate::engine::state::contacts::SLIDING;
 use crate::engine::state::{History, Row, State};
-use crate::laws::bond::Carried;
+use crate::laws::bond::BondLoads;
 use crate::laws::contact::{Contact, Law, MOST_HISTORY, Reaction};
 
 /// One contact at work, as it was when the present forces were evaluated.
@@ -43,7 +43,7 @@ pub struct BondRecord {
     /// Force on body i, that of damping included \[N\].
     pub force: [f64; 3],
     /// Forces, torques, stresses and energy.
-    pub carried: Carried,
+    pub carried: BondLoads,
     /// Energy that damping and relaxation took of it so far \[J\].
     pub dissipated: f64,
 }

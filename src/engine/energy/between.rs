@@ -36,7 +36,7 @@ impl Loads {
 
 /// What the book stores from the evaluation of the forces to the kick that follows.
 #[derive(Default)]
-pub(crate) struct Between {
+pub(crate) struct PendingWork {
     /// The kind of force that passes added last; that before surfaces where these follow another kind.
     pub(super) last: Option<Source>,
     /// Loads before bonds acted.
@@ -47,7 +47,7 @@ pub(crate) struct Between {
     pub(super) fields: Loads,
 }
 
-impl Between {
+impl PendingWork {
     /// Forgets the loads of the evaluation before.
     pub(crate) fn begin(&mut self) {
         self.last = None;
@@ -108,7 +108,7 @@ impl Between {
         let (before, fields) = (&mut self.walls, self.fields.rows());
         let mut sums = [[0.0; 4]; 2];
         let gravity = row(gravity.unwrap_or_default());
-        lanes::run(width, OfWalls { particles, walls, fields, gravity, before, sums: &mut sums });
+        lanes::run(width, WallLoads { particles, walls, fields, gravity, before, sums: &mut sums });
         before.stored.then_some(sums)
     }
 }
@@ -120,7 +120,7 @@ fn near(walls: &[WallContacts]) -> impl Iterator<Item = usize> {
 }
 
 /// What surfaces do to the particles near them.
-struct OfWalls<'a, 'b> {
+struct WallLoads<'a, 'b> {
     /// The particles.
     particles: &'a Particles,
     /// Who is near.
@@ -135,7 +135,7 @@ struct OfWalls<'a, 'b> {
     sums: &'b mut [Row; 2],
 }
 
-impl Kernel for OfWalls<'_, '_> {
+impl Kernel for WallLoads<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { particles, walls, fields, gravity, before, sums } = self;

@@ -43,22 +43,22 @@ pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<R
 
 /// Energy that causes of loss hold and may give back \[J\]: rolling springs, sticky normal forces, plastic ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Held(pub(crate) [f64; 3]);
+pub(crate) struct StoredEnergy(pub(crate) [f64; 3]);
 
-impl Held {
+impl StoredEnergy {
     /// Which causes they are.
     pub(crate) const CAUSES: [Loss; 3] = [Loss::Rolling, Loss::Cohesion, Loss::Plastic];
 }
 
 /// What a loss took since the book was opened \[J\]: what it holds now is not lost.
-pub(crate) fn lost(state: &State, losses: &Losses, held: &Held, loss: Loss) -> f64 {
+pub(crate) fn lost(state: &State, losses: &Losses, held: &StoredEnergy, loss: Loss) -> f64 {
     let bonds = |of: fn(&crate::engine::state::BondList) -> f64| state.bonds.iter().map(of).sum::<f64>();
     let taken = losses.taken[loss as usize];
     match loss {
         Loss::BondDamping => bonds(|list| list.damped + list.relaxed),
         Loss::BondRelease => bonds(|list| list.released),
         Loss::Removed => state.exchange.as_ref().map_or(0.0, |exchange| -exchange.net.energy()),
-        _ => match Held::CAUSES.iter().position(|cause| *cause == loss) {
+        _ => match StoredEnergy::CAUSES.iter().position(|cause| *cause == loss) {
             Some(place) => taken - (held.0[place] - losses.initial_held[place]),
             None => taken,
         },

@@ -5,7 +5,7 @@ mod bodies;
 pub(crate) mod losses;
 pub(crate) mod work;
 
-pub(crate) use between::Between;
+pub(crate) use between::PendingWork;
 
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;

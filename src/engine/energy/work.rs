@@ -4,7 +4,7 @@
 //! second half kick of a step and the first one of the next have the same forces. One pass over the particles therefore finds
 //! for both the powers Σ F_k · v and how fast they grow, Σ F_k · a.
 
-use super::between::Between;
+use super::between::PendingWork;
 use super::{bodies, dot, multiply, plus, row};
 use crate::base::lanes::{self, Kernel, Lane};
 use crate::base::threads::{CHUNK, Context};
@@ -28,7 +28,7 @@ pub(crate) fn book_first(state: &mut State, fields: &Fields, bodies: &[Option<Ri
 /// that is not yet among them. At time 0 its length is 0: the powers are found.
 pub(crate) fn book_second(
     state: &mut State,
-    between: &mut Between,
+    between: &mut PendingWork,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
     bodies: &[Option<RigidBody>],
     step: f64,
@@ -41,7 +41,7 @@ pub(crate) fn book_second(
 /// Books the second half kick of the particles.
 fn book_particles(
     state: &mut State,
-    between: &mut Between,
+    between: &mut PendingWork,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
     step: f64,
     context: &Context,
@@ -109,7 +109,7 @@ impl Powers {
     }
 
     /// Takes what surfaces do from the kind before them, to which it was counted.
-    fn tell_walls(&mut self, between: &Between, walls: [f64; 2]) {
+    fn tell_walls(&mut self, between: &PendingWork, walls: [f64; 2]) {
         let Some(last) = between.last else { return };
         for (powers, walls) in [&mut self.now, &mut self.growth].into_iter().zip(walls) {
             powers[Source::Walls as usize] = walls;
@@ -135,7 +135,7 @@ struct Sums {
 
 impl Sums {
     /// The powers; what surfaces do counts to the kind before them.
-    fn powers(&self, between: &Between, fields: &Fields) -> Powers {
+    fn powers(&self, between: &PendingWork, fields: &Fields) -> Powers {
         let gravity = row(fields.weight(1.0));
         let of = |part: usize| {
             let mut power = [0.0; Source::COUNT];
@@ -166,7 +166,7 @@ struct OnPiece<'a, 'b> {
     /// The particles.
     particles: &'a Particles,
     /// The loads between kinds of force.
-    between: &'a Between,
+    between: &'a PendingWork,
     /// Gravity and applied forces.
     fields: &'a Fields,
     /// Gravity that is not yet among the forces \[m/s²\].

@@ -20,8 +20,13 @@ pub(crate) fn check(scene: &Scene, particles: &Particles, exchange: &Exchange) -
     }
     for slot in 0..particles.len() {
         let index = particles.id[slot] as usize;
-        let right = "radius, mass, inertia, material and group that the scene gives it";
-        demand(is_as_made(scene, particles, slot, owners.get(index).copied().unwrap_or(0)), "particles", slot, right)?;
+        let expected = "radius, mass, inertia, material and group that the scene gives it";
+        demand(
+            is_as_made(scene, particles, slot, owners.get(index).copied().unwrap_or(0)),
+            "particles",
+            slot,
+            expected,
+        )?;
     }
     let last = scene.particles.last().map_or(0, |last| last.id.0);
     let mut numbers: Vec<u32> =
@@ -35,15 +40,15 @@ pub(crate) fn check(scene: &Scene, particles: &Particles, exchange: &Exchange) -
 
 /// The number of a particle that came later and is there.
 fn number_at(particles: &Particles, index: u32) -> Option<u32> {
-    particles.slot_of(index).and_then(|_| particles.number_of_newcomer(index))
+    particles.slot_of(index).and_then(|_| particles.number_of_inserted(index))
 }
 
 /// Whether what never changes of the particle in a slot is as the scene or an insertion gives it.
 fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: u32) -> bool {
     let (radius, mass) = (particles.position[slot][3], particles.velocity[slot][3]);
     let (inertia, material) = (particles.angular_velocity[slot][3], particles.material[slot]);
-    let same = |shape: ParticleShape, right: f64| {
-        mass.to_bits() == right.to_bits() && inertia.to_bits() == shape.inertia(right, radius).to_bits()
+    let same = |shape: ParticleShape, expected: f64| {
+        mass.to_bits() == expected.to_bits() && inertia.to_bits() == shape.inertia(expected, radius).to_bits()
     };
     if particles.owner[slot] != owner {
         return false;

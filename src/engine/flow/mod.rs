@@ -15,11 +15,11 @@ use crate::base::number::Vector;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;
-use crate::engine::state::exchange::{Exchange, Feed, Net};
+use crate::engine::state::exchange::{Exchange, InsertionProgress, NetExchange};
 use crate::scene::exchange::{Amount, Outside};
 use crate::scene::{OutletPlace, Scene};
 pub(crate) use check::{check, is_made};
-pub(crate) use outlets::Leaving;
+pub(crate) use outlets::RemovedParticles;
 
 /// Time steps between two times at which an insertion is tried.
 const WAIT: u64 = 50;
@@ -82,7 +82,7 @@ impl Flow {
     }
 
     /// The particles that go now, if it is time to look and there are any.
-    pub(crate) fn leaving(&self, scene: &Scene, state: &mut State) -> Result<Option<Leaving>, RunError> {
+    pub(crate) fn leaving(&self, scene: &Scene, state: &mut State) -> Result<Option<RemovedParticles>, RunError> {
         let Some(exchange) = state.exchange.as_mut().filter(|_| self.removes) else { return Ok(None) };
         if exchange.travel <= LOOK * self.smallest && !self.looks_always {
             return Ok(None);
@@ -92,10 +92,17 @@ impl Flow {
     }
 
     /// Takes them away, in a time step of this length \[s\].
-    pub(crate) fn remove(&self, scene: &Scene, fields: &Fields, state: &mut State, leaving: &Leaving, step: f64) {
+    pub(crate) fn remove(
+        &self,
+        scene: &Scene,
+        fields: &Fields,
+        state: &mut State,
+        leaving: &RemovedParticles,
+        step: f64,
+    ) {
         let since = state.clock.time - 0.5 * step;
         let particles = &state.particles;
-        let mut net = Net::default();
+        let mut net = NetExchange::default();
         for slot in (0..leaving.goes.len()).filter(|&slot| leaving.goes[slot]) {
             book(&mut net, (particles.position[slot], particles.velocity[slot]), -1.0, since);
             let spin = particles.angular_velocity[slot];
@@ -147,7 +154,7 @@ impl Flow {
     }
 
     /// Whether a particle of an insertion is due and may be tried.
-    fn may_come(&self, feed: &Feed, insertion: &crate::scene::Insertion, steps: u64) -> bool {
+    fn may_come(&self, feed: &InsertionProgress, insertion: &crate::scene::Insertion, steps: u64) -> bool {
         let [least, _] = insertion.sizes.bounds();
         let radius = if feed.radius > 0.0 { feed.radius } else { least };
         let waited = steps >= feed.tried + WAIT || feed.tried == 0;
@@ -177,7 +184,7 @@ impl Flow {
 }
 
 /// Whether a particle of this radius \[m\] is due.
-fn is_owed(insertion: &crate::scene::Insertion, feed: &Feed, radius: f64) -> bool {
+fn is_owed(insertion: &crate::scene::Insertion, feed: &InsertionProgress, radius: f64) -> bool {
     feed.owed >= cost(insertion, radius) * (1.0 - WHOLE)
 }
 
@@ -191,7 +198,7 @@ fn cost(insertion: &crate::scene::Insertion, radius: f64) -> f64 {
 
 /// Books position and velocity rows of a particle that comes (`sign` 1) or goes (−1) and is there from, or up to, this time \[s\];
 /// not what acts on it.
-fn book(net: &mut Net, (_, velocity): ([f64; 4], [f64; 4]), sign: f64, since: f64) {
+fn book(net: &mut NetExchange, (_, velocity): ([f64; 4], [f64; 4]), sign: f64, since: f64) {
     let mass = sign * velocity[3];
     net.mass += mass;
     net.mass_time += mass * since;
@@ -203,7 +210,7 @@ fn book(net: &mut Net, (_, velocity): ([f64; 4], [f64; 4]), sign: f64, since: f6
     }
 }
 
-impl Net {
+impl NetExchange {
     /// Adds what came and went.
     fn add(&mut self, other: &Self) {
         self.mass += other.mass;
@@ -225,13 +232,13 @@ pub(crate) fn begun(scene: &Scene) -> Option<Exchange> {
     if !scene.changes_number() && scene.meters.is_empty() {
         return None;
     }
-    let feed = |insertion: &crate::scene::Insertion| Feed {
+    let feed = |insertion: &crate::scene::Insertion| InsertionProgress {
         rate: insertion.rate().unwrap_or(0.0),
         owed: match insertion.amount {
             Amount::Mass(mass) => mass,
             Amount::MassRate(_) | Amount::CountRate(_) => 0.0,
         },
-        ..Feed::default()
+        ..InsertionProgress::default()
     };
     Some(Exchange {
         // What is in an outlet at the beginning goes in the first time step.

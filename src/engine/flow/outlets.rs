@@ -4,18 +4,18 @@ use super::removes_outside;
 use crate::base::number::Vector;
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;
-use crate::engine::state::exchange::{Exchange, Tally};
+use crate::engine::state::exchange::{Exchange, ParticleCount};
 use crate::scene::{OutletPlace, Scene};
 
 /// Particles that go.
-pub(crate) struct Leaving {
+pub(crate) struct RemovedParticles {
     /// Whether the particle of each slot goes.
     pub(crate) goes: Vec<bool>,
     /// How many go by each outlet and, last, because they are outside the domain.
-    tallies: Vec<Tally>,
+    tallies: Vec<ParticleCount>,
 }
 
-impl Leaving {
+impl RemovedParticles {
     /// Adds them to what went.
     pub(super) fn tell(&self, scene: &Scene, exchange: &mut Exchange) {
         let Exchange { outlets, outside, .. } = exchange;
@@ -28,11 +28,11 @@ impl Leaving {
 }
 
 /// The particles whose centres are where an outlet takes them away, if there are any. The first outlet that has one takes it.
-pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<Leaving>, RunError> {
+pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<RemovedParticles>, RunError> {
     let particles = &state.particles;
     let outside = scene.domain.filter(|_| removes_outside(scene));
     let (mut any, mut goes) = (false, vec![false; particles.len()]);
-    let mut tallies = vec![Tally::default(); scene.outlets.len() + 1];
+    let mut tallies = vec![ParticleCount::default(); scene.outlets.len() + 1];
     let shifts: Vec<Vector> = scene.outlets.iter().map(|outlet| shift(scene, state, outlet.place)).collect();
     for slot in 0..goes.len() {
         let centre = Vector::from(particles.position[slot]);
@@ -51,7 +51,7 @@ pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<Leaving>, RunE
         (any, goes[slot]) = (true, true);
         tallies[by].add(particles.velocity[slot][3]);
     }
-    Ok(any.then_some(Leaving { goes, tallies }))
+    Ok(any.then_some(RemovedParticles { goes, tallies }))
 }
 
 /// How far an outlet has moved with its boundary, or with the one that its region follows \[m\].

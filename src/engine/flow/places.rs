@@ -5,8 +5,8 @@ use super::{book, cost, is_owed};
 use crate::base::number::Vector;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
-use crate::engine::state::exchange::{Feed, Net};
-use crate::engine::state::{Newcomer, State};
+use crate::engine::state::exchange::{InsertionProgress, NetExchange};
+use crate::engine::state::{InsertedParticle, State};
 use crate::scene::exchange::Amount;
 use crate::scene::packing::generator::{generator_after, uniform};
 use crate::scene::{Insertion, ParticleShape, Scene};
@@ -43,13 +43,13 @@ pub(super) fn feed(
         let exchange = state.exchange.as_mut().expect("a scene with an insertion has an exchange");
         let number = exchange.next;
         exchange.next = number.checked_add(1).ok_or(RunError::NoNumberLeft { time: state.clock.time })?;
-        let mut net = Net::default();
+        let mut net = NetExchange::default();
         book(&mut net, (position, velocity), 1.0, since);
         net.potential = -Vector::from(fields.weight(velocity[3])).dot(position.into());
         exchange.net.add(&net);
         feed.came.add(velocity[3]);
         let (material, inertia) = (insertion.material.0, ParticleShape::Sphere.inertia(velocity[3], position[3]));
-        state.particles.add(&Newcomer { position, velocity, inertia, material, number }, turning);
+        state.particles.add(&InsertedParticle { position, velocity, inertia, material, number }, turning);
     }
     if let Some(kept) = state.exchange.as_mut().and_then(|exchange| exchange.feeds.get_mut(index)) {
         *kept = feed;
@@ -62,7 +62,7 @@ fn spheres(
     scene: &Scene,
     state: &State,
     insertion: &Insertion,
-    feed: &mut Feed,
+    feed: &mut InsertionProgress,
     next: &mut dyn FnMut() -> f64,
 ) -> Vec<([f64; 4], [f64; 4])> {
     let region = &scene.regions[insertion.region];
@@ -112,7 +112,7 @@ fn free_place(
 }
 
 /// What a rate asked for and found no room is not made up for, but for the sphere that waits.
-fn drop_rest(insertion: &Insertion, feed: &mut Feed) {
+fn drop_rest(insertion: &Insertion, feed: &mut InsertionProgress) {
     if !matches!(insertion.amount, Amount::Mass(_)) {
         let rest = (feed.owed - cost(insertion, feed.radius)).max(0.0);
         feed.owed -= rest;

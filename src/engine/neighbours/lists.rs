@@ -1,7 +1,7 @@
 //! From found pairs to the lists of the contact laws, with what the laws remember of the pairs that touch.
 
 use super::order::Order;
-use super::pairs::{Found, Laws};
+use super::pairs::{FoundPairs, Laws};
 use crate::base::lanes::{self, Shared};
 use crate::base::threads::Context;
 use crate::engine::state::ContactList;
@@ -12,25 +12,25 @@ const PIECE: usize = 4096;
 
 /// What making lists needs, kept from one time to the next.
 #[derive(Debug, Default)]
-pub(crate) struct Making {
+pub(crate) struct ListBuilder {
     /// The list that was, of which the next one is made.
     spare: ContactList,
     /// First pair of each particle in the new list, and the number of pairs behind the last.
     starts: Vec<u32>,
 }
 
-impl Making {
+impl ListBuilder {
     /// Replaces the list of a law by what was found. Flags and history go with the pair of particles.
     pub(crate) fn replace(
         &mut self,
         list: &mut ContactList,
-        found: &[Found],
+        found: &[FoundPairs],
         (law, laws): (u32, &Laws),
         history: &[HistoryRow],
         (order, context): (&Order, &Context),
     ) {
         let new = &mut self.spare;
-        let mine = |found: &Found| found.of_law[if laws.only.is_some() { 0 } else { law as usize }];
+        let mine = |found: &FoundPairs| found.of_law[if laws.only.is_some() { 0 } else { law as usize }];
         new.slabs.clear();
         let mut sum = 0;
         for found in found {
@@ -51,7 +51,7 @@ impl Making {
     }
 
     /// Writes the pairs, slabs side by side; nothing touches yet.
-    fn fill(&mut self, found: &[Found], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
+    fn fill(&mut self, found: &[FoundPairs], (law, laws): (u32, &Laws), order: &Order, context: &Context) {
         let new = &mut self.spare;
         let (first, second) = (Shared::new(&mut new.first), Shared::new(&mut new.second));
         let (flags, rows) = (Shared::new(&mut new.flags), new.history.rows());

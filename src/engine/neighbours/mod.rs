@@ -10,9 +10,9 @@ mod grid;
 mod lists;
 mod order;
 mod pair_cache;
+pub(crate) mod pair_estimate;
 mod pairs;
 mod planes;
-pub(crate) mod room;
 mod sizes;
 mod skin;
 mod surfaces;
@@ -25,10 +25,10 @@ use crate::laws::contact::{HistoryRow, Law};
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Scene, Shape};
 use grid::Grid;
-use lists::Making;
+use lists::ListBuilder;
 use order::Order;
 pub(crate) use pair_cache::PairCache;
-use pairs::{Found, Laws, Look};
+use pairs::{FoundPairs, Laws, PairSearch};
 use planes::Plane;
 use sizes::Sizes;
 pub(crate) use skin::FIRST as FIRST_SKIN;
@@ -66,9 +66,9 @@ pub(crate) struct Search {
     /// Order of the particles.
     order: Order,
     /// Pairs of each slab.
-    found: Vec<Found>,
+    found: Vec<FoundPairs>,
     /// Making of lists.
-    making: Making,
+    making: ListBuilder,
     /// A number for each particle.
     mark: Vec<u32>,
 }
@@ -101,7 +101,7 @@ impl Search {
             laws,
             order: Order::default(),
             found: Vec::new(),
-            making: Making::default(),
+            making: ListBuilder::default(),
             mark: Vec::new(),
         }
     }
@@ -222,7 +222,7 @@ impl Search {
 
     /// Makes the lists of near particles.
     fn list_pairs(&mut self, state: &mut State, grid: &Grid, skin: f64, context: &Context) {
-        let look = Look {
+        let look = PairSearch {
             grid,
             order: &self.order,
             columns: &state.neighbours.reference,

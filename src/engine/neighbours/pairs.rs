@@ -30,8 +30,8 @@ impl Laws {
 
 /// Pairs whose first particle is in one slab.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Found {
-    /// Second particles; more than [`Found::count`] of them are room to work in.
+pub(crate) struct FoundPairs {
+    /// Second particles; more than [`FoundPairs::count`] of them are room to work in.
     pub second: Vec<u32>,
     /// First particles, where pairs have several laws; otherwise empty.
     pub first: Vec<u32>,
@@ -46,7 +46,7 @@ pub(crate) struct Found {
 }
 
 /// The search: its input and its criteria.
-pub(crate) struct Look<'a> {
+pub(crate) struct PairSearch<'a> {
     /// The cells.
     pub grid: &'a Grid,
     /// What is in them.
@@ -62,27 +62,27 @@ pub(crate) struct Look<'a> {
 }
 
 /// Finds the near pairs of all slabs.
-pub(crate) fn find(look: &Look, found: &mut Vec<Found>, context: &Context) {
-    found.resize(look.grid.slabs, Found::default());
+pub(crate) fn find(look: &PairSearch, found: &mut Vec<FoundPairs>, context: &Context) {
+    found.resize(look.grid.slabs, FoundPairs::default());
     let found = Shared::new(found);
     context.each(look.grid.slabs, |slab| {
         // SAFETY: each slab has a place of its own.
         let found = unsafe { found.at(slab) };
-        lanes::run(context.width, InSlab { look, slab, found });
+        lanes::run(context.width, SlabSearch { look, slab, found });
     });
 }
 
 /// The search in one slab.
-struct InSlab<'a, 'b> {
+struct SlabSearch<'a, 'b> {
     /// The particles that are searched.
-    look: &'a Look<'a>,
+    look: &'a PairSearch<'a>,
     /// Which slab.
     slab: usize,
     /// Where the pairs go.
-    found: &'b mut Found,
+    found: &'b mut FoundPairs,
 }
 
-impl Kernel for InSlab<'_, '_> {
+impl Kernel for SlabSearch<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { look, slab, found } = self;
@@ -110,7 +110,7 @@ impl Kernel for InSlab<'_, '_> {
 
 /// Looks from the particles in one row of cells.
 #[inline(always)]
-fn search_row<N: Lane>(look: &Look, from: (usize, usize), layer: usize, row: usize, found: &mut Found) {
+fn search_row<N: Lane>(look: &PairSearch, from: (usize, usize), layer: usize, row: usize, found: &mut FoundPairs) {
     let (grid, starts) = (look.grid, &look.order.starts[..]);
     let level = &grid.levels[from.1];
     let here = &starts[grid.row(level, layer, row)..][..=level.counts[1]];
@@ -154,7 +154,13 @@ fn search_row<N: Lane>(look: &Look, from: (usize, usize), layer: usize, row: usi
 /// Looks for particles of other levels that stand behind particle `i` in memory: smaller ones in its slab, all in the
 /// next.
 #[inline(always)]
-fn search_other_levels<N: Lane>(look: &Look, (slab, own): (usize, usize), i: usize, body: &Body<N>, found: &mut Found) {
+fn search_other_levels<N: Lane>(
+    look: &PairSearch,
+    (slab, own): (usize, usize),
+    i: usize,
+    body: &Body<N>,
+    found: &mut FoundPairs,
+) {
     let (grid, starts) = (look.grid, &look.order.starts[..]);
     let of = [&look.columns.x, &look.columns.y, &look.columns.z];
     let at = [of[grid.axes[0]][i], of[grid.axes[1]][i], of[grid.axes[2]][i]];
@@ -237,7 +243,7 @@ impl<N: Lane> Body<N> {
     }
 }
 
-impl Found {
+impl FoundPairs {
     /// Forgets all.
     fn clear(&mut self, laws: usize) {
         self.count = 0;
@@ -264,7 +270,7 @@ impl Found {
 
     /// Notes whose pairs were found since there were `before`, and drops what has no law.
     #[inline(always)]
-    fn accept(&mut self, look: &Look, i: u32, before: usize) {
+    fn accept(&mut self, look: &PairSearch, i: u32, before: usize) {
         if look.laws.only.is_some() {
             self.starts.push(before as u32);
         } else {
@@ -273,7 +279,7 @@ impl Found {
     }
 
     /// The same where pairs have several laws, or none.
-    fn choose(&mut self, look: &Look, i: u32, before: usize) {
+    fn choose(&mut self, look: &PairSearch, i: u32, before: usize) {
         let Particles { material, owner, .. } = look.particles;
         self.first.resize(self.second.len(), 0);
         let mut kept = before;

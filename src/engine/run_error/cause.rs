@@ -11,7 +11,7 @@ pub enum Cause {
     /// The program has not searched for it yet.
     #[default]
     #[error("the cause is not known")]
-    Unknown,
+    NotSearched,
     /// The time step is too long.
     #[error("the time step, {step:.3e} s, is above the stable one, {stable:.3e} s")]
     Step {
@@ -72,7 +72,7 @@ pub enum Cause {
     Unbroken,
     /// The law itself, or numbers at the end of what is finite.
     #[error("no single cause is seen (time step {step:.3e} s{})", below(*.stable))]
-    Unseen {
+    Unidentified {
         /// The time step \[s\].
         step: f64,
         /// The stable one, as last found \[s\].

@@ -234,7 +234,7 @@ pub enum RunError {
     },
     /// A number of the state cannot be.
     #[error(
-        "expected {right} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \
+        "expected {expected} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \
          numbers of 64 bits"
     )]
     Invalid {
@@ -242,8 +242,8 @@ pub enum RunError {
         part: &'static str,
         /// Which entry of that part.
         place: usize,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
         /// Time \[s\].
         time: f64,
     },

@@ -60,7 +60,7 @@ impl Simulation {
         let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
         while progress.done < progress.count {
             let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
-            if let Err(error) = self.check_way(step) {
+            if let Err(error) = self.check_displacement(step) {
                 return (elapsed(progress.done), Err(error));
             }
             if self.is_stopped() {

@@ -85,7 +85,7 @@ impl Simulation {
     /// Puts rows of coefficients in the place of those that were, and lets everything follow that depends on them.
     fn give(&mut self, pairs: Vec<PairRows>) {
         let count = self.scene.materials.len();
-        self.way_back.forget();
+        self.rollback.forget();
         for PairRows { pair, rows } in &pairs {
             let [a, b] = pair.map(MaterialIndex::index);
             for (law, row) in rows {

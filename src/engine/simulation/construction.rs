@@ -1,6 +1,6 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::way_back::WayBack;
+use super::rollback::Rollback;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
@@ -53,7 +53,7 @@ impl Simulation {
             scene,
             state,
             workspace: Workspace::default(),
-            way_back: WayBack::default(),
+            rollback: Rollback::default(),
             stop: None,
             watch: None,
         };
@@ -71,7 +71,7 @@ impl Simulation {
     pub(super) fn build(&mut self) -> Result<(), RunError> {
         self.give_orientations();
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
-        self.check_room()?;
+        self.check_memory()?;
         let context = self.standing();
         self.rebuild(&context);
         let time = self.state.clock.time;
@@ -115,7 +115,7 @@ impl Simulation {
 
     /// Goes back to a state that this simulation was in, or one that has been checked: it is not looked at again.
     pub fn return_to(&mut self, state: &State) {
-        self.way_back.forget();
+        self.rollback.forget();
         let same = self.state.coefficients == state.coefficients && self.state.tuned == state.tuned;
         self.state.clone_from(state);
         if !same {

@@ -52,7 +52,7 @@ pub enum NoDerivative {
 }
 
 /// What an input moves.
-struct Met {
+struct CurrentContact {
     /// Median overlap of the contacts; the radius of the smallest sphere where there are none \[m\].
     overlap: f64,
     /// Radius of the smallest sphere \[m\].
@@ -74,7 +74,7 @@ impl Simulation {
         read: &mut dyn FnMut(&Self) -> Vec<f64>,
     ) -> Result<Vec<f64>, NoDerivative> {
         let here = read(self);
-        let Some(length) = self.way_back.last_length() else { return Err(NoDerivative::NoStep) };
+        let Some(length) = self.rollback.last_length() else { return Err(NoDerivative::NoStep) };
         let displacements: Vec<f64> = direction.iter().map(|(input, _)| self.displacement(*input, length)).collect();
         let shares = direction.iter().zip(&displacements).filter(|((_, share), _)| *share != 0.0);
         let change = shares.map(|((_, share), most)| most / share.abs()).fold(f64::INFINITY, f64::min);
@@ -104,7 +104,7 @@ impl Simulation {
     ) -> Result<Side, RunError> {
         // Neither a host that ends its step nor a benchmark is told of this one.
         let (stop, watch) = (self.stop.take(), self.watch.take());
-        let room = self.way_back.room.take().unwrap_or_else(|| self.state.clone());
+        let room = self.rollback.room.take().unwrap_or_else(|| self.state.clone());
         let present = std::mem::replace(&mut self.state, room);
         let length = self.return_to_last();
         // Inputs are rounded: what counts is how far they went, each measured by its displacement.
@@ -115,7 +115,7 @@ impl Simulation {
             whole += share / most * (share / most);
         }
         let result = self.advance(length).map(|()| (way / whole, read(self)));
-        self.way_back.room = Some(std::mem::replace(&mut self.state, present));
+        self.rollback.room = Some(std::mem::replace(&mut self.state, present));
         (self.stop, self.watch) = (stop, watch);
         result
     }
@@ -148,7 +148,7 @@ impl Simulation {
             Input::Node(boundary, _, axis) => (boundary, axis),
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
         };
-        let Met { overlap, radius, arm } = self.met_by(boundary);
+        let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
         let way = (part * overlap).max(LEAST * radius);
         // About an axis, a way is an angle times the arm, and a force a moment over it.
         let arm = if axis < 3 { 1.0 } else { arm };
@@ -179,7 +179,7 @@ impl Simulation {
     }
 
     /// What a boundary meets.
-    fn met_by(&self, boundary: BoundaryIndex) -> Met {
+    fn met_by(&self, boundary: BoundaryIndex) -> CurrentContact {
         let (state, place) = (&self.state, boundary.index());
         let particles = &state.particles;
         let carried = |slot: u32| particles.owner[slot as usize] as usize == place + 1;
@@ -219,6 +219,6 @@ impl Simulation {
             true => radius,
             false => *overlaps.select_nth_unstable_by(middle, f64::total_cmp).1,
         };
-        Met { overlap, radius, arm: if arm > 0.0 { arm } else { radius } }
+        CurrentContact { overlap, radius, arm: if arm > 0.0 { arm } else { radius } }
     }
 }

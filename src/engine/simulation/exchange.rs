@@ -1,8 +1,8 @@
 //! Particles that come and go: when in a time step, and what the books need of it.
 
 use super::{RunError, Simulation};
-use crate::engine::energy::losses::Held;
-use crate::engine::flow::{Flow, Leaving};
+use crate::engine::energy::losses::StoredEnergy;
+use crate::engine::flow::{Flow, RemovedParticles};
 
 impl Simulation {
     /// Lets particles come and go in the middle of a time step of this length \[s\], in which nothing moved further than `way`
@@ -33,15 +33,15 @@ impl Simulation {
     }
 
     /// Takes particles away, with what their contacts hold.
-    fn let_go(&mut self, flow: &Flow, leaving: &Leaving, step: f64) {
+    fn let_go(&mut self, flow: &Flow, leaving: &RemovedParticles, step: f64) {
         let booked = self.state.ledger.is_some() || self.state.losses.is_some();
         let held = |simulation: &Self| (simulation.elastic_energy(), simulation.held());
         let before = booked.then(|| held(self));
         let (passes, state) = (&self.passes, &mut self.state);
         let given: f64 = passes.iter().map(|pass| pass.let_go(state, &leaving.goes, step)).sum();
         flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
-        if let Some((elastic, Held(before))) = before {
-            let (left, Held(after)) = held(self);
+        if let Some((elastic, StoredEnergy(before))) = before {
+            let (left, StoredEnergy(after)) = held(self);
             flow.book_contacts(
                 &mut self.state,
                 elastic + given - left,

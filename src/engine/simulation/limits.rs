@@ -1,13 +1,13 @@
 //! The stable time step: when it is found again, and what follows from it.
 
-use super::sight::{Horizon, Sight};
+use super::sight::{Horizon, LookAhead};
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::boundaries::{RigidBody, course};
 use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
 use crate::engine::state::State;
-use crate::laws::bond::creation::{Creation, Due, Window};
+use crate::laws::bond::creation::{Creation, CreationTime, Window};
 use crate::scene::Step;
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
@@ -45,7 +45,7 @@ impl Simulation {
     }
 
     /// The stable time step, what it was foreseen for, and how many iterations have been started.
-    fn present_bound(&self) -> (Sight, stability::Found, u64) {
+    fn present_bound(&self) -> (LookAhead, stability::StableStep, u64) {
         let mut counter = self.state.foresight.counter;
         let (step, near) = (self.state.clock.step, Horizon::NEAR);
         let (sight, found) = self.foresee(step, near, (0.0, f64::INFINITY), &mut counter, &self.standing());
@@ -67,7 +67,7 @@ impl Simulation {
         (guess, enough): (f64, f64),
         counter: &mut u64,
         context: &Context,
-    ) -> (Sight, stability::Found) {
+    ) -> (LookAhead, stability::StableStep) {
         let (mut step, mut tries) = (step, 0);
         loop {
             let sight = self.sight(step, horizon, guess);
@@ -87,7 +87,7 @@ impl Simulation {
 
     /// Whether bodies that are in no list may meet before the next look, at time steps of this length \[s\] or of the one that
     /// follows from the network alone.
-    fn may_strangers_meet(&self, sight: &Sight, found: &stability::Found, step: f64) -> bool {
+    fn may_strangers_meet(&self, sight: &LookAhead, found: &stability::StableStep, step: f64) -> bool {
         let step = self.automatic_step(2.0 / found.network).unwrap_or(step).max(step);
         let way = sight.ahead.way.max(sight.way(step));
         !self.search.holds_all_within(&self.state, way)
@@ -195,9 +195,9 @@ impl Simulation {
         let [made, broken] = bonds_so_far(&self.state);
         let next = Window { after: clock.steps, until: clock.steps + 1, from: clock.time, to: clock.time + step };
         let unforeseen = |creation: &Creation| match creation.due() {
-            Due::Step(number) => number > foresight.until,
-            Due::Time(time) => time > foresight.to,
-            Due::AtStart | Due::Always => false,
+            CreationTime::Step(number) => number > foresight.until,
+            CreationTime::Time(time) => time > foresight.to,
+            CreationTime::AtStart | CreationTime::Always => false,
         };
         let coming = self.scene.bonds.iter().any(|bond| bond.create.comes_within(&next) && unforeseen(&bond.create));
         let uncovered = broken > foresight.bonds[1] && self.suppression.any();

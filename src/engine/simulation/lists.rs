@@ -38,7 +38,7 @@ impl Simulation {
 
     /// Makes new neighbour lists, as happens from time to time by motion: results change by rounding only.
     pub fn renew_lists(&mut self) {
-        self.way_back.forget();
+        self.rollback.forget();
         let mut workers = std::mem::take(&mut self.workers);
         workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, threads }));
         self.workers = workers;

@@ -1,7 +1,7 @@
 //! The physical energy book, opened and read.
 
 use super::Simulation;
-use crate::engine::energy::losses::{self, Held};
+use crate::engine::energy::losses::{self, StoredEnergy};
 use crate::engine::state::Loss;
 
 impl Simulation {
@@ -10,7 +10,7 @@ impl Simulation {
         if self.state.losses.is_none() {
             return;
         }
-        let (kinetic, elastic, Held(held)) = (self.kinetic_energy(), self.elastic_energy(), self.held());
+        let (kinetic, elastic, StoredEnergy(held)) = (self.kinetic_energy(), self.elastic_energy(), self.held());
         let potential = losses::potential(&self.state, &self.fields);
         if let Some(losses) = &mut self.state.losses {
             (losses.initial_kinetic, losses.initial_elastic) = (kinetic, elastic);
@@ -19,12 +19,12 @@ impl Simulation {
     }
 
     /// What causes of loss hold and may give back.
-    pub(super) fn held(&self) -> Held {
+    pub(super) fn held(&self) -> StoredEnergy {
         let mut sum = [0.0; 3];
         for pass in &self.passes {
             sum.iter_mut().zip(pass.held_energy(&self.state)).for_each(|(sum, part)| *sum += part);
         }
-        Held(sum)
+        StoredEnergy(sum)
     }
 
     /// What each of [`Loss::ALL`] took since the book was opened \[J\]; `None` where the scene keeps no book of losses.

@@ -11,18 +11,18 @@ mod inputs;
 mod limits;
 mod lists;
 mod losses;
+mod memory_check;
 mod observe;
 mod placement;
 mod plane;
 mod probe;
-mod room;
+mod rollback;
 mod run_checks;
 mod sight;
 mod start;
 mod state_check;
 mod taken_over;
 mod time_step;
-mod way_back;
 
 pub use crate::engine::contacts::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::engine::run_error::{Cause, RunError};
@@ -51,9 +51,9 @@ use crate::engine::integration::Fields;
 use crate::engine::neighbours;
 use crate::engine::state::State;
 use crate::scene::Scene;
+use rollback::Rollback;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use way_back::WayBack;
 
 /// A scene in motion: its state and the passes composed for it.
 pub struct Simulation {
@@ -84,7 +84,7 @@ pub struct Simulation {
     /// Working arrays of a time step.
     workspace: Workspace,
     /// What is needed to return to the beginning of a communication step that fails.
-    way_back: WayBack,
+    rollback: Rollback,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -101,11 +101,11 @@ struct Workspace {
     /// Sum of the forces of global damping then \[N\].
     damping_force: [f64; 3],
     /// Nodes of meshes before the time step.
-    nodes: nodes::Before,
+    nodes: nodes::NodeWorkspace,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
     /// Loads between one kind of force and the next, for the energy book.
-    between: energy::Between,
+    between: energy::PendingWork,
 }
 
 /// A function that gets the name of each part of a time step when it is done.
@@ -124,7 +124,7 @@ impl Simulation {
 
     /// Adds Cundall damping of this fraction, gravity included, to every particle that the scene does not damp.
     pub fn damp_rest(&mut self, fraction: f64) {
-        self.way_back.forget();
+        self.rollback.forget();
         self.fields.damp_rest(fraction, self.scene.particles.len());
     }
 

@@ -8,9 +8,9 @@ use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::State;
 use crate::engine::state::contacts::{TOUCHING, is_resting, is_told};
-use crate::engine::state::exchange::Net;
+use crate::engine::state::exchange::NetExchange;
 use crate::engine::state::ledger::Source;
-use crate::laws::bond::Carried;
+use crate::laws::bond::BondLoads;
 use crate::laws::surface;
 use crate::scene::Scene;
 
@@ -173,7 +173,7 @@ impl Simulation {
     fn mean_interaction(&self) -> Option<f64> {
         let contacts: Vec<f64> = self.contacts().iter().map(|contact| contact.normal_force.abs()).collect();
         let bonds = || -> Vec<f64> {
-            let force = |Carried { axis, normal, shear, .. }| Vector::from(axis) * normal + Vector::from(shear);
+            let force = |BondLoads { axis, normal, shear, .. }| Vector::from(axis) * normal + Vector::from(shear);
             self.bonds().iter().map(|bond| force(bond.carried).length()).collect()
         };
         let mean = |forces: Vec<f64>| forces.iter().sum::<f64>() / forces.len().max(1) as f64;
@@ -213,8 +213,8 @@ impl Simulation {
     }
 
     /// What came less what went.
-    pub fn exchanged(&self) -> Net {
-        self.state.exchange.as_ref().map_or_else(Net::default, |exchange| exchange.net)
+    pub fn exchanged(&self) -> NetExchange {
+        self.state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net)
     }
 
     /// Threads at work.

@@ -6,7 +6,7 @@ use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
 use crate::base::threads::Context;
 use crate::engine::boundaries::rigid_body;
-use crate::engine::contacts::{Ahead, Link};
+use crate::engine::contacts::{Link, SearchLimits};
 use crate::engine::integration;
 use crate::engine::state::State;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl Probe {
     pub(crate) fn neighbours(&self) -> Vec<Neighbours> {
         let mut all = Vec::new();
         for pass in &self.simulation.passes {
-            pass.stiffness(&self.rest, &Ahead::default(), &mut |link: Link| all.push((link.first, link.second)));
+            pass.stiffness(&self.rest, &SearchLimits::default(), &mut |link: Link| all.push((link.first, link.second)));
         }
         all
     }

@@ -21,13 +21,13 @@ const LARGEST_GAIN: f64 = 0.25;
 pub fn number(scene: &Scene, particles: &Particles, index: u32) -> u32 {
     match scene.particles.get(index as usize) {
         Some(particle) => particle.id.0,
-        None => particles.number_of_newcomer(index).unwrap_or(index),
+        None => particles.number_of_inserted(index).unwrap_or(index),
     }
 }
 
 impl Simulation {
     /// Refuses a step in which a particle would move further than makes sense.
-    pub(super) fn check_way(&self, step: f64) -> Result<(), RunError> {
+    pub(super) fn check_displacement(&self, step: f64) -> Result<(), RunError> {
         let smallest = self.search.smallest_radius();
         if self.state.clock.speed * step <= RUNAWAY * smallest {
             return Ok(());
@@ -40,7 +40,7 @@ impl Simulation {
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
             if way > RUNAWAY * radius {
                 let [speed, force] = [velocity, force].map(|row| Vector::from(row).length());
-                let cause = self.cause_of_way(step, speed, force, step * speed > 0.5 * way);
+                let cause = self.cause_of_displacement(step, speed, force, step * speed > 0.5 * way);
                 return Err(self.runaway(particles.id[slot], way / radius, cause));
             }
         }
@@ -50,7 +50,7 @@ impl Simulation {
             if way > RUNAWAY * body.smallest {
                 let now = body.coming_speed(moved, 0.0);
                 let force = Vector::from(moved.inertial.load).length();
-                let cause = self.cause_of_way(step, now, force, step * now > 0.5 * way);
+                let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
                 let Some(&member) = body.members.first() else {
                     let (boundary, time) = (self.scene.boundaries[index].name.clone(), self.time());
                     return Err(RunError::SurfaceRunaway { boundary, way, radii: way / body.smallest, time, cause });
@@ -67,7 +67,7 @@ impl Simulation {
     }
 
     /// Why a body goes far in one step \[s\]: the step itself, its speed \[m/s\] (where it `has` that already) or the force on it \[N\].
-    fn cause_of_way(&self, step: f64, speed: f64, force: f64, has: bool) -> Cause {
+    fn cause_of_displacement(&self, step: f64, speed: f64, force: f64, has: bool) -> Cause {
         let stable = self.state.clock.stable;
         self.step_as_cause().unwrap_or(if has { Cause::Speed { speed, step, stable } } else { Cause::Force { force } })
     }
@@ -80,9 +80,9 @@ impl Simulation {
     }
 
     /// The step as the cause, or none that is seen.
-    fn step_or_unseen(&self) -> Cause {
+    fn step_or_unidentified(&self) -> Cause {
         let Clock { last_step: step, stable, .. } = self.state.clock;
-        self.step_as_cause().or_else(|| Some(self.coincident()?.1)).unwrap_or(Cause::Unseen { step, stable })
+        self.step_as_cause().or_else(|| Some(self.coincident()?.1)).unwrap_or(Cause::Unidentified { step, stable })
     }
 
     /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more: the number
@@ -117,7 +117,7 @@ impl Simulation {
         match found.filter(|[gained, scale]| *scale > 0.0 && *gained > LARGEST_GAIN * scale) {
             None => Ok(()),
             Some([gained, turnover]) => {
-                Err(RunError::EnergyGain { gained, turnover, time: self.time(), cause: self.step_or_unseen() })
+                Err(RunError::EnergyGain { gained, turnover, time: self.time(), cause: self.step_or_unidentified() })
             }
         }
     }
@@ -144,11 +144,11 @@ impl Simulation {
                 ("angular velocity", &particles.angular_velocity[slot]),
             ];
             if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
-                let (time, cause) = (self.time(), self.step_or_unseen());
+                let (time, cause) = (self.time(), self.step_or_unidentified());
                 return RunError::NotFinite { id: particles.id[slot], quantity, time, cause };
             }
         }
-        RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unseen() }
+        RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unidentified() }
     }
 
     /// Finds a particle outside the domain.

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::engine::boundaries::{RigidBody, course};
-use crate::engine::contacts::{Ahead, FASTER};
+use crate::engine::contacts::{FASTER, SearchLimits};
 use crate::engine::stability;
 use crate::laws::bond::creation::Window;
 
@@ -38,9 +38,9 @@ impl Horizon {
 }
 
 /// What is foreseen.
-pub(super) struct Sight {
+pub(super) struct LookAhead {
     /// How far.
-    pub(super) ahead: Ahead,
+    pub(super) ahead: SearchLimits,
     /// Half of the speed at which bodies may meet \[m/s\].
     pub(super) speed: f64,
     /// The largest speed of anything \[m/s\].
@@ -50,7 +50,7 @@ pub(super) struct Sight {
     pub(super) is_dense: bool,
 }
 
-impl Sight {
+impl LookAhead {
     /// The way of the fastest and what comes towards it until the next look, at time steps of this length \[s\] \[m\].
     pub(super) fn way(&self, step: f64) -> f64 {
         way(self.is_dense, self.fastest, step)
@@ -66,7 +66,7 @@ fn way(is_dense: bool, fastest: f64, step: f64) -> f64 {
 impl Simulation {
     /// What is to be foreseen at time steps of about this length \[s\], so far, where the network had this root at the last look \[1/s\]
     /// (0 if there was none).
-    pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> Sight {
+    pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> LookAhead {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);
@@ -90,8 +90,8 @@ impl Simulation {
             to: clock.time + STEPS_BETWEEN_LOOKS * step,
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
-        let ahead = Ahead { margin, way, acceleration, faster, boundaries, window };
-        Sight { ahead, speed, fastest, is_dense }
+        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, window };
+        LookAhead { ahead, speed, fastest, is_dense }
     }
 
     /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.

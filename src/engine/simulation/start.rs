@@ -32,7 +32,7 @@ impl Simulation {
     /// evaluated and books begin there. `begun` is the state that the simulation began in, if it was not the scene's
     /// own. For use before the first interval only; if the scene cannot start so, nothing has changed.
     pub fn place(&mut self, begun: Option<&State>) -> Result<(), RunError> {
-        self.way_back.forget();
+        self.rollback.forget();
         let (coefficients, tuned) = (self.state.coefficients.clone(), self.state.tuned.clone());
         let mut from = State { coefficients, tuned, ..begun.cloned().unwrap_or_else(|| assemble::state(&self.scene)) };
         take_rates(&mut from, &self.state);
@@ -90,7 +90,7 @@ impl Simulation {
 
     /// Lets every count and book begin anew at the present state.
     pub fn open_books(&mut self) {
-        self.way_back.forget();
+        self.rollback.forget();
         self.state.begin_counting();
         self.open_energy_book();
     }

@@ -8,9 +8,9 @@ use crate::scene::Step;
 impl Simulation {
     /// Refuses a present state that could not be taken up again.
     pub(crate) fn check_present(&self) -> Result<(), RunError> {
-        self.check(&self.state).map_err(|StateFault { part, place, right }| match self.coincident() {
+        self.check(&self.state).map_err(|StateFault { part, place, expected }| match self.coincident() {
             Some((id, cause)) => RunError::NotFinite { id, quantity: "force", time: self.time(), cause },
-            None => RunError::Invalid { part, place, right, time: self.time() },
+            None => RunError::Invalid { part, place, expected, time: self.time() },
         })
     }
 

@@ -4,7 +4,7 @@
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
 //! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
 //! [`cluster`] takes the bodies together that limit it; a given step far below that bound needs no more than the blocks. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
-//! ([`Ahead`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
+//! ([`SearchLimits`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
 mod cluster;
@@ -18,7 +18,7 @@ mod triangle;
 
 use crate::base::threads::Context;
 use crate::engine::boundaries::RigidBody;
-use crate::engine::contacts::{Ahead, Kind, Link, Pass};
+use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{GONE, Particles, State};
 use crate::laws::contact::Response;
@@ -54,7 +54,7 @@ pub(crate) struct System<'a> {
 
 /// What was found.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct StableStep {
     /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
     pub network: f64,
     /// The body that has it; none where several have it together.
@@ -63,7 +63,7 @@ pub(crate) struct Found {
     pub impacts: f64,
 }
 
-impl Found {
+impl StableStep {
     /// The stable time step \[s\].
     pub(crate) fn safe(&self) -> f64 {
         2.0 / self.network.max(self.impacts)
@@ -76,18 +76,18 @@ impl System<'_> {
     /// to be stable is `enough` \[s\], a quick bound that is not shorter is the answer.
     pub(crate) fn find(
         &self,
-        ahead: &Ahead,
+        ahead: &SearchLimits,
         speed: f64,
         guess: f64,
         enough: f64,
         counter: &mut u64,
         context: &Context,
-    ) -> Found {
+    ) -> StableStep {
         let impacts = self.impact(speed, ahead.acceleration).unwrap_or(0.0);
         if enough.is_finite() {
             let (network, body) = self.quick_root(ahead);
             if network * enough <= 2.0 {
-                return Found { network, body, impacts };
+                return StableStep { network, body, impacts };
             }
         }
         let network = self.network(ahead);
@@ -98,32 +98,32 @@ impl System<'_> {
         } else {
             cluster::largest_root(&network, guess, context)
         };
-        Found { network: root, body, impacts }
+        StableStep { network: root, body, impacts }
     }
 
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
-    fn quick_root(&self, ahead: &Ahead) -> (f64, Option<usize>) {
+    fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         blocks::quick_root(&bodies, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
     }
 
     /// Whether there are bonds, or are about to be.
-    fn has_bonds(&self, ahead: &Ahead) -> bool {
+    fn has_bonds(&self, ahead: &SearchLimits) -> bool {
         let coming = |window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window));
         self.state.bonds.iter().any(|list| !list.first.is_empty()) || ahead.window.as_ref().is_some_and(coming)
     }
 
     /// The network, as it may get.
-    fn network(&self, ahead: &Ahead) -> Network<'_> {
+    fn network(&self, ahead: &SearchLimits) -> Network<'_> {
         Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
     }
 
     /// What a step that was found is limited by.
     pub(crate) fn limiter(
         &self,
-        ahead: &Ahead,
+        ahead: &SearchLimits,
         speed: f64,
-        found: &Found,
+        found: &StableStep,
         counter: u64,
         context: &Context,
     ) -> Option<Limiter> {
@@ -187,13 +187,19 @@ impl System<'_> {
 
     /// That root, and what meets: the two smallest particles at twice the speed \[m/s\], with what falling over a radius adds at this
     /// acceleration \[m/s²\]; likewise each group that forces move.
-    fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, Meeting)> {
+    fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, PossibleContact)> {
         let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
             let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let turn = answer(&body.mobility(moved), body.farthest + body.largest);
-            Some(Meeting { radius: body.largest, mass: 1.0 / turn, turn, particle: body.members[0], across: false })
+            Some(PossibleContact {
+                radius: body.largest,
+                mass: 1.0 / turn,
+                turn,
+                particle: body.members[0],
+                across: false,
+            })
         });
-        let mut limit: Option<(f64, Meeting)> = None;
+        let mut limit: Option<(f64, PossibleContact)> = None;
         let coming = self.scene.insertions.iter().map(smallest_to_come);
         for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(coming).chain(groups) {
             let closing = 2.0 * speed + (2.0 * acceleration * meeting.radius).sqrt();
@@ -247,7 +253,7 @@ fn answer(mobility: &Matrix6<f64>, arm: f64) -> f64 {
 
 /// What may meet something else next.
 #[derive(Clone, Copy, Debug)]
-struct Meeting {
+struct PossibleContact {
     /// Radius \[m\].
     radius: f64,
     /// Mass that it meets with \[kg\].
@@ -260,7 +266,7 @@ struct Meeting {
     across: bool,
 }
 
-impl Meeting {
+impl PossibleContact {
     /// The root while it meets its like with this response: both move, their one spring acts on the reduced mass.
     fn root(&mut self, response: &Response) -> f64 {
         let root = |k: f64, c: f64| c + (c * c + 2.0 * k).sqrt();
@@ -272,18 +278,18 @@ impl Meeting {
 }
 
 /// The smallest particle that an insertion lets come.
-fn smallest_to_come(insertion: &Insertion) -> Meeting {
+fn smallest_to_come(insertion: &Insertion) -> PossibleContact {
     let [radius, _] = insertion.sizes.bounds();
     let mass = insertion.mass(radius);
     let turn = 1.0 / mass + radius * radius / ParticleShape::Sphere.inertia(mass, radius);
-    Meeting { radius, mass, turn, particle: GONE, across: false }
+    PossibleContact { radius, mass, turn, particle: GONE, across: false }
 }
 
 /// The smallest particle that forces move.
-fn smallest_particle(particles: &Particles) -> Option<Meeting> {
+fn smallest_particle(particles: &Particles) -> Option<PossibleContact> {
     let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
     let slot = free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
     let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
     let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
-    Some(Meeting { radius, mass, turn, particle: particles.id[slot], across: false })
+    Some(PossibleContact { radius, mass, turn, particle: particles.id[slot], across: false })
 }

@@ -2,7 +2,7 @@
 
 use crate::base::number::Vector;
 use crate::engine::boundaries::RigidBody;
-use crate::engine::contacts::{Ahead, Link, Pass};
+use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::State;
 use nalgebra::Matrix6;
@@ -133,7 +133,7 @@ impl<'a> Network<'a> {
         bodies: &[Option<RigidBody>],
         fields: &Fields,
         passes: &[Box<dyn Pass>],
-        ahead: &Ahead,
+        ahead: &SearchLimits,
     ) -> Self {
         let mut network = Self::of_bodies(state, bodies, fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.

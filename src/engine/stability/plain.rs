@@ -6,7 +6,7 @@
 use super::network::{Element, Network, UNMOVED};
 
 /// A contact.
-struct Tie {
+struct ContactLink {
     /// Its bodies: places among those that interact; the second may be [`UNMOVED`].
     bodies: [u32; 2],
     /// Unit normal.
@@ -22,7 +22,7 @@ struct Tie {
 /// A network of contacts between particles.
 pub(super) struct Plain {
     /// The contacts.
-    ties: Vec<Tie>,
+    ties: Vec<ContactLink>,
     /// What scales translations \[1/√kg\] and rotations \[1/√(kg m²)\] of each body.
     roots: Vec<[f64; 2]>,
 }
@@ -36,7 +36,7 @@ impl Plain {
         let roots = movers.iter().map(|&mover| network.roots.get(mover as usize).copied()).collect::<Option<_>>()?;
         let tie = |(place, element): (usize, &Element)| {
             let parts = |[along, across, _, _]: [f32; 4]| [f64::from(along), f64::from(across)];
-            Tie {
+            ContactLink {
                 bodies: ends_of[place],
                 normal: element.normal.map(f64::from),
                 arms: element.arms.map(f64::from),

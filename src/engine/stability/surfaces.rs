@@ -3,7 +3,7 @@
 use super::System;
 use crate::base::number::Vector;
 use crate::engine::boundaries::implicit;
-use crate::engine::contacts::Ahead;
+use crate::engine::contacts::SearchLimits;
 use crate::engine::state::contacts::TOUCHING;
 use crate::engine::state::{State, boundaries::Inertial};
 use nalgebra::Matrix6;
@@ -14,7 +14,7 @@ type Blocks = [Matrix6<f64>; 2];
 impl System<'_> {
     /// Stiffness and damping of all springs and dashpots at each surface that forces move, as they may get; none of other
     /// boundaries.
-    pub(crate) fn blocks(&self, ahead: &Ahead) -> Vec<Option<Blocks>> {
+    pub(crate) fn blocks(&self, ahead: &SearchLimits) -> Vec<Option<Blocks>> {
         let implicit = |body: &&crate::engine::boundaries::RigidBody| body.is_implicit();
         let mut blocks: Vec<Option<Blocks>> =
             self.bodies.iter().map(|body| Some(body.as_ref().filter(implicit)?.supports())).collect();
@@ -50,7 +50,7 @@ impl System<'_> {
         let particles = &self.state.particles;
         let owner = |slot: u32| (particles.owner[slot as usize] as usize).checked_sub(1);
         for pass in self.passes {
-            pass.stiffness(self.state, &Ahead::default(), &mut |link| {
+            pass.stiffness(self.state, &SearchLimits::default(), &mut |link| {
                 let second = link.boundary.map(|boundary| boundary as usize).or(link.second.and_then(owner));
                 let sides = [(owner(link.first), link.second), (second, Some(link.first))];
                 if sides[0].0 == sides[1].0 {

@@ -13,30 +13,30 @@ const MOST: u64 = 1 << 48;
 
 /// Why a state cannot be one of its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("invalid state, {part}[{place}]: expected {right}")]
+#[error("invalid state, {part}[{place}]: expected {expected}")]
 pub struct StateFault {
     /// Which part of it.
     pub part: &'static str,
     /// Which entry of that part.
     pub place: usize,
-    /// What would be right.
-    pub right: &'static str,
+    /// What was expected.
+    pub expected: &'static str,
 }
 
 /// Whether something holds of an entry of a part.
-pub(crate) fn demand(holds: bool, part: &'static str, place: usize, right: &'static str) -> Result<(), StateFault> {
-    if holds { Ok(()) } else { Err(StateFault { part, place, right }) }
+pub(crate) fn demand(holds: bool, part: &'static str, place: usize, expected: &'static str) -> Result<(), StateFault> {
+    if holds { Ok(()) } else { Err(StateFault { part, place, expected }) }
 }
 
 /// Whether something holds of every entry of a part.
 pub(crate) fn demand_all(
     mut holds: impl Iterator<Item = bool>,
     part: &'static str,
-    right: &'static str,
+    expected: &'static str,
 ) -> Result<(), StateFault> {
     match holds.position(|holds| !holds) {
         None => Ok(()),
-        Some(place) => Err(StateFault { part, place, right }),
+        Some(place) => Err(StateFault { part, place, expected }),
     }
 }
 
@@ -63,9 +63,9 @@ fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
 
 /// Whether ends go from 0 to the number of things without going back.
 fn ends(ends: &[u32], count: usize, part: &'static str) -> Result<(), StateFault> {
-    let right = "ascending from 0 to the number of entries";
-    demand(ends.first() == Some(&0) && ends.last().is_some_and(|&end| end as usize == count), part, 0, right)?;
-    demand_all(ends.windows(2).map(|pair| pair[0] <= pair[1]), part, right)
+    let expected = "ascending from 0 to the number of entries";
+    demand(ends.first() == Some(&0) && ends.last().is_some_and(|&end| end as usize == count), part, 0, expected)?;
+    demand_all(ends.windows(2).map(|pair| pair[0] <= pair[1]), part, expected)
 }
 
 /// Whether pairs of slots stand in order, the first of each in its slab and the second no further than the next.
@@ -122,12 +122,12 @@ impl State {
         let lengths = self.coefficients.iter().map(Vec::len).eq(other.coefficients.iter().map(Vec::len));
         demand(lengths, "coefficients", 0, "a row for each two materials of each law")?;
         for (list, same) in self.walls.iter().zip(&other.walls) {
-            let right = "the plane and the law of the scene";
-            demand((list.boundary, list.law) == (same.boundary, same.law), "walls", 0, right)?;
+            let expected = "the plane and the law of the scene";
+            demand((list.boundary, list.law) == (same.boundary, same.law), "walls", 0, expected)?;
         }
-        let right = "a book where the scene asks for it";
-        demand(self.losses.is_some() == other.losses.is_some(), "losses", 0, right)?;
-        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, right)
+        let expected = "a book where the scene asks for it";
+        demand(self.losses.is_some() == other.losses.is_some(), "losses", 0, expected)?;
+        demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, expected)
     }
 
     /// Whether this can be a state of any scene: lengths and order of its lists, slots of particles, finite numbers.
@@ -199,15 +199,15 @@ impl Particles {
         let count = self.len();
         let lengths = [self.position.len(), self.velocity.len(), self.angular_velocity.len(), self.force.len()];
         let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len()];
-        let right = "one for each particle";
-        demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", right)?;
+        let expected = "one for each particle";
+        demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", expected)?;
         demand(
             self.orientation.is_empty() || self.orientation.len() == count,
             "orientation",
             self.orientation.len(),
-            right,
+            expected,
         )?;
-        demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), right)?;
+        demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), expected)?;
         self.check_places()?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
         demand_all(numbers, "id", "each particle in one slot")?;
@@ -243,9 +243,9 @@ impl Particles {
 
     /// Whether they are these particles somewhere else. Both have been checked.
     fn check_same(&self, other: &Self) -> Result<(), StateFault> {
-        let right = "one for each of the scene's particles";
-        demand(self.len() == other.len(), "particles", self.len(), right)?;
-        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), right)?;
+        let expected = "one for each of the scene's particles";
+        demand(self.len() == other.len(), "particles", self.len(), expected)?;
+        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), expected)?;
         let same = |slot: usize| {
             let there = other.slot[self.id[slot] as usize] as usize;
             let constants = |of: &Self, at: usize| {
@@ -262,10 +262,10 @@ impl Particles {
 impl Exchange {
     /// Whether it has as many insertions, outlets and flow meters as another.
     fn check_same(&self, other: &Self) -> Result<(), StateFault> {
-        let right = "as many as the scene has";
-        demand(self.feeds.len() == other.feeds.len(), "feeds", self.feeds.len(), right)?;
-        demand(self.outlets.len() == other.outlets.len(), "outlets", self.outlets.len(), right)?;
-        demand(self.meters.len() == other.meters.len(), "meters", self.meters.len(), right)
+        let expected = "as many as the scene has";
+        demand(self.feeds.len() == other.feeds.len(), "feeds", self.feeds.len(), expected)?;
+        demand(self.outlets.len() == other.outlets.len(), "outlets", self.outlets.len(), expected)?;
+        demand(self.meters.len() == other.meters.len(), "meters", self.meters.len(), expected)
     }
 }
 

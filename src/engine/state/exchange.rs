@@ -11,29 +11,29 @@ pub struct Exchange {
     /// The number of the next particle that comes.
     pub next: u32,
     /// What comes, in the order of the scene's insertions.
-    pub feeds: Vec<Feed>,
+    pub feeds: Vec<InsertionProgress>,
     /// What went, in the order of the scene's outlets.
-    pub outlets: Vec<Tally>,
+    pub outlets: Vec<ParticleCount>,
     /// What left the domain.
-    pub outside: Tally,
+    pub outside: ParticleCount,
     /// What passed, in the order of the scene's flow meters.
-    pub meters: Vec<Passed>,
+    pub meters: Vec<MeterCount>,
     /// What came less what went.
-    pub net: Net,
+    pub net: NetExchange,
 }
 
 clone_in_place!(Exchange { travel, next, feeds, outlets, outside, meters, net });
 
 /// A number of particles and their mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tally {
+pub struct ParticleCount {
     /// How many.
     pub count: u64,
     /// Their mass \[kg\].
     pub mass: f64,
 }
 
-impl Tally {
+impl ParticleCount {
     /// Counts a particle of this mass \[kg\].
     pub(crate) fn add(&mut self, mass: f64) {
         self.count += 1;
@@ -43,9 +43,9 @@ impl Tally {
 
 /// What comes by one insertion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Feed {
+pub struct InsertionProgress {
     /// What came.
-    pub came: Tally,
+    pub came: ParticleCount,
     /// How much is to come in each second, as last given, in the unit of the scene's rate; 0 where a mass is to come.
     pub rate: f64,
     /// Its change in each second, in the next communication step.
@@ -70,7 +70,7 @@ pub struct Feed {
 
 /// What passed a flow meter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Passed {
+pub struct MeterCount {
     /// Particles that passed towards the front, and back.
     pub counts: [u64; 2],
     /// Mass that passed towards the front less what went back \[kg\].
@@ -81,7 +81,7 @@ pub struct Passed {
     pub mass_flow: f64,
 }
 
-impl Passed {
+impl MeterCount {
     /// How many passed towards the front, less those that went back.
     pub fn net_count(&self) -> i32 {
         let [forth, back] = self.counts.map(|count| i64::try_from(count).unwrap_or(i64::MAX));
@@ -91,7 +91,7 @@ impl Passed {
 
 /// What came less what went: what balances of mass, momentum and energy have to know.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Net {
+pub struct NetExchange {
     /// Mass \[kg\].
     pub mass: f64,
     /// Mass times the time from which on it is there \[kg s\].
@@ -112,7 +112,7 @@ pub struct Net {
     pub turnover: f64,
 }
 
-impl Net {
+impl NetExchange {
     /// Energy that came less what went \[J\].
     pub fn energy(&self) -> f64 {
         self.kinetic + self.elastic + self.potential
@@ -129,12 +129,12 @@ impl Net {
 impl Exchange {
     /// Counts from here. What is due, the generators and the numbers that were given stay.
     pub(super) fn begin_counting(&mut self) {
-        self.outlets.iter_mut().chain([&mut self.outside]).for_each(|tally| *tally = Tally::default());
+        self.outlets.iter_mut().chain([&mut self.outside]).for_each(|tally| *tally = ParticleCount::default());
         for feed in &mut self.feeds {
-            (feed.came, feed.dropped) = (Tally::default(), 0.0);
+            (feed.came, feed.dropped) = (ParticleCount::default(), 0.0);
         }
-        self.meters.iter_mut().for_each(|passed| *passed = Passed::default());
-        self.net = Net::default();
+        self.meters.iter_mut().for_each(|passed| *passed = MeterCount::default());
+        self.net = NetExchange::default();
     }
 
     /// Whether all numbers are finite, and those that are of 0 or above are.

@@ -32,7 +32,7 @@ pub use history::History;
 pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
 pub use nodes::Nodes;
-pub use number::Newcomer;
+pub use number::InsertedParticle;
 pub use particles::{GONE, Particles};
 
 pub use crate::base::number::Row;

@@ -5,7 +5,7 @@ use crate::base::geometry::Quaternion;
 
 /// A particle that comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Newcomer {
+pub struct InsertedParticle {
     /// Centre \[m\] and radius \[m\].
     pub position: Row,
     /// Velocity \[m/s\] and mass \[kg\].
@@ -25,7 +25,7 @@ impl Particles {
     }
 
     /// The number that a particle which came later carries in outputs, by its index; none of the scene's own.
-    pub fn number_of_newcomer(&self, index: u32) -> Option<u32> {
+    pub fn number_of_inserted(&self, index: u32) -> Option<u32> {
         self.numbers.get((index as usize).checked_sub(self.own())?).copied()
     }
 
@@ -40,7 +40,7 @@ impl Particles {
     }
 
     /// Puts a particle behind the others. `turning`: whether particles have an orientation.
-    pub(crate) fn add(&mut self, newcomer: &Newcomer, turning: bool) {
+    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) {
         let slot = self.len() as u32;
         let index = self.free.pop().unwrap_or_else(|| {
             self.slot.push(GONE);

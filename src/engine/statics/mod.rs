@@ -35,12 +35,12 @@ const OF_RADIUS: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StaticsError {
     /// The scene has something that has no static stiffness.
-    #[error("expected {right}, found {what}, which has no static stiffness")]
+    #[error("expected {expected}, found {what}, which has no static stiffness")]
     Refused {
         /// What it is.
         what: String,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
     },
     /// Forces cannot be evaluated.
     #[error(transparent)]
@@ -85,8 +85,8 @@ pub struct Stiffness {
 
 /// The stiffness of some boundaries at the present state of a simulation, which should be at rest.
 pub fn stiffness(simulation: &Simulation, boundaries: &[BoundaryIndex]) -> Result<Stiffness, StaticsError> {
-    if let Some((what, right)) = simulation.scene().without_statics() {
-        return Err(StaticsError::Refused { what, right });
+    if let Some((what, expected)) = simulation.scene().without_statics() {
+        return Err(StaticsError::Refused { what, expected });
     }
     let mut probe = Probe::of(simulation);
     let network = Network::of(&probe);

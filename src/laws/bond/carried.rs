@@ -1,13 +1,13 @@
 //! What a bond carries, for outputs.
 
 use super::breakage::Stress;
-use super::formulation::Asked;
+use super::formulation::FormulationNeeds;
 use super::law::TakeFunctions;
 use super::{Law, Pair, Rows};
 
 /// What a bond carries, for outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Carried {
+pub struct BondLoads {
     /// Distance of the centres at which it bears no normal force \[m\].
     pub rest: f64,
     /// Unit vector from j to i.
@@ -39,13 +39,13 @@ pub struct Carried {
 
 impl Law {
     /// What a bond carries at this moment, for outputs: nothing advances, nothing breaks.
-    pub fn carried(&self, pair: &Pair, rows: &Rows) -> Carried {
+    pub fn carried(&self, pair: &Pair, rows: &Rows) -> BondLoads {
         let law = self.elasticity.at_step::<f64>(0.0);
-        let functions = self.formulation.visit(Asked { rates: true, ..self.asked() }, TakeFunctions);
+        let functions = self.formulation.visit(FormulationNeeds { rates: true, ..self.asked() }, TakeFunctions);
         let (motion, elastic) = (functions.respond)(&law, pair, rows);
         let loaded = elastic.loaded(&motion);
         let stress: Stress = loaded.stress();
-        Carried {
+        BondLoads {
             rest: elastic.compression + motion.distance,
             axis: motion.axis.to_array(),
             arm: (pair.connection * -pair.share_i).to_array(),

@@ -39,7 +39,7 @@ pub enum ContactPolicy {
 
 /// Pairs that a scene lists, by the ids of their particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Listed<'a> {
+pub enum ListedPairs<'a> {
     /// In the scene itself.
     Here(&'a [[u32; 2]]),
     /// In a file of this name.
@@ -48,7 +48,7 @@ pub enum Listed<'a> {
 
 /// When near pairs are to be bonded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Due {
+pub enum CreationTime {
     /// Before the first step, or never.
     AtStart,
     /// In every step.
@@ -102,22 +102,22 @@ impl Creation {
     }
 
     /// When near pairs are to be bonded.
-    pub fn due(&self) -> Due {
+    pub fn due(&self) -> CreationTime {
         match self {
-            Self::Always => Due::Always,
-            Self::Step(number) => Due::Step(*number),
-            Self::Time(time) => Due::Time(time.get()),
-            Self::Start | Self::Pairs(_) | Self::File(_) => Due::AtStart,
+            Self::Always => CreationTime::Always,
+            Self::Step(number) => CreationTime::Step(*number),
+            Self::Time(time) => CreationTime::Time(time.get()),
+            Self::Start | Self::Pairs(_) | Self::File(_) => CreationTime::AtStart,
         }
     }
 
     /// Whether near pairs may be bonded in a time step of this window.
     pub fn comes_within(&self, window: &Window) -> bool {
         match self.due() {
-            Due::AtStart => false,
-            Due::Always => true,
-            Due::Step(number) => window.after < number && number <= window.until,
-            Due::Time(time) => window.from < time && time <= window.to,
+            CreationTime::AtStart => false,
+            CreationTime::Always => true,
+            CreationTime::Step(number) => window.after < number && number <= window.until,
+            CreationTime::Time(time) => window.from < time && time <= window.to,
         }
     }
 
@@ -132,10 +132,10 @@ impl Creation {
     }
 
     /// The pairs that are bonded before the first step, if they are listed.
-    pub fn listed(&self) -> Option<Listed<'_>> {
+    pub fn listed(&self) -> Option<ListedPairs<'_>> {
         match self {
-            Self::Pairs(pairs) => Some(Listed::Here(pairs)),
-            Self::File(file) => Some(Listed::InFile(file)),
+            Self::Pairs(pairs) => Some(ListedPairs::Here(pairs)),
+            Self::File(file) => Some(ListedPairs::InFile(file)),
             Self::Start | Self::Always | Self::Step(_) | Self::Time(_) => None,
         }
     }

@@ -6,7 +6,7 @@
 pub struct KeyError {
     /// The key, as `breakage.tension_ratio`.
     pub key: &'static str,
-    /// What was found and what would be right.
+    /// What was found and what was expected.
     pub message: String,
 }
 

@@ -3,7 +3,7 @@
 use super::breakage::{Breakage, Loaded, Rule, TakeRule};
 use super::damping::{Damping, DampingChoice, DampingLoad, LastDamping, TakeDamping};
 use super::elasticity::Parts;
-use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
+use super::formulation::{Formulation, FormulationChoice, FormulationNeeds, TakeFormulation};
 use super::keys::{KeyError, Keys};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, RateRows, Rates, Rows};
 use crate::base::number::Vector;
@@ -54,7 +54,7 @@ pub struct Reaction {
 }
 
 /// What a formulation makes of the law at a step, the bodies and the rows of a bond.
-type Respond = fn(&Coefficients, &Pair, &Rows) -> (Motion, Elastic<f64>);
+type ResponseFunction = fn(&Coefficients, &Pair, &Rows) -> (Motion, Elastic<f64>);
 
 /// A formulation for one bond at a time, its type forgotten.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,7 @@ pub struct OneBond {
     /// [`Formulation::create`]
     pub create: fn(&Coefficients, &Pair) -> Rows,
     /// [`Formulation::respond`]
-    pub respond: Respond,
+    pub respond: ResponseFunction,
 }
 
 /// Takes the functions of a formulation.
@@ -112,13 +112,14 @@ impl TakeFormulation for TakeRemembered {
 
 /// How many rows of state a bond of this formulation has.
 pub fn rows(formulation: FormulationChoice) -> usize {
-    formulation.visit(Asked::ALL, TakeFunctions).rows
+    formulation.visit(FormulationNeeds::ALL, TakeFunctions).rows
 }
 
 /// What each formulation of the program remembers of a bond, as text.
 pub fn remembered() -> String {
-    let line =
-        |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(Asked::ALL, TakeRemembered));
+    let line = |choice: &FormulationChoice| {
+        format!("{}: {}\n", choice.name(), choice.visit(FormulationNeeds::ALL, TakeRemembered))
+    };
     FormulationChoice::ALL.iter().map(line).collect()
 }
 
@@ -186,8 +187,8 @@ impl Law {
     }
 
     /// What it asks of its formulation.
-    pub fn asked(&self) -> Asked {
-        Asked { relaxation: self.elasticity.relaxes(), rates: self.damping.is_some() }
+    pub fn asked(&self) -> FormulationNeeds {
+        FormulationNeeds { relaxation: self.elasticity.relaxes(), rates: self.damping.is_some() }
     }
 
     /// Whether a living bond loses energy.

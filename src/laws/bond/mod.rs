@@ -37,7 +37,7 @@ mod pair;
 mod part_keys;
 
 pub use crate::base::geometry::Quaternion;
-pub use carried::Carried;
+pub use carried::BondLoads;
 pub use elasticity::{Coefficients, Elasticity};
 pub use formulation::Formulation;
 pub use law::{Law, OneBond, Reaction, remembered, rows};
@@ -56,7 +56,7 @@ pub type Rows<N = f64> = [[N; 4]; MOST_ROWS];
 pub const MOST_HALFWAY: usize = 17;
 
 /// Values that a formulation hands from the first half of its evaluation to the second.
-pub type Halfway<N = f64> = [N; MOST_HALFWAY];
+pub type Intermediate<N = f64> = [N; MOST_HALFWAY];
 
 /// The elastic response of a bond to the motion of its bodies.
 #[derive(Clone, Copy, Debug)]

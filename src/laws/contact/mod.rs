@@ -313,7 +313,7 @@ pub struct Objection {
     pub table: &'static str,
     /// The key to change.
     pub key: &'static str,
-    /// What was found and what would be right.
+    /// What was found and what was expected.
     pub reason: &'static str,
 }
 

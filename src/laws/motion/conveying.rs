@@ -1,6 +1,6 @@
 //! `conveying`: the axis stays, and the surface runs along it in itself, as a conveyor belt does.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 
 /// An axis that stays while the surface runs along it.
 pub(super) struct Conveying {
@@ -13,7 +13,7 @@ impl Motion for Conveying {
         Some(format!("conveying at {} {unit}", self.velocity))
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Nothing
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Nothing
     }
 }

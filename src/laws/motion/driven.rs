@@ -1,6 +1,6 @@
 //! `driven`: the axis follows an input, by displacement or by velocity.
 
-use super::{AxisPath, InputCourse, Motion, Progress, Seen};
+use super::{AxisPath, InputCourse, Motion, Progress, ShownVariables};
 
 /// An axis that follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
 pub(super) struct Driven;
@@ -10,8 +10,8 @@ impl Motion for Driven {
         Some("driven".to_owned())
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Input
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Input
     }
 
     fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
@@ -35,15 +35,15 @@ impl Motion for Driven {
 
 /// An axis that moves at the input `<boundary>.velocity.<axis>` or `<boundary>.angular_velocity.<axis>`, in a communication step at
 /// its mean.
-pub(super) struct Steered;
+pub(super) struct VelocityDriven;
 
-impl Motion for Steered {
+impl Motion for VelocityDriven {
     fn words(&self, _unit: &str) -> Option<String> {
         Some("driven by velocity".to_owned())
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Rate
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Rate
     }
 
     fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! `fixed`: the axis stays.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 
 /// An axis that stays.
 pub(super) struct Fixed;
@@ -10,7 +10,7 @@ impl Motion for Fixed {
         None
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Nothing
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Nothing
     }
 }

@@ -1,6 +1,6 @@
 //! `free`: the axis is moved by the forces on the boundary.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 
 /// An axis that forces move.
 pub(super) struct Free;
@@ -10,8 +10,8 @@ impl Motion for Free {
         Some("free".to_owned())
     }
 
-    fn seen(&self) -> Seen {
-        Seen::PlaceAndRate
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::PlaceAndRate
     }
 
     fn is_free(&self) -> bool {

@@ -59,12 +59,12 @@ impl<'de> Deserialize<'de> for Prescribed {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes a number or a table.
         struct NumberOrTable;
-        /// What is right.
-        const RIGHT: &str = "a velocity, { sine = { amplitude, frequency } }, { trapezoid = { distance, speed, acceleration } } or { table = \"motion.csv\" }";
+        /// What is expected.
+        const EXPECTED: &str = "a velocity, { sine = { amplitude, frequency } }, { trapezoid = { distance, speed, acceleration } } or { table = \"motion.csv\" }";
         impl<'de> Visitor<'de> for NumberOrTable {
             type Value = Prescribed;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(RIGHT)
+                f.write_str(EXPECTED)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Prescribed, E> {
                 let velocity =
@@ -77,7 +77,7 @@ impl<'de> Deserialize<'de> for Prescribed {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Prescribed, A::Error> {
                 let scheduled = |schedule| Prescribed::Here(AxisMotion::Scheduled(schedule));
                 let Some(law) = map.next_key()? else {
-                    return Err(A::Error::custom(format!("expected {RIGHT}, found an empty table")));
+                    return Err(A::Error::custom(format!("expected {EXPECTED}, found an empty table")));
                 };
                 let motion = match law {
                     Law::Sine => scheduled(Schedule::Sine(map.next_value()?)),
@@ -176,7 +176,7 @@ impl Keys {
         let Names { fixed, conveying, driven, by, prescribed, free, loaded, servo } = &self.0;
         let leads = match by {
             By::Displacement => AxisMotion::Driven,
-            By::Velocity => AxisMotion::Steered,
+            By::Velocity => AxisMotion::VelocityDriven,
         };
         let named = (fixed.iter().map(|axis| (*axis, AxisMotion::Fixed)))
             .chain(conveying.iter().map(|(axis, velocity)| (*axis, AxisMotion::Conveying(velocity.get()))))
@@ -222,17 +222,17 @@ impl<'de> Deserialize<'de> for Keys {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes `"fixed"` or a table.
         struct WordOrTable;
-        /// What is right.
-        const RIGHT: &str = "\"fixed\" or a table of conveying, driven, prescribed, free, loaded and servo axes";
+        /// What is expected.
+        const EXPECTED: &str = "\"fixed\" or a table of conveying, driven, prescribed, free, loaded and servo axes";
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = Keys;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(RIGHT)
+                f.write_str(EXPECTED)
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<Keys, E> {
                 match word {
                     "fixed" => Ok(Keys::default()),
-                    _ => Err(E::custom(format!("expected {RIGHT}, found {word:?}"))),
+                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
                 }
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Keys, A::Error> {

@@ -1,6 +1,6 @@
 //! `loaded`: the axis is moved by the forces on the boundary, one of which is an input.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 
 /// An axis that forces move, those of the input `<boundary>.applied_force.<axis>` or `<boundary>.applied_moment.<axis>`
 /// among them.
@@ -17,8 +17,8 @@ impl Motion for Loaded {
         })
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Load
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Load
     }
 
     fn is_free(&self) -> bool {

@@ -37,7 +37,7 @@ pub enum AxisMotion {
     /// Follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
     Driven,
     /// Follows the input `<boundary>.velocity.<axis>` or `<boundary>.angular_velocity.<axis>`.
-    Steered,
+    VelocityDriven,
     /// Moves at this constant velocity \[m/s\] or angular velocity \[rad/s\].
     Prescribed(f64),
     /// Is where a schedule says.
@@ -59,7 +59,7 @@ trait Motion {
     fn words(&self, unit: &str) -> Option<String>;
 
     /// Which of its variables the host sees.
-    fn seen(&self) -> Seen;
+    fn seen(&self) -> ShownVariables;
 
     /// Whether forces move it.
     fn is_free(&self) -> bool {
@@ -99,7 +99,7 @@ pub(crate) struct AxisPath {
 
 /// Which variables of an axis the host sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Seen {
+pub(crate) enum ShownVariables {
     /// Nothing: it stays.
     Nothing,
     /// Its displacement is an input.
@@ -126,7 +126,7 @@ impl AxisMotion {
             Self::Fixed => question(&fixed::Fixed),
             Self::Conveying(velocity) => question(&conveying::Conveying { velocity: *velocity }),
             Self::Driven => question(&driven::Driven),
-            Self::Steered => question(&driven::Steered),
+            Self::VelocityDriven => question(&driven::VelocityDriven),
             Self::Prescribed(velocity) => question(velocity),
             Self::Scheduled(schedule) => question(schedule),
             Self::Tabulated(table) => question(&**table),
@@ -142,28 +142,28 @@ impl AxisMotion {
     }
 
     /// Which of its variables the host sees.
-    pub(crate) fn seen(&self) -> Seen {
+    pub(crate) fn seen(&self) -> ShownVariables {
         self.ask(|row| row.seen())
     }
 
     /// Whether its input is a force or moment.
     pub(crate) fn takes_force(&self) -> bool {
-        matches!(self.seen(), Seen::Load | Seen::Servo)
+        matches!(self.seen(), ShownVariables::Load | ShownVariables::Servo)
     }
 
     /// Whether its input is a load on the boundary.
     pub(crate) fn takes_load(&self) -> bool {
-        self.seen() == Seen::Load
+        self.seen() == ShownVariables::Load
     }
 
     /// Whether its input is its velocity.
     pub(crate) fn takes_velocity(&self) -> bool {
-        self.seen() == Seen::Rate
+        self.seen() == ShownVariables::Rate
     }
 
     /// Whether its input is its displacement.
     pub(crate) fn takes_place(&self) -> bool {
-        self.seen() == Seen::Input
+        self.seen() == ShownVariables::Input
     }
 
     /// The servo that moves it.
@@ -181,7 +181,7 @@ impl AxisMotion {
 
     /// Whether it stays.
     pub fn is_fixed(&self) -> bool {
-        self.seen() == Seen::Nothing
+        self.seen() == ShownVariables::Nothing
     }
 
     /// Velocity of the surface along it, like that of a conveyor belt \[m/s\].

@@ -1,6 +1,6 @@
 //! `prescribed`: the scene says how the axis moves.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 
 /// An axis that moves at a constant velocity \[m/s, rad/s\].
 impl Motion for f64 {
@@ -8,8 +8,8 @@ impl Motion for f64 {
         Some(format!("at {self} {unit}"))
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Place
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Place
     }
 
     fn at(&self, time: f64) -> Option<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! `prescribed = { z = { sine = .. } }`: a displacement in time, which begins at displacement 0.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 use crate::base::quantity::{Finite, NonNegative, Positive};
 use serde::Deserialize;
 use std::f64::consts::TAU;
@@ -85,8 +85,8 @@ impl Motion for Schedule {
         })
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Place
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Place
     }
 
     fn at(&self, time: f64) -> Option<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! `servo`: the axis moves so that the particles press on the boundary with a given force.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 use crate::base::quantity::{Finite, Positive};
 use serde::Deserialize;
 
@@ -46,8 +46,8 @@ impl Motion for Servo {
         Some(format!("servo, from {} N on, at most {} {unit}", self.target.get(), self.limit()))
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Servo
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Servo
     }
 
     fn first_input(&self) -> f64 {

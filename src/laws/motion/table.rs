@@ -1,6 +1,6 @@
 //! `prescribed = { z = { table = .. } }`: a displacement in time, point by point.
 
-use super::{Motion, Seen};
+use super::{Motion, ShownVariables};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -68,7 +68,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The table of these rows; otherwise the row that is wrong, counted from 0, what was found and what would be right.
+    /// The table of these rows; otherwise the row that is wrong, counted from 0, what was found and what was expected.
     pub(crate) fn of(
         times: Vec<f64>,
         places: Vec<f64>,
@@ -135,8 +135,8 @@ impl Motion for Table {
         Some(format!("along a table of {} rows", self.times.len()))
     }
 
-    fn seen(&self) -> Seen {
-        Seen::Place
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Place
     }
 
     fn at(&self, time: f64) -> Option<[f64; 2]> {

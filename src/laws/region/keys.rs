@@ -46,10 +46,10 @@ impl Keys {
         let [key] = self.written()[..] else {
             let mistake = match &self.written()[..] {
                 [] => Mistake::Missing {
-                    right: "box = [[x, y, z], [x, y, z]], cylinder = { from, to, radius } or mesh = { file } gives its shape"
+                    expected: "box = [[x, y, z], [x, y, z]], cylinder = { from, to, radius } or mesh = { file } gives its shape"
                         .to_owned(),
                 },
-                written => Mistake::Wrong { found: written.join(" and "), right: "one shape".to_owned() },
+                written => Mistake::Unexpected { found: written.join(" and "), expected: "one shape".to_owned() },
             };
             around.report("", mistake);
             return None;
@@ -79,9 +79,9 @@ fn solid(keys: &mesh::Keys, around: &mut dyn Files) -> Option<Solid> {
         Ok(solid) => Some(solid),
         Err(place) => {
             let found = format!("a part of the surface, seen at {place:?} m, whose normals point to the wrong side");
-            let right = "parts beside each other with normals that point alike, and within another part only holes, with \
+            let expected = "parts beside each other with normals that point alike, and within another part only holes, with \
                          normals that point into them";
-            around.refuse("mesh.file", found, right);
+            around.refuse("mesh.file", found, expected);
             None
         }
     }

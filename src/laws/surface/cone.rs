@@ -2,7 +2,7 @@
 
 use super::cylinder::{Caps, axis};
 use super::profile::Revolution;
-use super::{Around, Shape, ShapeKeys};
+use super::{Shape, ShapeContext, ShapeKeys};
 use crate::base::quantity::{NonNegative, Triple};
 use serde::Deserialize;
 
@@ -24,7 +24,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "cone = { from, to, radii }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let (material, axis) = (around.material("a cone"), axis(self.from, self.to, "cone", around));
         let [from, to] = self.radii.map(NonNegative::get);
         if from == 0.0 && to == 0.0 {

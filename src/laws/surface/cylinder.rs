@@ -1,7 +1,7 @@
 //! `cylinder`: a pipe, open or capped, or without end.
 
 use super::profile::Revolution;
-use super::{Around, Shape, ShapeKeys};
+use super::{Shape, ShapeContext, ShapeKeys};
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Positive, Triple};
 use serde::Deserialize;
@@ -39,7 +39,12 @@ impl Caps {
 }
 
 /// The point where an axis begins, its direction and its length \[m\]; reports two ends in one point.
-pub(super) fn axis(from: Triple, to: Triple, key: &str, around: &mut dyn Around) -> Option<(Vector, Vector, f64)> {
+pub(super) fn axis(
+    from: Triple,
+    to: Triple,
+    key: &str,
+    around: &mut dyn ShapeContext,
+) -> Option<(Vector, Vector, f64)> {
     let (from, way) = (Vector::from(from.0), Vector::from(to.0) - Vector::from(from.0));
     let direction = super::direction(way.to_array());
     if direction.is_none() {
@@ -75,7 +80,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "cylinder = { from, to, radius }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let (material, axis) = (around.material("a cylinder"), axis(self.from, self.to, "cylinder", around));
         if self.infinite && self.caps != Caps::None {
             let found = "caps on a cylinder without ends".to_owned();

@@ -1,7 +1,7 @@
 //! `disc`: a circular plate, with or without a hole.
 
 use super::profile::Revolution;
-use super::{Around, Shape, ShapeKeys, direction};
+use super::{Shape, ShapeContext, ShapeKeys, direction};
 use crate::base::quantity::{Positive, Triple};
 use serde::Deserialize;
 
@@ -22,7 +22,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "disc = { centre, normal, radius }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let (material, normal) = (around.material("a disc"), direction(self.normal.0));
         if normal.is_none() {
             around.refuse("disc.normal", "one of length 0".to_owned(), "a normal across the disc");

@@ -1,6 +1,6 @@
 //! `particles`: a group of particles that moves as one rigid body.
 
-use super::{Around, Shape, ShapeKeys, Surface};
+use super::{Shape, ShapeContext, ShapeKeys, Surface};
 use crate::base::quantity::Corners;
 use serde::Deserialize;
 
@@ -33,7 +33,7 @@ impl Surface for Group {
 impl ShapeKeys for Selection {
     const HINT: &'static str = "particles = { set, box, ids }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         around.no_material("particles have their own material");
         Some(Shape::of(Group { members: around.select(self) }))
     }

@@ -21,7 +21,7 @@ pub use facets::Facets;
 pub use feet::{Features, Feet, Foot, NO_PLANE, OnPlanes, Saddle, TOGETHER};
 pub use group::Group;
 pub(crate) use group::Selection;
-pub use mesh::{Deforming, Grip};
+pub use mesh::{Deforming, NodeWeights};
 pub use plane::Plane;
 
 use crate::base::document::Mistake;
@@ -148,7 +148,7 @@ pub(crate) trait ShapeKeys {
     const HINT: &'static str;
 
     /// The shape that is meant, if nothing is wrong with it; what is wrong is reported.
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape>;
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape>;
 }
 
 /// Files that a table of a scene names, and where its mistakes go.
@@ -159,19 +159,19 @@ pub(crate) trait Files {
     /// Reports a mistake at a key below the table.
     fn report(&mut self, key: &str, mistake: Mistake);
 
-    /// Reports a value: what was found at a key below the table and what would be right.
-    fn refuse(&mut self, key: &str, found: String, right: &str) {
-        self.report(key, Mistake::Wrong { found, right: right.to_owned() });
+    /// Reports a value: what was found at a key below the table and what was expected.
+    fn refuse(&mut self, key: &str, found: String, expected: &str) {
+        self.report(key, Mistake::Unexpected { found, expected: expected.to_owned() });
     }
 
-    /// Reports the content of a file: what was found in it and what would be right.
-    fn refuse_file(&mut self, key: &str, file: &str, found: &str, right: &str) {
-        self.report(key, Mistake::Refused { message: format!("{file}: expected {right}, found {found}") });
+    /// Reports the content of a file: what was found in it and what was expected.
+    fn refuse_file(&mut self, key: &str, file: &str, found: &str, expected: &str) {
+        self.report(key, Mistake::Refused { message: format!("{file}: expected {expected}, found {found}") });
     }
 }
 
 /// What stands around the key of a shape in a scene.
-pub(crate) trait Around: Files {
+pub(crate) trait ShapeContext: Files {
     /// The material that the boundary names. Reports an unknown or missing one: `who` needs one.
     fn material(&mut self, who: &str) -> Option<MaterialIndex>;
 

@@ -2,7 +2,7 @@
 
 use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
-use super::{Around, Shape, ShapeKeys, Surface, direction};
+use super::{Shape, ShapeContext, ShapeKeys, Surface, direction};
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
 use serde::Deserialize;
@@ -116,7 +116,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "plane = { point, normal }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let (material, normal) = (around.material("a plane"), direction(self.normal.0));
         if normal.is_none() {
             let right = "a normal that points towards the particles";

@@ -2,7 +2,7 @@
 
 use super::facets::Facets;
 use super::feet::{Features, Feet, Foot};
-use super::{Around, Shape, ShapeKeys, Surface};
+use super::{Shape, ShapeContext, ShapeKeys, Surface};
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
 use serde::Deserialize;
@@ -125,7 +125,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "rectangle = { corner, edges }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let material = around.material("a rectangle");
         let [first, second] = self.edges.map(|edge| Vector::from(edge.0));
         let lengths = [first.length(), second.length()];

@@ -1,7 +1,7 @@
 //! `revolution`: any profile of straight segments, turned about an axis: hoppers, funnels, vessels.
 
 use super::profile::Revolution;
-use super::{Around, Shape, ShapeKeys, direction};
+use super::{Shape, ShapeContext, ShapeKeys, direction};
 use crate::base::quantity::{Finite, Triple};
 use serde::Deserialize;
 
@@ -20,7 +20,7 @@ pub(crate) struct Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "revolution = { origin, axis, profile }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let (material, axis) = (around.material("a surface of revolution"), direction(self.axis.0));
         if axis.is_none() {
             around.refuse("revolution.axis", "one of length 0".to_owned(), "a vector along the axis");
@@ -35,8 +35,8 @@ impl ShapeKeys for Keys {
                 inward.or(twice.map(|two| (format!("corner {:?} twice", two[0]), "corners apart from each other")))
             }
         };
-        if let Some((found, right)) = wrong {
-            around.refuse("revolution.profile", found, right);
+        if let Some((found, expected)) = wrong {
+            around.refuse("revolution.profile", found, expected);
             return None;
         }
         let about = (self.origin.0.into(), axis?.into());

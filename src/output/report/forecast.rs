@@ -1,6 +1,6 @@
 //! What a run will write and how long it will take, before it runs.
 
-use super::passing::{Files, Passing};
+use super::passing::{Files, ParticleExchange};
 use super::trial::Trial;
 use crate::engine::simulation::{LONGEST_AUTOMATIC_STEP, Simulation};
 use crate::output::results::schedule::{Counted, Schedule};
@@ -55,7 +55,7 @@ pub(crate) fn of(
     let often = checkpoints.map_or("every 30 s of wall time".to_owned(), |count| format!("{count} times"));
     let checkpoint = trial.sizes(Files::Checkpoint, trial.checkpoint.bytes);
     outputs.push(format!("a checkpoint of {}, written {often}", range(checkpoint)));
-    if let Some(Passing { counts: [least, most], .. }) = trial.passing {
+    if let Some(ParticleExchange { counts: [least, most], .. }) = trial.passing {
         outputs.push(format!(
             "sizes without contacts to come, for {least:.0} to {most:.0} particles: all that come, none that go"
         ));

@@ -2,7 +2,7 @@
 
 use crate::base::number::Vector;
 use crate::engine::simulation::Simulation;
-use crate::engine::state::Newcomer;
+use crate::engine::state::InsertedParticle;
 use crate::output::results::frames;
 use crate::output::results::vtk::EncodeError;
 use crate::scene::exchange::Amount;
@@ -14,7 +14,7 @@ const SAMPLES: u32 = 200;
 
 /// Particles that come and go.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Passing {
+pub(crate) struct ParticleExchange {
     /// How many there are.
     present: f64,
     /// How many may be left at least and, where nothing goes, be there at most.
@@ -34,7 +34,7 @@ pub(crate) enum Files {
     Checkpoint = 1,
 }
 
-impl Passing {
+impl ParticleExchange {
     /// What is foretold of so long a time \[s\]; nothing where the number of particles stays.
     pub(crate) fn of(simulation: &Simulation, duration: f64) -> Result<Option<Self>, EncodeError> {
         let scene = simulation.scene();
@@ -90,7 +90,7 @@ fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     for number in 0..SAMPLES {
         let [x, y, z, u, v, w] = [(); 6].map(|()| uniform(&mut random));
         let (position, velocity) = (Vector::new(x, y, z).row_with(uniform(&mut random)), [u, v, w, 1.0]);
-        let newcomer = Newcomer { position, velocity, inertia: 1.0, material: 0, number };
+        let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number };
         state.particles.add(&newcomer, !state.particles.orientation.is_empty());
     }
     let after = sizes(&state)?;

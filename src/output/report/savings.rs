@@ -21,7 +21,7 @@ const LEAST: f64 = 0.03;
 const SHORT: f64 = 0.6;
 
 /// Something that a scene could drop.
-struct Spare {
+struct Unused {
     /// What it is and why.
     what: String,
     /// The scene without it.
@@ -31,7 +31,7 @@ struct Spare {
 /// What the scene could drop, a line each.
 pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
     let mut lines = Vec::new();
-    for Spare { what, without } in spares(scene) {
+    for Unused { what, without } in unused(scene) {
         let without = without.build().ok().map(Arc::new);
         if let Some([with, less]) = without.and_then(|without| costs(scene, &without)) {
             let saved = 1.0 - less / with;
@@ -79,15 +79,15 @@ fn costs(with: &Arc<Scene>, without: &Arc<Scene>) -> Option<[f64; 2]> {
 }
 
 /// What the scene has and does not need.
-fn spares(scene: &Scene) -> Vec<Spare> {
-    let mut spares = Vec::new();
+fn unused(scene: &Scene) -> Vec<Unused> {
+    let mut unused = Vec::new();
     for (index, law) in scene.contacts.iter().enumerate() {
         let zero = |of: fn(&PairProperties) -> Option<NonNegative>| is_zero(scene, law, of);
         let mut add = |part: &str, model: &str, property: &str, drop: fn(&mut ContactLaw)| {
             let mut without = SceneDraft::clone(scene);
             drop(&mut without.contacts[index]);
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
-            spares.push(Spare { what, without });
+            unused.push(Unused { what, without });
         };
         if law.tangential.row().is_active() && zero(|pair| pair.friction) {
             add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
@@ -103,16 +103,16 @@ fn spares(scene: &Scene) -> Vec<Spare> {
         if damping.linear.iter().chain(&damping.angular).all(|fraction| *fraction == 0.0) {
             let mut without = SceneDraft::clone(scene);
             without.damping.remove(index);
-            spares.push(Spare { what: format!("[damping.{}]: damps no particle", damping.name), without });
+            unused.push(Unused { what: format!("[damping.{}]: damps no particle", damping.name), without });
         }
     }
     if scene.output.energy && scene.output.history_interval.is_none() {
         let what = "[output] energy: the book is kept, and without history_interval only summary.json tells of it";
         let mut without = SceneDraft::clone(scene);
         without.output.energy = false;
-        spares.push(Spare { what: what.to_owned(), without });
+        unused.push(Unused { what: what.to_owned(), without });
     }
-    spares
+    unused
 }
 
 /// Whether a property is given as 0 for all pairs of a law that say it.

@@ -1,6 +1,6 @@
 //! A short trial of a run: what a step, a row, a frame and a checkpoint cost on this machine.
 
-use super::passing::{Files, Passing};
+use super::passing::{Files, ParticleExchange};
 use crate::engine::simulation::{RunError, Simulation};
 use crate::interface::Interface;
 use crate::output::results::frames;
@@ -17,7 +17,7 @@ const BETWEEN_LOOKS: f64 = 0.02;
 
 /// What the outputs of a kind cost, one of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Price {
+pub(crate) struct OutputCost {
     /// Wall time \[s\].
     pub time: f64,
     /// Size \[bytes\].
@@ -36,13 +36,13 @@ pub(crate) struct Trial {
     /// Wall time of the whole trial \[s\].
     pub cost: f64,
     /// A row of the history.
-    pub row: Price,
+    pub row: OutputCost,
     /// A frame.
-    pub frame: Price,
+    pub frame: OutputCost,
     /// A checkpoint.
-    pub checkpoint: Price,
+    pub checkpoint: OutputCost,
     /// Particles that come and go.
-    pub passing: Option<Passing>,
+    pub passing: Option<ParticleExchange>,
     /// Why it ended early.
     pub failed: Option<RunError>,
 }
@@ -68,7 +68,7 @@ pub(crate) fn of(
     }
     trial.checkpoint = price(|| Ok(simulation.state().to_bytes(0).len() as f64))?;
     if let Some((schedule, begins)) = schedule {
-        trial.passing = Passing::of(simulation, schedule.end() - begins)?;
+        trial.passing = ParticleExchange::of(simulation, schedule.end() - begins)?;
     }
     trial.cost = begun.elapsed().as_secs_f64();
     Ok(trial)
@@ -123,8 +123,8 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
 }
 
 /// What one output costs: the least of three, since the first one finds its memory cold.
-fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<Price, EncodeError> {
-    let mut price = Price { time: f64::INFINITY, bytes: 0.0 };
+fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCost, EncodeError> {
+    let mut price = OutputCost { time: f64::INFINITY, bytes: 0.0 };
     for _ in 0..3 {
         let begun = Instant::now();
         price.bytes = make()?;

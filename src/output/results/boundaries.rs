@@ -1,6 +1,6 @@
 //! The cloud of the boundaries: their surfaces where they stand, and what the particles do to each facet.
 
-use super::vtk::{Cloud, Kind, Values};
+use super::vtk::{Kind, PointCloud, Values};
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::simulation::{BondRecord, ContactRecord};
@@ -15,8 +15,8 @@ pub(crate) fn boundaries(
     bodies: &Particles,
     (moved, nodes): (&[BoundaryState], &[Nodes]),
     (contacts, bonds): (&[ContactRecord], &[BondRecord]),
-) -> Cloud {
-    let mut shown = Shown::default();
+) -> PointCloud {
+    let mut shown = FacetRows::default();
     for (index, (boundary, moved)) in (0..).zip(scene.boundaries.iter().zip(moved)) {
         let frame = Frame::of(boundary.reference.into(), moved.displacement.into(), moved.orientation.0);
         let beside: Vec<Vector> = corners_around(bodies).map(|corner| frame.inside(corner)).collect();
@@ -26,7 +26,7 @@ pub(crate) fn boundaries(
         let Some([facets, first]) = facets(shape).zip(facets(&*boundary.shape)).map(<[Facets; 2]>::from) else {
             continue;
         };
-        let mut bear = Bear { force: vec![Vector::zero(); facets.len()], pressing: vec![0.0; facets.len()] };
+        let mut bear = FacetLoads { force: vec![Vector::zero(); facets.len()], pressing: vec![0.0; facets.len()] };
         let at = |point: [f64; 3]| shape.facet_at(frame.inside(point.into()));
         for contact in contacts.iter().filter(|contact| contact.boundary == Some(index)) {
             let along = Vector::from(contact.normal) * contact.normal_force;
@@ -62,14 +62,14 @@ fn corners_around(bodies: &Particles) -> impl Iterator<Item = Vector> {
 }
 
 /// What the particles do to the facets of a boundary.
-struct Bear {
+struct FacetLoads {
     /// Force on each \[N\].
     force: Vec<Vector>,
     /// The sum of the normal forces of its contacts, which press from either side \[N\].
     pressing: Vec<f64>,
 }
 
-impl Bear {
+impl FacetLoads {
     /// Adds what a particle feels at a facet: the force on it, and how hard it is pressed away \[N\].
     fn add(&mut self, facet: usize, on_particle: Vector, pressing: f64) {
         if let (Some(force), Some(sum)) = (self.force.get_mut(facet), self.pressing.get_mut(facet)) {
@@ -81,7 +81,7 @@ impl Bear {
 
 /// The facets of all boundaries so far.
 #[derive(Default)]
-struct Shown {
+struct FacetRows {
     /// Where their corners are, and how far each has gone \[m\].
     points: [Vec<f64>; 2],
     /// Their corners.
@@ -96,9 +96,9 @@ struct Shown {
     pressure: Vec<f64>,
 }
 
-impl Shown {
+impl FacetRows {
     /// Adds those of a boundary.
-    fn add(&mut self, index: u32, (facets, first): (&Facets, &Facets), frame: &Frame, bear: &Bear) {
+    fn add(&mut self, index: u32, (facets, first): (&Facets, &Facets), frame: &Frame, bear: &FacetLoads) {
         let (before, behind) = ((self.points[0].len() / 3) as u32, self.corners.len() as u32);
         for (point, first) in facets.points.iter().zip(&first.points) {
             let now = frame.outside(*point - frame.reference()) + frame.pivot();
@@ -117,9 +117,9 @@ impl Shown {
     }
 
     /// All of them.
-    fn cloud(self) -> Cloud {
+    fn cloud(self) -> PointCloud {
         let ([points, gone], [force, traction]) = (self.points, self.loads);
-        Cloud {
+        PointCloud {
             points,
             kind: Kind::Facets { corners: self.corners, ends: self.ends },
             fields: vec![("displacement", Values::Vectors(gone))],
@@ -223,13 +223,13 @@ tangential_stiffness = 4e8
     }
 
     /// The cloud of a simulation.
-    fn cloud(simulation: &Simulation) -> Cloud {
+    fn cloud(simulation: &Simulation) -> PointCloud {
         let (state, contacts, bonds) = (simulation.state(), simulation.contacts(), simulation.bonds());
         boundaries(simulation.scene(), &state.particles, (&state.boundaries, &state.nodes), (&contacts, &bonds))
     }
 
     /// The numbers of a field of the facets.
-    fn numbers(cloud: &Cloud, name: &str) -> Vec<f64> {
+    fn numbers(cloud: &PointCloud, name: &str) -> Vec<f64> {
         match cloud.cell_fields.iter().find(|(field, _)| *field == name) {
             Some((_, Values::Scalars(numbers) | Values::Vectors(numbers))) => numbers.clone(),
             Some((_, Values::Integers(numbers))) => numbers.iter().map(|number| *number as f64).collect(),
@@ -295,7 +295,7 @@ tangential_stiffness = 4e8
     #[test]
     fn points_go_where_their_boundary_goes() {
         let simulation = simulation(0.2);
-        let Cloud { points, fields, .. } = cloud(&simulation);
+        let PointCloud { points, fields, .. } = cloud(&simulation);
         let (_, Values::Vectors(gone)) = &fields[0] else { panic!("not vectors") };
         // Behind the four corners of the plane comes the sheet; its corner turned by 3 rad/s about its middle.
         let (turn, corner) = (3.0 * 0.2e-3, [-4e-3, -4e-3]);

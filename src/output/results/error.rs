@@ -28,14 +28,14 @@ pub enum OutputError {
         source: EncodeError,
     },
     /// Something that no run has made stands where a run writes.
-    #[error("{}: expected {right}, found {found}; move it away", path.display())]
+    #[error("{}: expected {expected}, found {found}; move it away", path.display())]
     NotOwn {
         /// The file or folder.
         path: PathBuf,
         /// What it is.
         found: String,
-        /// What would be right.
-        right: String,
+        /// What was expected.
+        expected: String,
     },
     /// A file of the run is gone.
     #[error("{}: expected the file that this run writes, found none or another one: it was moved or deleted meanwhile", path.display())]
@@ -44,7 +44,7 @@ pub enum OutputError {
         path: PathBuf,
     },
     /// There is no memory for an output.
-    #[error("{}: expected {right} for {what}, which needs about {:.2} GB", path.display(), *needed as f64 / 1e9)]
+    #[error("{}: expected {expected} for {what}, which needs about {:.2} GB", path.display(), *needed as f64 / 1e9)]
     Memory {
         /// The folder of the results.
         path: PathBuf,
@@ -52,8 +52,8 @@ pub enum OutputError {
         what: &'static str,
         /// Bytes that are needed.
         needed: u64,
-        /// What would be right.
-        right: String,
+        /// What was expected.
+        expected: String,
     },
     /// A child of the process that writes.
     #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
@@ -71,8 +71,8 @@ pub enum OutputError {
 
 impl OutputError {
     /// Something that no run has made.
-    pub(crate) fn not_own(path: &Path, found: impl Into<String>, right: impl Into<String>) -> Self {
-        Self::NotOwn { path: path.to_owned(), found: found.into(), right: right.into() }
+    pub(crate) fn not_own(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::NotOwn { path: path.to_owned(), found: found.into(), expected: expected.into() }
     }
 
     /// Ties what the system said to the file.
@@ -193,12 +193,12 @@ pub enum InputsError {
         source: csv::Error,
     },
     /// A column is missing.
-    #[error("{}: has no column {right}", path.display())]
+    #[error("{}: has no column {expected}", path.display())]
     Column {
         /// The file.
         path: PathBuf,
-        /// What would be right.
-        right: String,
+        /// What was expected.
+        expected: String,
     },
     /// A column that stands for nothing.
     #[error("{}, line 1: expected time and variables of the unit, found a column {column:?}{}", path.display(), nearest_of(column, known))]
@@ -241,14 +241,14 @@ pub enum InputsError {
         source: InterfaceError,
     },
     /// A time out of order.
-    #[error("{}, line {line}: expected {right}, found {found}", path.display())]
+    #[error("{}, line {line}: expected {expected}, found {found}", path.display())]
     Time {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
         /// What was found.
         found: String,
     },

@@ -53,7 +53,7 @@ pub(crate) struct Folder {
 
 /// What a run keeps of the files in its folder; looking changes nothing.
 #[derive(Default)]
-pub(crate) struct Kept {
+pub(crate) struct KeptFiles {
     /// The rows of the history, or none where a new file is begun.
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
@@ -77,7 +77,7 @@ pub(crate) struct Place<'a> {
     pub state: &'a State,
 }
 
-impl Kept {
+impl KeptFiles {
     /// Nothing is kept, and this is the number of the first frame.
     pub(crate) fn nothing(next_frame: usize) -> Self {
         Self { next_frame, ..Self::default() }
@@ -118,7 +118,7 @@ impl Folder {
         path: &Path,
         (scene, scene_name): (Arc<Scene>, &str),
         names: &[String],
-        kept: &Kept,
+        kept: &KeptFiles,
     ) -> Result<Self, OutputError> {
         for stale in own_results(path)?.iter().filter(|file| is_stale(file, kept)) {
             fs::remove_file(stale).map_err(OutputError::at(stale))?;
@@ -207,7 +207,7 @@ impl Folder {
 }
 
 /// Whether a result is not kept. The checkpoint stays until the next one takes its place, a `.pvd` until it is written anew.
-fn is_stale(file: &Path, kept: &Kept) -> bool {
+fn is_stale(file: &Path, kept: &KeptFiles) -> bool {
     let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     if name.ends_with(&format!(".{UNFINISHED}")) {
         return true;
@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_continued_run_keeps_its_frames_and_rows() {
-        let kept = Kept { history: Some(Found::default()), next_frame: 2, ..Kept::default() };
+        let kept = KeptFiles { history: Some(Found::default()), next_frame: 2, ..KeptFiles::default() };
         let is_stale = |name: &str| is_stale(Path::new(name), &kept);
         assert!(!is_stale("history.csv") && !is_stale("particles_000001.vtu") && !is_stale("particles.pvd"));
         assert!(is_stale("particles_000002.vtu") && is_stale("summary.json") && is_stale("history.csv.part"));

@@ -4,7 +4,7 @@ use super::collection::Collection;
 use super::error::OutputError;
 use super::files::{Durability, write_whole};
 use super::job::Job;
-use super::vtk::Cloud;
+use super::vtk::PointCloud;
 use super::{FRAMES, collection_name, frame_name, frames};
 use crate::scene::Scene;
 use std::fs;
@@ -94,7 +94,7 @@ impl Series {
     }
 
     /// Writes a frame.
-    fn add(&mut self, folder: &Path, frame: Frame, cloud: Cloud) -> Result<PathBuf, OutputError> {
+    fn add(&mut self, folder: &Path, frame: Frame, cloud: PointCloud) -> Result<PathBuf, OutputError> {
         let name = frame_name(self.name, frame.number);
         let path = folder.join(&name);
         let bytes = cloud.encode().map_err(|source| OutputError::Encode { path: path.clone(), source })?;

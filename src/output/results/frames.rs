@@ -2,13 +2,13 @@
 
 use super::boundaries::boundaries;
 use super::job::Job;
-use super::vtk::{Cloud, Kind, Values};
+use super::vtk::{Kind, PointCloud, Values};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::Particles;
 use crate::scene::Scene;
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 4] {
     let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, .. } = job else {
         return [const { None }; 4];
     };
@@ -22,7 +22,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<Cloud>; 4] {
 }
 
 /// All particles, in the order of the scene whatever their order in memory, those that came later behind them.
-pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
+pub(crate) fn particles(scene: &Scene, particles: &Particles) -> PointCloud {
     let slots = || particles.slots();
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
@@ -44,22 +44,22 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles) -> Cloud {
         let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
         ("orientation", Values::Quaternions(rows))
     });
-    Cloud {
+    PointCloud {
         points: three(&particles.position),
         fields: fields.into_iter().chain(sets).chain(orientation).chain(damage).collect(),
-        ..Cloud::default()
+        ..PointCloud::default()
     }
 }
 
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.
 ///
 /// A wall has no id: `id2` is then −1, and `boundary` is its place in the scene; between particles `boundary` is −1.
-pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[ContactRecord]) -> Cloud {
+pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[ContactRecord]) -> PointCloud {
     let id = |particle: u32| i64::from(number(scene, particles, particle));
     let vectors = |of: fn(&ContactRecord) -> [f64; 3]| Values::Vectors(contacts.iter().flat_map(of).collect());
     let scalars = |of: fn(&ContactRecord) -> f64| Values::Scalars(contacts.iter().map(of).collect());
     let integers = |of: &dyn Fn(&ContactRecord) -> i64| Values::Integers(contacts.iter().map(of).collect());
-    Cloud {
+    PointCloud {
         points: contacts.iter().flat_map(|contact| contact.point).collect(),
         fields: vec![
             ("id1", integers(&|contact| id(contact.first))),
@@ -71,13 +71,13 @@ pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[Contact
             ("tangential_force", vectors(|contact| contact.tangential_force)),
             ("sliding", Values::Bytes(contacts.iter().map(|contact| u8::from(contact.sliding)).collect())),
         ],
-        ..Cloud::default()
+        ..PointCloud::default()
     }
 }
 
 /// A line for each bond, from body i to body j or to its foot on the plane: what it carries. The ids of the bodies are
 /// those of the points; a foot has −1, and `boundary` is then the place of the plane in the scene (otherwise −1).
-pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> Cloud {
+pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> PointCloud {
     let position = |particle: u32| {
         let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
         [x, y, z]
@@ -90,7 +90,7 @@ pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
     };
     let vectors = |of: fn(&BondRecord) -> [f64; 3]| Values::Vectors(bonds.iter().flat_map(of).collect());
     let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
-    Cloud {
+    PointCloud {
         points: bonds.iter().flat_map(|bond| [position(bond.first), bond.other]).flatten().collect(),
         kind: Kind::Lines,
         fields: vec![("id", Values::Integers(ids))],

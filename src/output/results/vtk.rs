@@ -47,7 +47,7 @@ pub(crate) enum Kind {
 
 /// Points with named fields.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Cloud {
+pub(crate) struct PointCloud {
     /// x, y, z of each point \[m\].
     pub points: Vec<f64>,
     /// What they stand for.
@@ -58,7 +58,7 @@ pub(crate) struct Cloud {
     pub cell_fields: Vec<(&'static str, Values)>,
 }
 
-impl Cloud {
+impl PointCloud {
     /// The cloud as a `.vtu` file.
     pub(crate) fn encode(self) -> Result<Vec<u8>, EncodeError> {
         let count = self.points.len() / 3;
@@ -131,9 +131,9 @@ mod tests {
     use super::*;
 
     /// A cloud of `count` points with every kind of field, and numbers that do not survive rounding.
-    fn cloud(count: usize) -> Cloud {
+    fn cloud(count: usize) -> PointCloud {
         let reals = |count: usize| (0..count).map(|k| (k as f64 + 0.1) / 3.0).collect::<Vec<_>>();
-        Cloud {
+        PointCloud {
             points: reals(3 * count),
             fields: vec![
                 ("radius", Values::Scalars(reals(count))),
@@ -142,7 +142,7 @@ mod tests {
                 ("id", Values::Integers((0..count as i64).map(|k| k - (1 << 40)).collect())),
                 ("sliding", Values::Bytes((0..count).map(|k| (k % 2) as u8).collect())),
             ],
-            ..Cloud::default()
+            ..PointCloud::default()
         }
     }
 
@@ -177,7 +177,7 @@ mod tests {
     fn lines_join_each_two_points() {
         let energy = vec![0.1, 0.2, 0.3];
         let lines = vec![("energy", Values::Scalars(energy.clone()))];
-        let bytes = Cloud { kind: Kind::Lines, cell_fields: lines, ..cloud(6) }.encode().unwrap();
+        let bytes = PointCloud { kind: Kind::Lines, cell_fields: lines, ..cloud(6) }.encode().unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
             panic!("not an unstructured grid")
         };

@@ -6,7 +6,7 @@ use super::summary;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
 use crate::output::results::files::refuse_to_replace;
-use crate::output::results::folder::{Folder, Kept};
+use crate::output::results::folder::{Folder, KeptFiles};
 use crate::output::results::job::Job;
 use crate::output::results::lock::FolderLock;
 use crate::output::results::schedule::Schedule;
@@ -50,7 +50,7 @@ impl First<'_> {
         let new = replacement::begin(path)?;
         let frames = self.schedule.frames_until(time);
         let frame_is_due = origin != Origin::Elsewhere && frames.last() == Some(&time);
-        let kept = Kept::nothing(frames.len() - usize::from(frame_is_due));
+        let kept = KeptFiles::nothing(frames.len() - usize::from(frame_is_due));
         let named = (Arc::clone(self.order.scene), self.order.scene_name);
         let mut folder = Folder::open(&new, named, self.names, &kept)?;
         if matches!(origin, Origin::Anew | Origin::TakenOver { goes_on: false }) {

@@ -36,7 +36,7 @@ impl Inputs {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let names = reader.headers().map_err(unreadable)?.clone();
-        let missing = |right| InputsError::Column { path: path.to_owned(), right };
+        let missing = |expected| InputsError::Column { path: path.to_owned(), expected };
         let time = names.iter().position(|name| name == "time").ok_or_else(|| missing("time".to_owned()))?;
         for (place, name) in names.iter().enumerate() {
             let column = || name.to_owned();
@@ -55,8 +55,9 @@ impl Inputs {
         let chosen: Vec<(usize, usize)> = inputs.collect();
         if chosen.is_empty() {
             let known: Vec<String> = interface.inputs().map(|(_, variable)| variable.name.clone()).collect();
-            let right = if known.is_empty() { "a scene with a driven boundary".to_owned() } else { known.join(" or ") };
-            return Err(missing(right));
+            let expected =
+                if known.is_empty() { "a scene with a driven boundary".to_owned() } else { known.join(" or ") };
+            return Err(missing(expected));
         }
         let mut table =
             Self { times: vec![0.0], columns: chosen.iter().map(|(_, index)| Column::of(interface, *index)).collect() };
@@ -70,17 +71,17 @@ impl Inputs {
                 let refused = |source| InputsError::Refused { path: path.to_owned(), line, source };
                 interface.check(*index, *value).map_err(refused)?;
             }
-            table.add(now, &row).map_err(|(right, found)| InputsError::Time {
+            table.add(now, &row).map_err(|(expected, found)| InputsError::Time {
                 path: path.to_owned(),
                 line,
-                right,
+                expected,
                 found,
             })?;
         }
         Ok(table)
     }
 
-    /// Takes a row; otherwise what would be right and what was found.
+    /// Takes a row; otherwise what was expected and what was found.
     fn add(&mut self, time: f64, row: &[f64]) -> Result<(), (&'static str, String)> {
         if time == 0.0 && self.times.len() == 1 {
             for (column, value) in self.columns.iter_mut().zip(row) {

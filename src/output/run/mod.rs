@@ -21,7 +21,7 @@ use crate::engine::simulation::{RunError, Simulation};
 use crate::interface::Interface;
 use crate::output::results::SUMMARY;
 use crate::output::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
-use crate::output::results::folder::{Folder, Kept, Place};
+use crate::output::results::folder::{Folder, KeptFiles, Place};
 use crate::output::results::job::Job;
 use crate::output::results::lock::FolderLock;
 use crate::output::results::schedule::{Due, Schedule};
@@ -137,7 +137,7 @@ impl<'a> Session<'a> {
             first.write(&simulation, time, origin)?;
         }
         let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
-        let kept = Kept::look(order.folder, &place)?;
+        let kept = KeptFiles::look(order.folder, &place)?;
         let folder = Folder::open(order.folder, (Arc::clone(order.scene), order.scene_name), &names, &kept)?;
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
@@ -238,7 +238,8 @@ impl<'a> Session<'a> {
         summary.left_behind = self.left_behind;
         let result = result.and_then(|()| match summary.lacking() {
             Some(part) => {
-                Err(RunError::Invalid { part, place: 0, right: "finite numbers", time: self.simulation.time() }.into())
+                Err(RunError::Invalid { part, place: 0, expected: "finite numbers", time: self.simulation.time() }
+                    .into())
             }
             None => Ok(()),
         });

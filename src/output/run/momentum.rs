@@ -3,7 +3,7 @@
 use crate::engine::simulation::Simulation;
 use crate::engine::state::State;
 use crate::engine::state::boundaries::Inertial;
-use crate::engine::state::exchange::Net;
+use crate::engine::state::exchange::NetExchange;
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ struct Account {
     /// of light bodies \[N s\].
     of_bodies: [[f64; 3]; 3],
     /// What came less what went.
-    net: Net,
+    net: NetExchange,
     /// Time \[s\].
     time: f64,
 }
@@ -153,7 +153,7 @@ fn account(scene: &Scene, state: &State) -> Account {
             }
         }
     }
-    let net = state.exchange.as_ref().map_or_else(Net::default, |exchange| exchange.net);
+    let net = state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net);
     Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, net, time: state.clock.time }
 }
 

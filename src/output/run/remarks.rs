@@ -177,12 +177,12 @@ fn unread(scene: &Scene) -> Vec<String> {
         if keys.is_empty() {
             continue;
         }
-        let right = if laws.is_empty() {
+        let expected = if laws.is_empty() {
             "a [contact] law for these materials"
         } else {
             "a sub-model of [contact] that takes it, or no such key"
         };
-        remarks.push(format!("[{table}] {}: nothing reads it; expected {right}", keys.join(", ")));
+        remarks.push(format!("[{table}] {}: nothing reads it; expected {expected}", keys.join(", ")));
     }
     remarks
 }

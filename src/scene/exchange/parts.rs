@@ -124,7 +124,7 @@ impl Known<'_> {
             let found = format!("[boundary.{found}], a {}{turns}", boundary.shape.words());
             refuse(
                 "beyond",
-                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side".to_owned() },
+                Mistake::Unexpected { found, expected: "a plane that does not turn, which has a far side".to_owned() },
             );
             return None;
         }
@@ -169,14 +169,14 @@ impl Outlet {
                 OutletPlace::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
             }
             (None, None) => {
-                let right =
+                let expected =
                     "region = \"..\", beyond = { point, normal } or beyond = \"<boundary>\" says where".to_owned();
-                refuse("", Mistake::Missing { right });
+                refuse("", Mistake::Missing { expected });
                 return None;
             }
             (Some(_), Some(_)) => {
-                let (found, right) = ("both".to_owned(), "one of region and beyond".to_owned());
-                refuse("", Mistake::Wrong { found, right });
+                let (found, expected) = ("both".to_owned(), "one of region and beyond".to_owned());
+                refuse("", Mistake::Unexpected { found, expected });
                 return None;
             }
         };

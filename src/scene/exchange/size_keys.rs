@@ -46,15 +46,15 @@ impl<'de> Deserialize<'de> for Radii {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes a number or a list.
         struct OneOrMore;
-        /// What is right.
-        const RIGHT: &str = "a number above 0, or a list of such numbers";
+        /// What is expected.
+        const EXPECTED: &str = "a number above 0, or a list of such numbers";
         impl<'de> Visitor<'de> for OneOrMore {
             type Value = Radii;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(RIGHT)
+                f.write_str(EXPECTED)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("expected {RIGHT}, found {value:?}"));
+                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
                 Positive::new(value).map(|radius| Radii(vec![radius.get()])).ok_or_else(refused)
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
@@ -63,7 +63,7 @@ impl<'de> Deserialize<'de> for Radii {
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
                 let radii: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|radius| radius.get()).collect();
                 if radii.is_empty() || radii.iter().any(|radius| *radius <= 0.0) {
-                    return Err(A::Error::custom(format!("expected {RIGHT}, found {radii:?}")));
+                    return Err(A::Error::custom(format!("expected {EXPECTED}, found {radii:?}")));
                 }
                 Ok(Radii(radii))
             }
@@ -108,22 +108,22 @@ impl SizesKeys {
         let chosen = [self.radius.is_some(), self.uniform.is_some(), self.normal.is_some()];
         match chosen.iter().filter(|chosen| **chosen).count() {
             1 => {}
-            0 => return Err(("sizes", Mistake::Missing { right: format!("one of {one}") })),
+            0 => return Err(("sizes", Mistake::Missing { expected: format!("one of {one}") })),
             _ => {
                 let found = "several".to_owned();
-                return Err(("sizes", Mistake::Wrong { found, right: format!("one of {one}") }));
+                return Err(("sizes", Mistake::Unexpected { found, expected: format!("one of {one}") }));
             }
         }
         if self.radius.is_none() && (self.by_number.is_some() || self.by_mass.is_some()) {
             let found = "shares without classes".to_owned();
-            let right = "radius = [..] beside by_number or by_mass".to_owned();
-            return Err(("sizes", Mistake::Wrong { found, right }));
+            let expected = "radius = [..] beside by_number or by_mass".to_owned();
+            return Err(("sizes", Mistake::Unexpected { found, expected }));
         }
         match (&self.radius, self.uniform, self.normal) {
             (Some(Radii(radii)), ..) => self.classes(radii),
             (_, Some(Bounds(bounds)), _) => Ok(Sizes::Uniform(bounds)),
             (_, _, Some(normal)) => normal.sizes(),
-            (None, None, None) => Err(("sizes", Mistake::Missing { right: format!("one of {one}") })),
+            (None, None, None) => Err(("sizes", Mistake::Missing { expected: format!("one of {one}") })),
         }
     }
 
@@ -134,13 +134,13 @@ impl SizesKeys {
             (None, Some(Shares(shares))) => (shares, true),
             (None, None) if radii.len() == 1 => return Ok(Sizes::Fixed(radii[0])),
             _ => {
-                let right = "by_number or by_mass = [..] gives the shares of the radii".to_owned();
-                return Err(("sizes", Mistake::Missing { right }));
+                let expected = "by_number or by_mass = [..] gives the shares of the radii".to_owned();
+                return Err(("sizes", Mistake::Missing { expected }));
             }
         };
         if shares.len() != radii.len() {
             let found = format!("{} radii and {} shares", radii.len(), shares.len());
-            return Err(("sizes", Mistake::Wrong { found, right: "a share for each radius".to_owned() }));
+            return Err(("sizes", Mistake::Unexpected { found, expected: "a share for each radius".to_owned() }));
         }
         let number = |(radius, share): (&f64, &f64)| if by_mass { share / radius.powi(3) } else { *share };
         let numbers: Vec<f64> = radii.iter().zip(shares).map(number).collect();
@@ -165,9 +165,9 @@ impl NormalKeys {
             let found = format!("{:.1} % between {between:?}", 100.0 * share);
             return Err((
                 "sizes.normal",
-                Mistake::Wrong {
+                Mistake::Unexpected {
                     found,
-                    right: "at least 5 % of the normal distribution between the bounds".to_owned(),
+                    expected: "at least 5 % of the normal distribution between the bounds".to_owned(),
                 },
             ));
         }

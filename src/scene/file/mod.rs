@@ -142,8 +142,8 @@ fn bytes(path: &Path) -> Result<Vec<u8>, String> {
         return Err("expected a file, found a device or a pipe".to_owned());
     }
     let length = about.len();
-    if let Some(right) = memory::lacking(length) {
-        return Err(format!("expected {right}, found {:.2} GB", length as f64 / 1e9));
+    if let Some(expected) = memory::lacking(length) {
+        return Err(format!("expected {expected}, found {:.2} GB", length as f64 / 1e9));
     }
     fs::read(path).map_err(|error| reason(&error))
 }

@@ -64,8 +64,10 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
     let mut labelled = false;
     for (place, header) in headers.iter().enumerate() {
         if headers[..place].contains(header) {
-            let mistake =
-                Mistake::Wrong { found: format!("column {header} twice"), right: "one column of each name".to_owned() };
+            let mistake = Mistake::Unexpected {
+                found: format!("column {header} twice"),
+                expected: "one column of each name".to_owned(),
+            };
             return Err(vec![FileFault::at(1, "", mistake)]);
         }
         let wanted = [&NEEDED[..], &POSSIBLE].concat().contains(&header.as_str()) || extra.contains(header);
@@ -89,12 +91,14 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
 fn unreadable(error: &csv::Error) -> FileFault {
     let line = error.position().map(|position| position.line() as usize);
     let mistake = match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            Mistake::Wrong { found: len.to_string(), right: format!("{expected_len} columns, as in the line of names") }
-        }
-        csv::ErrorKind::Utf8 { .. } => {
-            Mistake::Wrong { found: "bytes that are not UTF-8".to_owned(), right: "a line of column names".to_owned() }
-        }
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => Mistake::Unexpected {
+            found: len.to_string(),
+            expected: format!("{expected_len} columns, as in the line of names"),
+        },
+        csv::ErrorKind::Utf8 { .. } => Mistake::Unexpected {
+            found: "bytes that are not UTF-8".to_owned(),
+            expected: "a line of column names".to_owned(),
+        },
         _ => Mistake::Refused { message: error.to_string() },
     };
     FileFault { line, column: String::new(), mistake }

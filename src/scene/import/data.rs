@@ -73,8 +73,8 @@ impl Reader {
             [count, "atoms"] => match count.parse() {
                 Ok(count) => self.announced = Some((count, number)),
                 Err(_) => {
-                    let (found, right) = (format!("{count:?} atoms"), "a whole number of atoms".to_owned());
-                    return Err(vec![FileFault::at(number, "", Mistake::Wrong { found, right })]);
+                    let (found, expected) = (format!("{count:?} atoms"), "a whole number of atoms".to_owned());
+                    return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
                 }
             },
             [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
@@ -93,13 +93,13 @@ impl Reader {
             return Err(non_spherical(number));
         }
         let Some((_, columns)) = STYLES.iter().find(|(known, _)| *known == wanted) else {
-            let (found, right) = (format!("atom style {style}"), "sphere, granular or bpm/sphere".to_owned());
-            return Err(vec![FileFault::at(number, "", Mistake::Wrong { found, right })]);
+            let (found, expected) = (format!("atom style {style}"), "sphere, granular or bpm/sphere".to_owned());
+            return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
         };
         if words.len() != columns.len() && words.len() != columns.len() + 3 {
             let found = format!("{} numbers", words.len());
-            let right = format!("{}, and perhaps ix iy iz, of atom style {wanted}", columns.join(" "));
-            return Err(vec![FileFault::at(number, "", Mistake::Wrong { found, right })]);
+            let expected = format!("{}, and perhaps ix iy iz, of atom style {wanted}", columns.join(" "));
+            return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
         }
         if words[columns.len()..].iter().any(|image| *image != "0") {
             return Err(periodic(number));
@@ -138,8 +138,8 @@ impl Reader {
             let row = words.first().and_then(|id| id.parse().ok()).and_then(|id: u64| row_of.get(&id).copied());
             let Some(row) = row.filter(|_| words.len() == 4 || words.len() == VELOCITIES.len()) else {
                 let found = format!("{content:?}");
-                let right = "the number of an atom of this file, and vx vy vz wx wy wz".to_owned();
-                self.faults.push(FileFault::at(*number, "", Mistake::Wrong { found, right }));
+                let expected = "the number of an atom of this file, and vx vy vz wx wy wz".to_owned();
+                self.faults.push(FileFault::at(*number, "", Mistake::Unexpected { found, expected }));
                 continue;
             };
             for ((word, name), column) in words[1..].iter().zip(&VELOCITIES[1..]).zip(&mut columns) {
@@ -160,12 +160,12 @@ impl Reader {
         let count = self.rows.lines.len();
         match self.announced {
             Some((announced, line)) if announced != count && self.faults.is_empty() => {
-                let (found, right) = (count.to_string(), format!("{announced} atoms, as announced"));
-                self.faults.push(FileFault::at(line, "", Mistake::Wrong { found, right }));
+                let (found, expected) = (count.to_string(), format!("{announced} atoms, as announced"));
+                self.faults.push(FileFault::at(line, "", Mistake::Unexpected { found, expected }));
             }
             None if count == 0 => {
-                let right = "\"<number> atoms\" and a section Atoms of a data file".to_owned();
-                self.faults.push(FileFault::whole(Mistake::Wrong { found: "no atoms".to_owned(), right }));
+                let expected = "\"<number> atoms\" and a section Atoms of a data file".to_owned();
+                self.faults.push(FileFault::whole(Mistake::Unexpected { found: "no atoms".to_owned(), expected }));
             }
             _ => {}
         }

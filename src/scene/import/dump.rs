@@ -37,12 +37,12 @@ pub(crate) fn read(text: &str, request: &Request) -> Result<(Rows, Option<String
             snapshots.iter().filter_map(|snapshot| snapshot.timestep.map(|step| step.to_string())).collect();
         let found =
             request.timestep.filter(|_| !steps.is_empty()).map_or("no snapshot".to_owned(), |step| step.to_string());
-        let right = if steps.is_empty() {
+        let expected = if steps.is_empty() {
             "a dump file".to_owned()
         } else {
             format!("one of the time steps {}", steps.join(", "))
         };
-        return Err(vec![FileFault::whole(Mistake::Wrong { found, right })]);
+        return Err(vec![FileFault::whole(Mistake::Unexpected { found, expected })]);
     };
     chosen.read(request).map(|rows| (rows, units))
 }
@@ -119,11 +119,15 @@ impl Snapshot<'_> {
         }
         if self.announced != Some(self.atoms.len()) {
             let found = self.announced.map_or("none before the atoms".to_owned(), |_| self.atoms.len().to_string());
-            let right = self
+            let expected = self
                 .announced
                 .map_or("ITEM: NUMBER OF ATOMS".to_owned(), |count| format!("{count} lines of atoms, as announced"));
             let line = Some(line).filter(|line| *line > 0).or(self.last);
-            return Err(vec![FileFault { line, column: String::new(), mistake: Mistake::Wrong { found, right } }]);
+            return Err(vec![FileFault {
+                line,
+                column: String::new(),
+                mistake: Mistake::Unexpected { found, expected },
+            }]);
         }
         let names: Vec<Option<&str>> = columns.iter().map(|column| known(column, request.extra)).collect();
         let mut present: Vec<String> = names.iter().flatten().map(|name| (*name).to_owned()).collect();
@@ -190,8 +194,8 @@ impl Snapshot<'_> {
                         None => rows.push_label(word),
                         Some(first) if first != word => {
                             let found = format!("{first} and {word} in two columns of this name");
-                            let right = "the same in both".to_owned();
-                            faults.push(FileFault::at(*line, column, Mistake::Wrong { found, right }));
+                            let expected = "the same in both".to_owned();
+                            faults.push(FileFault::at(*line, column, Mistake::Unexpected { found, expected }));
                         }
                         Some(_) => {}
                     }
@@ -204,8 +208,9 @@ impl Snapshot<'_> {
                 }
             }
             if count != names.len() || text.split_whitespace().count() != count {
-                let (found, right) = (text.split_whitespace().count().to_string(), format!("{} numbers", names.len()));
-                faults.push(FileFault::at(*line, "", Mistake::Wrong { found, right }));
+                let (found, expected) =
+                    (text.split_whitespace().count().to_string(), format!("{} numbers", names.len()));
+                faults.push(FileFault::at(*line, "", Mistake::Unexpected { found, expected }));
             }
             if faults.len() >= REPORTED {
                 break;
@@ -238,8 +243,8 @@ impl Snapshot<'_> {
         if !columns.iter().any(|column| is_scaled(column)) {
             return Ok(());
         }
-        let refuse = |found: &str, right: &str| {
-            let mistake = Mistake::Wrong { found: found.to_owned(), right: right.to_owned() };
+        let refuse = |found: &str, expected: &str| {
+            let mistake = Mistake::Unexpected { found: found.to_owned(), expected: expected.to_owned() };
             Err(vec![FileFault::at(self.faces.0.max(1), "", mistake)])
         };
         let Some((low, edges)) = self.edges() else {

@@ -85,7 +85,7 @@ impl Rows {
             return Ok(());
         }
         let found = format!("{} materials for {} particles", self.label.len(), self.count);
-        let mistake = Mistake::Wrong { found, right: "one for each".to_owned() };
+        let mistake = Mistake::Unexpected { found, expected: "one for each".to_owned() };
         Err(vec![FileFault { line: None, column: self.label_column.clone(), mistake }])
     }
 
@@ -120,7 +120,7 @@ fn agree(first: &[f64], again: &[f64], tolerance: f64, names: [&str; 2], lines: 
     let apart = first.iter().zip(again).position(|(first, again)| (first - again).abs() > tolerance);
     apart.map_or(Ok(()), |row| {
         let found = format!("{:?} of {} and {:?} of {}", first[row], names[0], again[row], names[1]);
-        let mistake = Mistake::Wrong { found, right: "the same of both columns".to_owned() };
+        let mistake = Mistake::Unexpected { found, expected: "the same of both columns".to_owned() };
         let line = lines.get(row).map(|line| *line as usize);
         Err(vec![FileFault { line, column: names[1].to_owned(), mistake }])
     })
@@ -129,7 +129,7 @@ fn agree(first: &[f64], again: &[f64], tolerance: f64, names: [&str; 2], lines: 
 /// Refuses two columns of which each may say the same, in other words.
 fn twice(names: [&str; 2], line: Option<usize>) -> Vec<FileFault> {
     let found = format!("both columns {} and {}", names[0], names[1]);
-    let mistake = Mistake::Wrong { found, right: "one of them".to_owned() };
+    let mistake = Mistake::Unexpected { found, expected: "one of them".to_owned() };
     vec![FileFault { line, column: names[1].to_owned(), mistake }]
 }
 
@@ -165,15 +165,19 @@ impl FileFault {
         let mistake = if found.len() > 1 && found.iter().all(is_name) {
             Mistake::Column { column: column.to_owned(), found: found.to_vec() }
         } else {
-            let right = format!("a line of column names with {column}");
-            Mistake::Wrong { found: "a first line without names of columns".to_owned(), right }
+            let expected = format!("a line of column names with {column}");
+            Mistake::Unexpected { found: "a first line without names of columns".to_owned(), expected }
         };
         Self { line, column: String::new(), mistake }
     }
 
     /// A word where a number should stand, or a number that is not finite.
     fn number(line: usize, column: &str, found: &str) -> Self {
-        Self::at(line, column, Mistake::Wrong { found: format!("{found:?}"), right: "a finite number".to_owned() })
+        Self::at(
+            line,
+            column,
+            Mistake::Unexpected { found: format!("{found:?}"), expected: "a finite number".to_owned() },
+        )
     }
 }
 
@@ -199,9 +203,9 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
     let bytes = unpacked(bytes)?;
     let format = format(request, &bytes)?;
     if request.timestep.is_some() && format != Format::Dump {
-        let mistake = Mistake::Senseless {
+        let mistake = Mistake::InvalidCombination {
             what: "this file has no time steps to choose from".to_owned(),
-            right: "leave timestep out".to_owned(),
+            expected: "leave timestep out".to_owned(),
         };
         return Err(vec![FileFault { line: None, column: "timestep".to_owned(), mistake }]);
     }
@@ -222,9 +226,9 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
 /// Refuses more particles than there is memory for, where each needs so much \[bytes\].
 fn has_room(count: usize, each: u64) -> Result<(), Vec<FileFault>> {
     let needed = each.saturating_mul(count as u64);
-    memory::lacking(needed).map_or(Ok(()), |right| {
+    memory::lacking(needed).map_or(Ok(()), |expected| {
         let found = format!("{count} particles, which need about {:.2} GB of memory", needed as f64 / 1e9);
-        Err(vec![FileFault::whole(Mistake::Wrong { found, right })])
+        Err(vec![FileFault::whole(Mistake::Unexpected { found, expected })])
     })
 }
 
@@ -237,14 +241,14 @@ fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Vec<FileFault>> {
     let most = memory::available().map_or(u64::MAX, |free| free / 3);
     let mut unpacked = Vec::new();
     match MultiGzDecoder::new(bytes).take(most).read_to_end(&mut unpacked) {
-        Ok(length) if length as u64 == most => Err(vec![FileFault::whole(Mistake::Wrong {
+        Ok(length) if length as u64 == most => Err(vec![FileFault::whole(Mistake::Unexpected {
             found: format!("a gzip file that holds more than {:.2} GB", most as f64 / 1e9),
-            right: "what fits into a third of the memory that is free".to_owned(),
+            expected: "what fits into a third of the memory that is free".to_owned(),
         })]),
         Ok(_) => Ok(Cow::Owned(unpacked)),
-        Err(error) => Err(vec![FileFault::whole(Mistake::Wrong {
+        Err(error) => Err(vec![FileFault::whole(Mistake::Unexpected {
             found: format!("a damaged gzip file ({error})"),
-            right: "a whole one".to_owned(),
+            expected: "a whole one".to_owned(),
         })]),
     }
 }
@@ -262,9 +266,9 @@ fn format(request: &Request, bytes: &[u8]) -> Result<Format, Vec<FileFault>> {
         Some("data" | "lmpdat") => Ok(Format::Data),
         Some("dump" | "lammpstrj" | "liggghts") => Ok(Format::Dump),
         _ if bytes.starts_with(b"ITEM:") => Ok(Format::Dump),
-        _ => Err(vec![FileFault::whole(Mistake::Wrong {
+        _ => Err(vec![FileFault::whole(Mistake::Unexpected {
             found: "a file of unknown kind".to_owned(),
-            right: "format = \"csv\", \"vtu\", \"data\" or \"dump\" in the scene".to_owned(),
+            expected: "format = \"csv\", \"vtu\", \"data\" or \"dump\" in the scene".to_owned(),
         })]),
     }
 }
@@ -273,7 +277,8 @@ fn format(request: &Request, bytes: &[u8]) -> Result<Format, Vec<FileFault>> {
 fn text(bytes: &[u8]) -> Result<&str, Vec<FileFault>> {
     std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
-        let mistake = Mistake::Wrong { found: "bytes that are not UTF-8".to_owned(), right: "a text file".to_owned() };
+        let mistake =
+            Mistake::Unexpected { found: "bytes that are not UTF-8".to_owned(), expected: "a text file".to_owned() };
         vec![FileFault { line: Some(line), column: String::new(), mistake }]
     })
 }
@@ -288,9 +293,9 @@ fn units(request: &Request, stated: Option<String>) -> Result<Units, Vec<FileFau
             Some(units) if given.is_some_and(|given| given != units) => Err(vec![FileFault {
                 line: None,
                 column: "units".to_owned(),
-                mistake: Mistake::Senseless {
+                mistake: Mistake::InvalidCombination {
                     what: format!("the file itself says {name} units"),
-                    right: "leave units out".to_owned(),
+                    expected: "leave units out".to_owned(),
                 },
             }]),
             Some(units) => Ok(units),
@@ -328,14 +333,16 @@ fn needed(found: &[String], line: Option<usize>) -> Result<(), Vec<FileFault>> {
 
 /// Refuses particles that crossed the face of a periodic cell, or the cell itself.
 fn periodic(line: usize) -> Vec<FileFault> {
-    let mistake =
-        Mistake::NotThere { what: "periodic cells", instead: "positions in a box with fixed or shrink-wrapped faces" };
+    let mistake = Mistake::Unsupported {
+        what: "periodic cells",
+        instead: "positions in a box with fixed or shrink-wrapped faces",
+    };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 
 /// Refuses bodies that are not spheres.
 fn non_spherical(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres" };
+    let mistake = Mistake::Unsupported { what: "non-spherical bodies", instead: "spheres" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 

@@ -74,9 +74,9 @@ fn finite(values: Vec<f64>, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(values),
         Some(place) => {
-            let mistake = Mistake::Wrong {
+            let mistake = Mistake::Unexpected {
                 found: format!("{:?} at place {}", values[place], place + 1),
-                right: "a finite number".to_owned(),
+                expected: "a finite number".to_owned(),
             };
             Err(vec![FileFault { line: None, column: name.to_owned(), mistake }])
         }
@@ -85,6 +85,6 @@ fn finite(values: Vec<f64>, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "points of a VTK file (.vtu, .vtp, .vtk), plain or packed by zlib or lz4".to_owned();
-    vec![FileFault::whole(Mistake::Wrong { found, right })]
+    let expected = "points of a VTK file (.vtu, .vtp, .vtk), plain or packed by zlib or lz4".to_owned();
+    vec![FileFault::whole(Mistake::Unexpected { found, expected })]
 }

@@ -5,9 +5,9 @@
 //! walls. Kin of this are the methods of Jodrey and Tory (Phys. Rev. A 32, 1985, 2347) and of Mościński and Bargieł
 //! (Mol. Simul. 3, 1989, 201); the shaking is annealing by decreasing amplitude.
 
-use super::crowd::{Crowd, MARGIN, Overlaps};
 use super::generator::uniform;
 use super::region::Region;
+use super::relaxation::{Crowd, MARGIN, Overlaps};
 use super::{MOST, Sphere};
 use crate::base::document::Mistake;
 use rand_chacha::ChaCha8Rng;
@@ -35,15 +35,15 @@ pub(super) fn dense(
     tell: &mut dyn FnMut(usize, f64),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     if !(solid_fraction > 0.0 && solid_fraction <= DENSEST) {
-        let (found, right) = (format!("{solid_fraction:?}"), format!("a number above 0 and at most {DENSEST}"));
-        return Err(("packing.solid_fraction", Mistake::Wrong { found, right }));
+        let (found, expected) = (format!("{solid_fraction:?}"), format!("a number above 0 and at most {DENSEST}"));
+        return Err(("packing.solid_fraction", Mistake::Unexpected { found, expected }));
     }
     let radii = drawn(region.volume() * solid_fraction, radii, random)?;
     let width = region.size().into_iter().fold(f64::INFINITY, f64::min);
     let largest = radii.iter().copied().fold(0.0, f64::max);
     if 2.0 * largest * (1.0 + MARGIN) > width {
-        let (found, right) = (format!("a region {width:?} m wide"), "room for the largest sphere".to_owned());
-        return Err(("packing.radius", Mistake::Wrong { found, right }));
+        let (found, expected) = (format!("a region {width:?} m wide"), "room for the largest sphere".to_owned());
+        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
     }
     let mut crowd = Crowd::scattered(region, &radii, random, tell);
     parted(&mut crowd, radii.len(), random).map_err(|left| {
@@ -51,8 +51,8 @@ pub(super) fn dense(
             "spheres that fill {solid_fraction:?} of this region do not come apart: they still overlap by up to {:.1} radii",
             left.largest
         );
-        let right = "take less: random packings reach 0.55 to 0.62, and less in a region of few diameters".to_owned();
-        ("packing.solid_fraction", Mistake::Senseless { what, right })
+        let expected = "take less: random packings reach 0.55 to 0.62, and less in a region of few diameters".to_owned();
+        ("packing.solid_fraction", Mistake::InvalidCombination { what, expected })
     })?;
     Ok(crowd.places().zip(radii).map(|(place, radius)| (region.in_scene(place), radius)).collect())
 }
@@ -83,8 +83,8 @@ fn parted(crowd: &mut Crowd, count: usize, random: &mut ChaCha8Rng) -> Result<()
 fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Result<Vec<f64>, (&'static str, Mistake)> {
     let of = |radius: f64| 4.0 / 3.0 * PI * radius * radius * radius;
     if volume > MOST as f64 * of(least) {
-        let (found, right) = (format!("{least:?}"), format!("radii of which at most {MOST} fit"));
-        return Err(("packing.radius", Mistake::Wrong { found, right }));
+        let (found, expected) = (format!("{least:?}"), format!("radii of which at most {MOST} fit"));
+        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
     }
     let (mut radii, mut sum) = (Vec::new(), 0.0);
     loop {
@@ -96,8 +96,8 @@ fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Resul
         radii.push(radius);
     }
     if radii.is_empty() {
-        let (found, right) = (format!("{least:?}"), "a radius at which one sphere at least fits".to_owned());
-        return Err(("packing.radius", Mistake::Wrong { found, right }));
+        let (found, expected) = (format!("{least:?}"), "a radius at which one sphere at least fits".to_owned());
+        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
     }
     Ok(radii)
 }
@@ -107,9 +107,9 @@ mod tests {
     use super::*;
     use crate::base::quantity::Triple;
     use crate::base::quantity::{Fraction, Positive};
-    use crate::scene::packing::crowd::squared_distance;
     use crate::scene::packing::keys::{CylinderTable, PackingTable, Radii};
     use crate::scene::packing::packing;
+    use crate::scene::packing::relaxation::squared_distance;
     use std::num::NonZeroU32;
 
     /// An inclined cylinder that is filled so far with spheres of sizes from 1 to 1.66.

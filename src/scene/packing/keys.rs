@@ -90,15 +90,15 @@ impl<'de> Deserialize<'de> for Radii {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes a number or a list.
         struct OneOrTwo;
-        /// What is right.
-        const RIGHT: &str = "a number above 0, or [least, largest]";
+        /// What is expected.
+        const EXPECTED: &str = "a number above 0, or [least, largest]";
         impl<'de> Visitor<'de> for OneOrTwo {
             type Value = Radii;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(RIGHT)
+                f.write_str(EXPECTED)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("expected {RIGHT}, found {value:?}"));
+                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
                 Positive::new(value).map(|radius| Radii([radius.get(); 2])).ok_or_else(refused)
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
@@ -108,7 +108,7 @@ impl<'de> Deserialize<'de> for Radii {
                 let radii = Numbers.visit_seq(list)?;
                 match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
                     [least, most] if least > 0.0 && least <= most => Ok(Radii([least, most])),
-                    ref found => Err(A::Error::custom(format!("expected {RIGHT}, found {found:?}"))),
+                    ref found => Err(A::Error::custom(format!("expected {EXPECTED}, found {found:?}"))),
                 }
             }
         }

@@ -46,19 +46,19 @@ pub(crate) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'static str
         }
         (None, Some(counts)) => (table.origin.unwrap_or_default().0, counts.0.map(f64::from), None),
         (Some(_), None) => {
-            let (what, right) = ("a box has its own origin".to_owned(), "leave origin out".to_owned());
-            return Err(("lattice.origin", Mistake::Senseless { what, right }));
+            let (what, expected) = ("a box has its own origin".to_owned(), "leave origin out".to_owned());
+            return Err(("lattice.origin", Mistake::InvalidCombination { what, expected }));
         }
         _ => {
             let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
-            let right = "one of box and counts".to_owned();
-            return Err(("lattice", Mistake::Wrong { found, right }));
+            let expected = "one of box and counts".to_owned();
+            return Err(("lattice", Mistake::Unexpected { found, expected }));
         }
     };
     let total = counts[0] * counts[1] * counts[2] * places.len() as f64;
-    if let Some(right) = too_many(total) {
+    if let Some(expected) = too_many(total) {
         let found = format!("a lattice of {total:.3e} spheres");
-        return Err(("lattice", Mistake::Wrong { found, right }));
+        return Err(("lattice", Mistake::Unexpected { found, expected }));
     }
     Ok(filled(origin, counts.map(|count| count as usize), edges, places, bounds, radius))
 }

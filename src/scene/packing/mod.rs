@@ -1,6 +1,5 @@
 //! Particles that the program places itself: lattices and random packings.
 
-mod crowd;
 mod dense;
 pub(crate) mod generator;
 mod keys;
@@ -8,6 +7,7 @@ mod lattice;
 pub(crate) mod overlaps;
 mod random;
 mod region;
+mod relaxation;
 
 pub(crate) use keys::{LatticeTable, PackingTable};
 pub(crate) use lattice::lattice;
@@ -44,7 +44,7 @@ pub(crate) type Sphere = ([f64; 3], f64);
 /// How many spheres one set may have, so that a slip in a length does not fill the memory.
 const MOST: usize = 50_000_000;
 
-/// What would be right instead of so many spheres; nothing if there is memory for them.
+/// What was expected instead of so many spheres; nothing if there is memory for them.
 fn too_many(count: f64) -> Option<String> {
     let room = memory::available().map_or(MOST, |free| MOST.min((free / memory::SPHERE) as usize));
     match room {

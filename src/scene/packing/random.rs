@@ -86,8 +86,8 @@ pub(crate) fn packing(
         }
         _ => {
             let found = if table.count.is_some() { "both" } else { "neither" }.to_owned();
-            let right = "one of count and solid_fraction".to_owned();
-            Err(("packing", Mistake::Wrong { found, right }))
+            let expected = "one of count and solid_fraction".to_owned();
+            Err(("packing", Mistake::Unexpected { found, expected }))
         }
     }
 }
@@ -100,9 +100,9 @@ fn scattered(
     random: &mut ChaCha8Rng,
     tell: &mut dyn FnMut(usize),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
-    if let Some(right) = too_many(count as f64) {
+    if let Some(expected) = too_many(count as f64) {
         let found = format!("{count}");
-        return Err(("packing.count", Mistake::Wrong { found, right }));
+        return Err(("packing.count", Mistake::Unexpected { found, expected }));
     }
     let size = region.size();
     let radii: Vec<f64> = (0..count).map(|_| least + (most - least) * uniform(random)).collect();
@@ -118,7 +118,7 @@ fn scattered(
         }
         let Some(place) = room(radius, region, &classes, random) else {
             let fraction = volume / region.volume();
-            return Err(("packing.count", Mistake::Full { reached, count, fraction }));
+            return Err(("packing.count", Mistake::RegionFull { reached, count, fraction }));
         };
         if let Some(class) = classes.last_mut() {
             let cell = class.index(class.cell(place));
@@ -186,7 +186,7 @@ mod tests {
     fn a_full_box_says_how_many_it_took() {
         let (key, mistake) = packing(&cube(10_000, [0.1, 0.1]), 1, "a", &mut |_| {}).unwrap_err();
         assert_eq!(key, "packing.count");
-        let Mistake::Full { reached, count, fraction } = mistake else { panic!("{mistake}") };
+        let Mistake::RegionFull { reached, count, fraction } = mistake else { panic!("{mistake}") };
         assert_eq!(count, 10_000);
         assert!((0.2..0.4).contains(&fraction) && (50..100).contains(&reached), "{reached} {fraction}");
     }

@@ -47,8 +47,8 @@ impl Region {
             (None, Some(cylinder)) => Self::cylinder(cylinder),
             _ => {
                 let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
-                let right = "one of box and cylinder".to_owned();
-                Err(("packing", Mistake::Wrong { found, right }))
+                let expected = "one of box and cylinder".to_owned();
+                Err(("packing", Mistake::Unexpected { found, expected }))
             }
         }
     }
@@ -59,8 +59,8 @@ impl Region {
         let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
         let length = dot(way, way).sqrt();
         if length == 0.0 {
-            let (found, right) = (format!("from and to at {from:?}"), "two different points".to_owned());
-            return Err(("packing.cylinder", Mistake::Wrong { found, right }));
+            let (found, expected) = (format!("from and to at {from:?}"), "two different points".to_owned());
+            return Err(("packing.cylinder", Mistake::Unexpected { found, expected }));
         }
         let along = way.map(|part| part / length);
         // The axis of the scene that is least along the cylinder begins the frame.

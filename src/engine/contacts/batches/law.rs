@@ -3,8 +3,8 @@
 use super::whole_laws;
 use crate::base::lanes::Width;
 use crate::laws::contact::batch::{
-    MOST_COEFFICIENTS, Manner, Run, Stage, before_sub_models, book_bonded, book_open, book_released, keep_before, part,
-    undeform_arms,
+    EntryEvaluation, MOST_COEFFICIENTS, Run, Stage, before_sub_models, book_bonded, book_open, book_released,
+    keep_before, part, undeform_arms,
 };
 use crate::laws::contact::{Booked, Law, Needs};
 
@@ -40,7 +40,8 @@ impl BatchLaw {
         assert!(law.places().count <= MOST_COEFFICIENTS, "a law has at most {MOST_COEFFICIENTS} coefficients");
         let (needs, booked) = (law.needs(), law.booking());
         let [mut open, mut bonded, mut released] =
-            [Manner::Open, Manner::Bonded, Manner::Released].map(|manner| composed(&law, manner));
+            [EntryEvaluation::Open, EntryEvaluation::Bonded, EntryEvaluation::Released]
+                .map(|manner| composed(&law, manner));
         if law.is_booked() {
             let books = [book_open as Run, book_bonded, book_released];
             for (runs, book) in [&mut open, &mut bonded, &mut released].into_iter().zip(books) {
@@ -60,12 +61,12 @@ impl BatchLaw {
     }
 
     /// What is done with a batch of contacts in this manner, one after another, and what of the contacts that looks at.
-    pub(super) fn runs(&self, manner: Option<Manner>) -> (Needs, &[Run]) {
+    pub(super) fn runs(&self, manner: Option<EntryEvaluation>) -> (Needs, &[Run]) {
         match manner {
-            None | Some(Manner::Open) => (self.needs, &self.open),
-            Some(Manner::Bonded) => (Needs { spin: false, ..self.needs }, &self.bonded),
-            Some(Manner::Released) => (self.needs, &self.released),
-            Some(Manner::Followed) => (Needs::NONE, &[follow as Run]),
+            None | Some(EntryEvaluation::Open) => (self.needs, &self.open),
+            Some(EntryEvaluation::Bonded) => (Needs { spin: false, ..self.needs }, &self.bonded),
+            Some(EntryEvaluation::Released) => (self.needs, &self.released),
+            Some(EntryEvaluation::Followed) => (Needs::NONE, &[follow as Run]),
         }
     }
 }
@@ -75,8 +76,8 @@ impl BatchLaw {
 /// Where a bond suppresses contacts or has suppressed them, the normal force is taken from the overlap beyond an offset, and friction
 /// sees it even where it does not act. While bonded, the overlap becomes the offset. Afterwards what goes beyond the offset presses, and
 /// the offset shrinks with the overlap: nothing jumps when a bond breaks.
-fn composed(law: &Law, manner: Manner) -> Vec<Run> {
-    let (choice, is_open) = (law.choice(), matches!(manner, Manner::Open));
+fn composed(law: &Law, manner: EntryEvaluation) -> Vec<Run> {
+    let (choice, is_open) = (law.choice(), matches!(manner, EntryEvaluation::Open));
     if !is_open && !law.takes_offset() {
         return Vec::new();
     }
@@ -93,23 +94,23 @@ fn composed(law: &Law, manner: Manner) -> Vec<Run> {
     if law.has_cohesion() {
         runs.push(if is_open { cohesion.run } else { cohesion.run_from_offset });
     }
-    if let Manner::Bonded = manner {
+    if let EntryEvaluation::Bonded = manner {
         runs.push(|_, stage| stage.buffer.mute());
     }
     runs.push(if carries { friction.run_carried } else { friction.run });
     match manner {
-        Manner::Open => {
+        EntryEvaluation::Open => {
             runs.extend(law.has_rolling().then_some(rolls));
             runs.extend(law.parts().then_some(part as Run));
         }
-        Manner::Released => {
+        EntryEvaluation::Released => {
             if law.has_rolling() {
                 runs.push(|_, stage| stage.buffer.press());
                 runs.push(rolls);
             }
             runs.push(|_, stage| keep(stage, false));
         }
-        Manner::Bonded | Manner::Followed => runs.push(|_, stage| keep(stage, true)),
+        EntryEvaluation::Bonded | EntryEvaluation::Followed => runs.push(|_, stage| keep(stage, true)),
     }
     runs
 }

@@ -26,10 +26,10 @@ use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use crate::laws::contact::Needs;
 pub(crate) use crate::laws::contact::batch::{Buffer, ContactGeometry, Entries, FOUND, SpherePair, Touching};
-use crate::laws::contact::batch::{Manner, Stage};
+use crate::laws::contact::batch::{EntryEvaluation, Stage};
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
-use phases::{Meet, Spread, Touch};
+use phases::{GeometryPhase, ScatterPhase, TouchPhase};
 use std::ops::Range;
 
 /// Which bodies an entry of a list brings together.
@@ -98,7 +98,7 @@ pub(crate) struct Chosen {
     pub value: u8,
 }
 
-impl Manner {
+impl EntryEvaluation {
     /// The entries that are evaluated in this manner.
     fn chosen(self) -> Chosen {
         let silent = BONDED | SILENT | LASTING;
@@ -155,8 +155,8 @@ impl<B: Bodies> Batches<'_, B> {
             return sum;
         }
         let present = self.entries.present(entries.clone());
-        for manner in Manner::ALL {
-            let ahead = if matches!(manner, Manner::Open) { ahead.clone() } else { 0..0 };
+        for manner in EntryEvaluation::ALL {
+            let ahead = if matches!(manner, EntryEvaluation::Open) { ahead.clone() } else { 0..0 };
             if present & manner.chosen().value == manner.chosen().value {
                 self.run_chosen(buffer, entries.clone(), ahead, Some(manner), &mut sum);
             }
@@ -170,7 +170,7 @@ impl<B: Bodies> Batches<'_, B> {
         buffer: &mut Buffer,
         entries: Range<usize>,
         ahead: Range<usize>,
-        manner: Option<Manner>,
+        manner: Option<EntryEvaluation>,
         sum: &mut B::Sum,
     ) {
         let Self { width, law, bodies, .. } = *self;
@@ -181,14 +181,14 @@ impl<B: Bodies> Batches<'_, B> {
             let share = ahead.start + ahead.len() * (next - from) / (to - from);
             bodies.prefetch(fetched..share, needs);
             fetched = share;
-            let chosen = manner.map_or(Chosen { mask: 0, value: 0 }, Manner::chosen);
+            let chosen = manner.map_or(Chosen { mask: 0, value: 0 }, EntryEvaluation::chosen);
             let work = self;
             if manner.is_some() {
-                lanes::run(width, Touch::<B, false, true> { work, chosen, to, next: &mut next, buffer, sum });
+                lanes::run(width, TouchPhase::<B, false, true> { work, chosen, to, next: &mut next, buffer, sum });
             } else if law.law.holds_beyond_touch() {
-                lanes::run(width, Touch::<B, true, false> { work, chosen, to, next: &mut next, buffer, sum });
+                lanes::run(width, TouchPhase::<B, true, false> { work, chosen, to, next: &mut next, buffer, sum });
             } else {
-                lanes::run(width, Touch::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
+                lanes::run(width, TouchPhase::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
             buffer.complete(next == to, B::FOUND);
             self.meet(needs, buffer);
@@ -196,8 +196,8 @@ impl<B: Bodies> Batches<'_, B> {
             for run in runs {
                 run(width, stage);
             }
-            if !matches!(manner, Some(Manner::Followed)) {
-                lanes::run(width, Spread { bodies, needs, buffer, sum });
+            if !matches!(manner, Some(EntryEvaluation::Followed)) {
+                lanes::run(width, ScatterPhase { bodies, needs, buffer, sum });
             }
             buffer.proceed(B::FOUND);
         }
@@ -234,11 +234,11 @@ impl<B: Bodies> Batches<'_, B> {
             }
         }
         if !needs.torque {
-            lanes::run(self.width, Meet::<B, false, true> { bodies, needs, buffer });
+            lanes::run(self.width, GeometryPhase::<B, false, true> { bodies, needs, buffer });
         } else if needs.rare() {
-            lanes::run(self.width, Meet::<B, true, true> { bodies, needs, buffer });
+            lanes::run(self.width, GeometryPhase::<B, true, true> { bodies, needs, buffer });
         } else {
-            lanes::run(self.width, Meet::<B, true, false> { bodies, needs, buffer });
+            lanes::run(self.width, GeometryPhase::<B, true, false> { bodies, needs, buffer });
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::laws::contact::batch::{BATCH, Buffer};
 
 /// Phase 1: fills the batch with touching entries and ends the contacts that came apart. BEYOND: for laws that hold
 /// bodies together beyond touch, as far as their pair constant says. CHOSEN: some of the entries alone.
-pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool, const CHOSEN: bool> {
+pub(crate) struct TouchPhase<'a, 'b, B: Bodies, const BEYOND: bool, const CHOSEN: bool> {
     /// The list.
     pub(crate) work: &'a Batches<'a, B>,
     /// Which entries.
@@ -25,7 +25,7 @@ pub(crate) struct Touch<'a, 'b, B: Bodies, const BEYOND: bool, const CHOSEN: boo
     pub(crate) sum: &'b mut B::Sum,
 }
 
-impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_, B, BEYOND, CHOSEN> {
+impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for TouchPhase<'_, '_, B, BEYOND, CHOSEN> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { work, chosen, to, next, buffer, sum } = self;
@@ -219,7 +219,7 @@ unsafe fn end<B: Bodies>(mut parting: Parting<B>, entry: usize, count: usize, bi
 }
 
 /// Phase 2: geometry and relative motion. RARE: with what few laws look at; without it, registers are left for the rest.
-pub(crate) struct Meet<'b, B, const TORQUE: bool, const RARE: bool> {
+pub(crate) struct GeometryPhase<'b, B, const TORQUE: bool, const RARE: bool> {
     /// Which bodies meet.
     pub(crate) bodies: B,
     /// What of it the law needs.
@@ -228,7 +228,7 @@ pub(crate) struct Meet<'b, B, const TORQUE: bool, const RARE: bool> {
     pub(crate) buffer: &'b mut Buffer,
 }
 
-impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for Meet<'_, B, TORQUE, RARE> {
+impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for GeometryPhase<'_, B, TORQUE, RARE> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { bodies, mut needs, buffer } = self;
@@ -254,7 +254,7 @@ impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for Meet<'_, B, TOR
 }
 
 /// Phase 4.
-pub(crate) struct Spread<'b, B: Bodies> {
+pub(crate) struct ScatterPhase<'b, B: Bodies> {
     /// Which bodies meet.
     pub(crate) bodies: B,
     /// What the law does to the bodies.
@@ -265,7 +265,7 @@ pub(crate) struct Spread<'b, B: Bodies> {
     pub(crate) sum: &'b mut B::Sum,
 }
 
-impl<B: Bodies> Kernel for Spread<'_, B> {
+impl<B: Bodies> Kernel for ScatterPhase<'_, B> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         self.bodies.spread(&self.buffer.touching(), self.needs, self.sum);

@@ -2,7 +2,7 @@
 //! or as one.
 
 use super::law::BatchLaw;
-use super::{ContactGeometry, Entries, Manner};
+use super::{ContactGeometry, Entries, EntryEvaluation};
 use crate::base::lanes::Width;
 use crate::base::number::{Row, Vector};
 use crate::engine::contacts::coefficients::CoefficientTable;
@@ -32,7 +32,13 @@ fn contacts(law: &BatchLaw) -> Vec<Contact> {
 }
 
 /// Forces, couples, torques, flags and history of a batch, and behind them what it lost.
-fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Option<Manner>) -> Vec<(Vec<Row>, u8)> {
+fn batch(
+    law: &BatchLaw,
+    rows: &[f64],
+    uniform: bool,
+    width: Width,
+    manner: Option<EntryEvaluation>,
+) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
     let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true, carry: true };
@@ -214,7 +220,7 @@ fn suppressed_contacts_have_the_bits_of_one_contact_in_every_lane_width() {
     for choice in every_law().into_iter().filter(|choice| Law::of(choice).takes_offset()) {
         let rows = with_pair(&properties(), |pair| choice.coefficients(pair)).expect("all properties are there");
         let law = BatchLaw::of(Law::of(&choice).recorded());
-        for (manner, bonded) in [(Manner::Bonded, true), (Manner::Released, false)] {
+        for (manner, bonded) in [(EntryEvaluation::Bonded, true), (EntryEvaluation::Released, false)] {
             let expected = suppressed_one_by_one(&law, &rows, bonded);
             for width in Width::ALL.into_iter().filter(|width| width.offered()) {
                 let found = batch(&law, &rows, tried % 2 == 0, width, Some(manner));

@@ -3,7 +3,7 @@
 
 use crate::base::lanes::{self, Kernel, Lane};
 use crate::base::number::Vector;
-use crate::laws::contact::batch::{Gathered, Rubbed, Run, Stage, book};
+use crate::laws::contact::batch::{FrictionResult, Gathered, Run, Stage, book};
 use crate::laws::contact::normal::{hertzian::Hertzian, hooke_stiffness::HookeStiffness};
 use crate::laws::contact::rolling::{self, cdt::Cdt};
 use crate::laws::contact::tangential::history::History;
@@ -101,7 +101,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, const BOOKED: bool> Kernel for Wh
                     rolling = stage.roll::<N, C, false>(done, &row[after_normal + B::COUNT..], &contact, &normal);
                 }
                 if BOOKED {
-                    let Rubbed { force, spring, sliding } = rubbed;
+                    let FrictionResult { force, spring, sliding } = rubbed;
                     let step = N::splat(stage.step);
                     let before = [stage.history.loads, stage.history.other_loads];
                     let seen = Seen {

@@ -7,7 +7,7 @@ use crate::laws::surface::{Features, Saddle};
 use std::ops::Range;
 
 /// The contacts of a piece of the particles with the features of a surface, as they were in the last evaluation.
-pub(super) struct Past<'a> {
+pub(super) struct PreviousContacts<'a> {
     /// The particle of each (slot).
     pub(super) particle: &'a [u32],
     /// Its feature.
@@ -18,14 +18,14 @@ pub(super) struct Past<'a> {
 
 /// What a particle touches now.
 #[derive(Clone, Copy)]
-pub(super) struct Present<'a> {
+pub(super) struct CurrentContacts<'a> {
     /// The features.
     pub(super) features: &'a [u32],
     /// The saddles among them, each with its particle.
     pub(super) saddles: &'a [(u32, Saddle)],
 }
 
-impl Past<'_> {
+impl PreviousContacts<'_> {
     /// The entries of a particle (slot), and of none before `from`.
     #[inline]
     pub(super) fn of(&self, slot: u32, from: usize) -> Range<usize> {
@@ -56,8 +56,8 @@ impl Past<'_> {
 #[inline]
 pub(super) fn source(
     (feature, weight): (u32, f64),
-    present: Present,
-    (past, entries): (&Past, &Range<usize>),
+    present: CurrentContacts,
+    (past, entries): (&PreviousContacts, &Range<usize>),
     features: &dyn Features,
     law: &Law,
 ) -> Option<usize> {
@@ -75,8 +75,8 @@ pub(super) fn source(
 #[inline(never)]
 fn inherited(
     own: u32,
-    present: Present,
-    (past, entries): (&Past, &Range<usize>),
+    present: CurrentContacts,
+    (past, entries): (&PreviousContacts, &Range<usize>),
     features: &dyn Features,
     law: &Law,
 ) -> Option<usize> {

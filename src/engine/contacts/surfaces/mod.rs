@@ -10,7 +10,7 @@ mod nodes;
 mod plane;
 mod sphere;
 
-use super::ahead::{Ahead, Link};
+use super::ahead::{Link, SearchLimits};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
@@ -25,9 +25,9 @@ use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts
 use crate::laws::contact::Response;
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Scene, Shape};
-use features::{FeatureContacts, Spare};
+use features::{ColumnBuffer, FeatureContacts};
 use plane::{AtPlane, Plane, PlaneList};
-use sphere::{Load, Loaded};
+use sphere::{Load, ParticleLoads};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError, RwLock};
 
@@ -84,7 +84,7 @@ struct Workspace {
     /// Contacts with features, of each piece and each surface.
     contacts: Vec<FeatureContacts>,
     /// Room for the contacts with features of each surface.
-    spare: Vec<Spare>,
+    spare: Vec<ColumnBuffer>,
 }
 
 /// What all pieces share.
@@ -98,7 +98,7 @@ struct Work<'a> {
     /// Nodes of meshes.
     nodes: &'a [Nodes],
     /// Particles.
-    particles: Loaded<'a>,
+    particles: ParticleLoads<'a>,
     /// The threads.
     context: &'a Context<'a>,
 }
@@ -163,7 +163,7 @@ impl AtSurface {
         &self,
         plane: &Plane,
         (list, boundaries): (&'a WallContacts, &[BoundaryState]),
-        particles: Loaded<'a>,
+        particles: ParticleLoads<'a>,
     ) -> AtPlane<'a> {
         let boundary = &boundaries[list.boundary as usize];
         let (plane, pivot) = (plane.at(boundary), self.reference + boundary.displacement.into());
@@ -214,7 +214,7 @@ impl AtSurface {
                 id: state.particles.id[slot as usize],
                 boundary: self.name.clone(),
                 time: state.clock.time,
-                cause: Cause::Unknown,
+                cause: Cause::NotSearched,
             }),
         }
     }
@@ -245,14 +245,14 @@ impl Pass for SurfacePass {
         workspace.loads.clear();
         workspace.loads.resize(pieces * count, Load::default());
         workspace.contacts.resize_with(pieces * count, FeatureContacts::default);
-        workspace.spare.resize_with(count, Spare::default);
+        workspace.spare.resize_with(count, ColumnBuffer::default);
         let particles = state.particles.len();
         let work = Work {
             walls: &state.walls,
             entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
-            particles: Loaded::of(&mut state.particles),
+            particles: ParticleLoads::of(&mut state.particles),
             context,
         };
         let (loads, contacts) = (Shared::new(&mut workspace.loads), Shared::new(&mut workspace.contacts));
@@ -321,7 +321,7 @@ impl Pass for SurfacePass {
         }
     }
 
-    fn stiffness(&self, state: &State, ahead: &Ahead, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
                 Some(list) => listed::stiffness(&list, state, ahead, tell),

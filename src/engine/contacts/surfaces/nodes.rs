@@ -5,7 +5,7 @@ use crate::base::lanes::{Lane, Shared, vector};
 use crate::base::number::Vector;
 use crate::engine::run_error::RunError;
 use crate::engine::state::{Nodes, Row, State};
-use crate::laws::surface::{Deforming, Foot, Grip};
+use crate::laws::surface::{Deforming, Foot, NodeWeights};
 use std::sync::PoisonError;
 
 /// A mesh with its nodes, in a step.
@@ -20,7 +20,7 @@ pub(super) struct Moving<'a> {
 impl Moving<'_> {
     /// Adds what the nodes around a foot give, and returns velocity \[m/s\] and angular velocity \[rad/s\] of the surface at the
     /// point of contact, `behind` the foot \[m\]. `centre` is in the axes of the surface.
-    fn at(&self, foot: &Foot, centre: Vector, behind: Vector, grips: &mut Vec<Grip>) -> [Vector; 2] {
+    fn at(&self, foot: &Foot, centre: Vector, behind: Vector, grips: &mut Vec<NodeWeights>) -> [Vector; 2] {
         let from = grips.len();
         self.shape.grips(foot.feature, centre - foot.normal * foot.distance, grips);
         let mut motion = [Vector::zero(); 2];
@@ -47,7 +47,7 @@ fn behind(foot: &Foot, normal: Vector, radius: f64) -> Vector {
 #[derive(Default)]
 pub(super) struct Held {
     /// What the nodes around the feet give.
-    grips: Vec<Grip>,
+    grips: Vec<NodeWeights>,
     /// Where those of each contact end.
     ends: Vec<u32>,
     /// Velocities of the surface at the points of contact \[m/s\].

@@ -1,13 +1,13 @@
 //! A plane that does not turn: its particles are a static list, and touch is a distance.
 
 use super::AtSurface;
-use super::sphere::{Load, Loaded, SphereAt, lanes};
+use super::sphere::{Load, ParticleLoads, SphereAt, lanes};
 use crate::base::lanes::{Lane, vector};
 use crate::base::number::{Number, Vector};
-use crate::engine::contacts::ahead::Ahead;
+use crate::engine::contacts::ahead::SearchLimits;
 use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::engine::contacts::coefficients::CoefficientTable;
-use crate::engine::contacts::listed::{self, Kept, Listed, Met};
+use crate::engine::contacts::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use crate::engine::contacts::records::Motion;
 use crate::engine::state::{BoundaryState, State, WallContacts};
 use crate::laws::contact::{Contact, Law, Needs};
@@ -66,7 +66,7 @@ pub(super) struct AtPlane<'a> {
     /// The plane's material.
     pub(super) material: u32,
     /// The particles.
-    pub(super) particles: Loaded<'a>,
+    pub(super) particles: ParticleLoads<'a>,
 }
 
 impl Bodies for AtPlane<'_> {
@@ -147,14 +147,14 @@ pub(super) struct PlaneList<'a> {
     pub(super) plane: Plane,
 }
 
-impl Listed for PlaneList<'_> {
+impl ContactEntries for PlaneList<'_> {
     fn law(&self) -> &Law {
         &self.surface.law.law
     }
 
-    fn kept<'a>(&self, state: &'a State) -> Kept<'a> {
+    fn kept<'a>(&self, state: &'a State) -> ListColumns<'a> {
         let WallContacts { flags, history, pair_constant, .. } = self.surface.list(state);
-        Kept { flags, history, pair_constant }
+        ListColumns { flags, history, pair_constant }
     }
 
     fn bodies(&self, state: &State, entry: usize) -> listed::Bodies {
@@ -162,7 +162,7 @@ impl Listed for PlaneList<'_> {
         (list.particle[entry], None, Some(list.boundary))
     }
 
-    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<Met<'_>> {
+    fn meet(&self, state: &State, entry: usize, gap: f64, motion: Motion) -> Option<CurrentContact<'_>> {
         let (kept, slot) = (self.kept(state), self.surface.list(state).particle[entry]);
         let position = state.particles.position[slot as usize];
         let distance = self.plane.distance(position);
@@ -172,10 +172,10 @@ impl Listed for PlaneList<'_> {
         let (velocity, spin) = motion.of(state, slot);
         let geometry = self.plane.meet([distance, position[3]], [velocity, spin], kept.constant(entry));
         let row = self.surface.row(state, slot);
-        Some(Met { contact: geometry.contact, arms: [geometry.first_arm, 0.0], row })
+        Some(CurrentContact { contact: geometry.contact, arms: [geometry.first_arm, 0.0], row })
     }
 
-    fn deepest(&self, state: &State, ahead: &Ahead, _entry: usize, met: &Met) -> Option<Contact> {
+    fn deepest(&self, state: &State, ahead: &SearchLimits, _entry: usize, met: &CurrentContact) -> Option<Contact> {
         let (speed, boundary) = (self.plane.velocity - self.plane.conveying, self.surface.list(state).boundary);
         ahead.at_boundary(self.law(), met.row, &met.contact, speed.length(), boundary)
     }

@@ -83,7 +83,7 @@ pub(super) fn lanes<N: Number>(v: Vector) -> Vector<N> {
 
 /// The particles, while loads are added to them. Each belongs to one piece of work.
 #[derive(Clone, Copy)]
-pub(super) struct Loaded<'a> {
+pub(super) struct ParticleLoads<'a> {
     /// Positions and radii.
     pub(super) position: &'a [Row],
     /// Velocities and masses.
@@ -98,7 +98,7 @@ pub(super) struct Loaded<'a> {
     torque: Shared<Row>,
 }
 
-impl<'a> Loaded<'a> {
+impl<'a> ParticleLoads<'a> {
     /// The particles of a state.
     pub(super) fn of(particles: &'a mut Particles) -> Self {
         let (force, torque) = (Shared::new(&mut particles.force), Shared::new(&mut particles.torque));

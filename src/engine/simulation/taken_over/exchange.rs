@@ -2,8 +2,8 @@
 
 use super::{Description, Numbers};
 use crate::engine::flow;
-use crate::engine::state::exchange::Feed;
-use crate::engine::state::{Newcomer, State};
+use crate::engine::state::exchange::InsertionProgress;
+use crate::engine::state::{InsertedParticle, State};
 use crate::scene::{ParticleShape, Scene};
 
 /// Adds the particles that came in the other scene and that an insertion of this one could let come, behind the scene's own, and
@@ -21,10 +21,16 @@ pub(super) fn put_newcomers(
         let newcomer = other.slot_of(there).and_then(|slot| {
             let (position, velocity) = (other.position[slot], other.velocity[slot]);
             let material = from.material_here(scene, other.material[slot])?;
-            let number = other.number_of_newcomer(there)?;
+            let number = other.number_of_inserted(there)?;
             let fits = number > last && flow::is_made(scene, position[3], velocity[3], material);
             let inertia = ParticleShape::Sphere.inertia(velocity[3], position[3]);
-            (fits && state.exchange.is_some()).then_some(Newcomer { position, velocity, inertia, material, number })
+            (fits && state.exchange.is_some()).then_some(InsertedParticle {
+                position,
+                velocity,
+                inertia,
+                material,
+                number,
+            })
         });
         numbers.here.push(newcomer.as_ref().map(|newcomer| {
             // No particle has an orientation yet.
@@ -37,7 +43,7 @@ pub(super) fn put_newcomers(
         here.next = here.next.max(there.next);
         for (feed, insertion) in here.feeds.iter_mut().zip(&scene.insertions) {
             if let Some(known) = from.insertion(insertion).and_then(|place| there.feeds.get(place)) {
-                *feed = Feed { rate: feed.rate, rate_of_rate: 0.0, present: 0.0, ..*known };
+                *feed = InsertionProgress { rate: feed.rate, rate_of_rate: 0.0, present: 0.0, ..*known };
             }
         }
     }

@@ -69,7 +69,7 @@ impl Simulation {
         rigid_body::place_groups(scene, bodies, state);
         check_groups(scene, state, &there)?;
         exchange::take_gone(state, reached, &numbers);
-        simulation.check_room()?;
+        simulation.check_memory()?;
         simulation.rebuild(&simulation.standing());
         let time = simulation.state.clock.time;
         simulation.make_bonds(&Moment { number: 0, from: time, to: time }, &simulation.standing());

@@ -19,7 +19,7 @@ use crate::base::number::{Number, Vector};
 
 breakage_rules! {
     distance: distance::Distance,
-    stress: stress::ByStress,
+    stress: stress::StressLimits,
     mohr_coulomb: mohr_coulomb::MohrCoulomb,
 }
 

@@ -8,7 +8,7 @@ use crate::laws::bond::formulation::FormulationChoice;
 use crate::laws::bond::key_error::KeyError;
 
 flat_keys! {
-    /// Those of [`ByStress`].
+    /// Those of [`StressLimits`].
     {
         /// Largest normal stress \[Pa\].
         max_normal_stress: Positive ["Pa"],
@@ -49,7 +49,7 @@ const STRETCHED_BELOW: f64 = 1e-16;
 /// tension lowers it, below 0 if need be: Mohr and Coulomb's limit on the mean normal stress. A strength that is not
 /// given is ∞.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ByStress {
+pub struct StressLimits {
     /// Largest normal stress of a compressed bond, or ∞ \[Pa\].
     pub compression_strength: f64,
     /// Largest normal stress of a stretched bond, or ∞ \[Pa\].
@@ -62,7 +62,7 @@ pub struct ByStress {
     pub compression_share: f64,
 }
 
-/// Place of `tension` among [`ByStress::CAUSES`], from 1.
+/// Place of `tension` among [`StressLimits::CAUSES`], from 1.
 const TENSION: f64 = 1.0;
 /// Place of `compression`.
 const COMPRESSION: f64 = 2.0;
@@ -80,7 +80,7 @@ impl Keys {
     }
 }
 
-impl Breakage for ByStress {
+impl Breakage for StressLimits {
     type Keys = Keys;
     const LIMITS: &'static [&'static str] = &["max_normal_stress", "max_shear_stress"];
     const CAUSES: &'static [&'static str] = &["tension", "compression", "shear", "bending", "torsion"];

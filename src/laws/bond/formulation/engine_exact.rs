@@ -1,8 +1,8 @@
 //! LIGGGHTS-INL's bond, its errors included.
 
-use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use super::{Formulation, FormulationNeeds, TakeFormulation, relaxation_loss};
 use crate::base::number::{Number, Vector};
-use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Rows};
+use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Rates, Rows};
 
 /// The bond of the engine, for comparison and for scenes that must repeat its numbers.
 ///
@@ -32,7 +32,7 @@ use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Row
 pub struct EngineExact;
 
 /// Goes to the type: it always relaxes, if only by 0, and needs rates.
-pub(super) fn visit<V: TakeFormulation>(_asked: Asked, visitor: V) -> V::Output {
+pub(super) fn visit<V: TakeFormulation>(_asked: FormulationNeeds, visitor: V) -> V::Output {
     visitor.take::<EngineExact>()
 }
 
@@ -45,7 +45,7 @@ fn spring_energy<N: Number>(square: N, stiffness: N) -> N {
 
 /// The bending torque to store and the one that acts: without relative spin across the axis none does.
 #[inline(always)]
-fn bend<N: Number>(stored: Vector<N>, rate: Vector<N>, left: N, stiffness: N, step: N) -> Bent<N> {
+fn bend<N: Number>(stored: Vector<N>, rate: Vector<N>, left: N, stiffness: N, step: N) -> BendingIncrement<N> {
     let one = N::splat(1.0);
     let square = rate.dot(rate);
     let moving = N::both(square.greater(N::zero()), step.greater(N::zero()));
@@ -54,11 +54,15 @@ fn bend<N: Number>(stored: Vector<N>, rate: Vector<N>, left: N, stiffness: N, st
     let before = spring_energy(projected.dot(projected), stiffness);
     let advanced = projected * left - rate * (stiffness * step);
     let kept = Vector::select(moving, advanced, stored);
-    Bent { kept, acting: Vector::select(moving, kept, Vector::zero()), before: N::select(moving, before, N::zero()) }
+    BendingIncrement {
+        kept,
+        acting: Vector::select(moving, kept, Vector::zero()),
+        before: N::select(moving, before, N::zero()),
+    }
 }
 
 /// Bending in one step.
-struct Bent<N: Number> {
+struct BendingIncrement<N: Number> {
     /// What is stored \[N m\].
     kept: Vector<N>,
     /// What acts \[N m\].
@@ -87,7 +91,7 @@ impl Formulation for EngineExact {
         law: &Coefficients<N>,
         pair: &Pair<N>,
         motion: &Motion<N>,
-        _halfway: &Halfway<N>,
+        _halfway: &Intermediate<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
         let (axis, section) = (motion.axis, &motion.section);

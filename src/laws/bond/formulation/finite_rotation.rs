@@ -1,10 +1,10 @@
 //! Force and moments as the gradient of one stored energy of positions and orientations.
 
-use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use super::{Formulation, FormulationNeeds, TakeFormulation, relaxation_loss};
 use crate::base::number::{Number, Vector};
 use crate::laws::bond::angle::{arctangent_ratio, arctangent_series, continued, is_flat, tangent_ratio, twice_angle};
 use crate::laws::bond::elasticity::Parts;
-use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Quaternion, Rates, Rows};
+use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Quaternion, Rates, Rows};
 
 /// A bond with one stored energy, exact for rotations of any size.
 ///
@@ -45,7 +45,7 @@ use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Quaternion
 pub struct FiniteRotation<const RELAXING: bool, const RATES: bool = false>;
 
 /// Goes from what is asked to the type: it needs no rates itself.
-pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
+pub(super) fn visit<V: TakeFormulation>(asked: FormulationNeeds, visitor: V) -> V::Output {
     match (asked.relaxation, asked.rates) {
         (false, false) => visitor.take::<FiniteRotation<false, false>>(),
         (false, true) => visitor.take::<FiniteRotation<false, true>>(),
@@ -186,14 +186,14 @@ impl<N: Number> Ends<N> {
 
     /// One number behind the other.
     #[inline(always)]
-    fn to_numbers(self) -> Halfway<N> {
+    fn to_numbers(self) -> Intermediate<N> {
         let ([a, b], [c, d], [e, f]) = (self.carried, self.beside, self.ahead);
         [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e, f, self.along, self.across, self.shared]
     }
 
     /// Back.
     #[inline(always)]
-    fn from_numbers(numbers: &Halfway<N>) -> Self {
+    fn from_numbers(numbers: &Intermediate<N>) -> Self {
         let vector = |first: usize| Vector::new(numbers[first], numbers[first + 1], numbers[first + 2]);
         Self {
             carried: [vector(0), vector(3)],
@@ -316,7 +316,7 @@ impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotatio
     const HALFWAY: usize = 17;
 
     #[inline(always)]
-    fn halfway<N: Number>(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Halfway<N> {
+    fn halfway<N: Number>(pair: &Pair<N>, distance: N, rows: &Rows<N>) -> Intermediate<N> {
         Ends::of(pair, distance, rows).to_numbers()
     }
 
@@ -325,7 +325,7 @@ impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotatio
         law: &Coefficients<N>,
         pair: &Pair<N>,
         motion: &Motion<N>,
-        halfway: &Halfway<N>,
+        halfway: &Intermediate<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
         let half = N::splat(0.5);

@@ -1,8 +1,8 @@
 //! The document's rate equations, with stored vectors that turn with the bond.
 
-use super::{Asked, Formulation, TakeFormulation, relaxation_loss};
+use super::{Formulation, FormulationNeeds, TakeFormulation, relaxation_loss};
 use crate::base::number::{Number, Vector};
-use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Rows};
+use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Rates, Rows};
 
 /// Shear force, torsion and bending torque grow by increments and turn with the bond.
 ///
@@ -32,7 +32,7 @@ use crate::laws::bond::{Coefficients, Elastic, Halfway, Motion, Pair, Rates, Row
 pub struct Incremental<const RELAXING: bool>;
 
 /// Goes from what is asked to the type: it needs rates itself.
-pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
+pub(super) fn visit<V: TakeFormulation>(asked: FormulationNeeds, visitor: V) -> V::Output {
     match asked.relaxation {
         false => visitor.take::<Incremental<false>>(),
         true => visitor.take::<Incremental<true>>(),
@@ -122,7 +122,7 @@ impl<const RELAXING: bool> Formulation for Incremental<RELAXING> {
         law: &Coefficients<N>,
         pair: &Pair<N>,
         motion: &Motion<N>,
-        _halfway: &Halfway<N>,
+        _halfway: &Intermediate<N>,
         rows: &Rows<N>,
     ) -> Elastic<N> {
         let (axis, section) = (motion.axis, &motion.section);

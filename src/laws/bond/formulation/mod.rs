@@ -6,7 +6,7 @@ pub mod finite_rotation;
 pub mod incremental;
 
 use super::elasticity::Parts;
-use super::{Coefficients, Elastic, Halfway, MOST_HALFWAY, Motion, Pair, Rates, Rows};
+use super::{Coefficients, Elastic, Intermediate, MOST_HALFWAY, Motion, Pair, Rates, Rows};
 use crate::base::number::Number;
 use serde::Deserialize;
 
@@ -31,7 +31,7 @@ macro_rules! formulations {
             }
 
             /// Goes from the row of the list to the type that does what is asked and no more.
-            pub fn visit<V: TakeFormulation>(self, asked: Asked, visitor: V) -> V::Output {
+            pub fn visit<V: TakeFormulation>(self, asked: FormulationNeeds, visitor: V) -> V::Output {
                 match self { $(Self::$row => $name::visit(asked, visitor),)+ }
             }
         }
@@ -59,14 +59,14 @@ impl FormulationChoice {
 
 /// What a law needs of a formulation beyond force and moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct FormulationNeeds {
     /// Relaxation.
     pub relaxation: bool,
     /// The rates, which damping uses.
     pub rates: bool,
 }
 
-impl Asked {
+impl FormulationNeeds {
     /// All that can be asked.
     pub const ALL: Self = Self { relaxation: true, rates: true };
 }
@@ -102,7 +102,7 @@ pub trait Formulation: Send + Sync + 'static {
 
     /// The part of the evaluation before a division for which the rest waits, and the quotient.
     #[inline(always)]
-    fn halfway<N: Number>(_pair: &Pair<N>, _distance: N, _rows: &Rows<N>) -> Halfway<N> {
+    fn halfway<N: Number>(_pair: &Pair<N>, _distance: N, _rows: &Rows<N>) -> Intermediate<N> {
         [N::zero(); MOST_HALFWAY]
     }
 
@@ -111,7 +111,7 @@ pub trait Formulation: Send + Sync + 'static {
         law: &Coefficients<N>,
         pair: &Pair<N>,
         motion: &Motion<N>,
-        halfway: &Halfway<N>,
+        halfway: &Intermediate<N>,
         rows: &Rows<N>,
     ) -> Elastic<N>;
 

@@ -4,7 +4,7 @@
 //! Losses are summed in eight columns, by the place of the contact in the batch: the same bits in every lane width.
 
 use super::stage::Stage;
-use super::{Manner, SLIDING};
+use super::{EntryEvaluation, SLIDING};
 use crate::base::lanes::{self, Kernel, Lane, Width, vector};
 use crate::base::number::Vector;
 use crate::laws::contact::{Booked, Contact, LossKind, Seen};
@@ -30,17 +30,17 @@ pub(crate) fn keep_before(width: Width, stage: &mut Stage) {
 
 /// Books what contacts lose on which the whole law acts.
 pub(crate) fn book_open(width: Width, stage: &mut Stage) {
-    lanes::run(width, Book { stage, manner: Manner::Open });
+    lanes::run(width, Book { stage, manner: EntryEvaluation::Open });
 }
 
 /// The same of those whose normal force a bond suppresses.
 pub(crate) fn book_bonded(width: Width, stage: &mut Stage) {
-    lanes::run(width, Book { stage, manner: Manner::Bonded });
+    lanes::run(width, Book { stage, manner: EntryEvaluation::Bonded });
 }
 
 /// The same of those whose normal force is taken from an offset.
 pub(crate) fn book_released(width: Width, stage: &mut Stage) {
-    lanes::run(width, Book { stage, manner: Manner::Released });
+    lanes::run(width, Book { stage, manner: EntryEvaluation::Released });
 }
 
 /// Springs and normal velocities before sub-models work.
@@ -80,7 +80,7 @@ struct Book<'a, 'b> {
     /// What sub-models left.
     stage: &'a mut Stage<'b>,
     /// What was done with the contacts.
-    manner: Manner,
+    manner: EntryEvaluation,
 }
 
 impl Kernel for Book<'_, '_> {
@@ -139,7 +139,7 @@ pub(crate) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
 /// # Safety
 /// As for [`Stage::contact`].
 #[inline(always)]
-unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> {
+unsafe fn seen<N: Lane>(stage: &Stage, manner: EntryEvaluation, place: usize) -> Seen<N> {
     let (step, booked, buffer) = (N::splat(stage.step), *stage.booked, &*stage.buffer);
     let history = &stage.history;
     // SAFETY: the caller's promise.
@@ -153,12 +153,12 @@ unsafe fn seen<N: Lane>(stage: &Stage, manner: Manner, place: usize) -> Seen<N> 
         }
         let mut seen = Seen {
             normal: buffer.normal(place),
-            pressing: if matches!(manner, Manner::Open) { contact.overlap } else { buffer.pressing(place) },
+            pressing: if matches!(manner, EntryEvaluation::Open) { contact.overlap } else { buffer.pressing(place) },
             least_force: match stage.uniform {
                 Some(row) => N::splat(row[booked.least_force]),
                 None => stage.table.gather(booked.least_force, buffer.row.as_ptr().add(place)),
             },
-            acts: !matches!(manner, Manner::Bonded),
+            acts: !matches!(manner, EntryEvaluation::Bonded),
             normal_displacement: contact.normal_velocity * step,
             tangential_displacement: contact.slip * step,
             turn: contact.relative_spin * step,

@@ -20,7 +20,7 @@ pub(crate) use entries::Entries;
 pub(crate) use gathered::Gathered;
 pub(crate) use losses::{book, book_bonded, book_open, book_released, keep_before};
 pub(crate) use sphere_pair::SpherePair;
-pub(crate) use stage::{Rubbed, Stage};
+pub(crate) use stage::{FrictionResult, Stage};
 pub(crate) use sub_models::{before_sub_models, cohesion, normal, part, rolling, tangential, undeform_arms};
 pub(crate) use sums::Sums;
 
@@ -49,7 +49,7 @@ pub(crate) struct ContactGeometry<N = f64> {
 
 /// What the law does at an entry, depending on a bond that may suppress its contact.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Manner {
+pub(crate) enum EntryEvaluation {
     /// The whole law acts.
     Open,
     /// A bond suppresses the normal force.
@@ -60,7 +60,7 @@ pub(crate) enum Manner {
     Followed,
 }
 
-impl Manner {
+impl EntryEvaluation {
     /// All, in the order in which they are done.
     pub(crate) const ALL: [Self; 4] = [Self::Open, Self::Bonded, Self::Released, Self::Followed];
 }

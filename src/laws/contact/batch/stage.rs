@@ -38,7 +38,7 @@ pub(crate) struct Stage<'a> {
 }
 
 /// What friction did to a register's worth of contacts.
-pub(crate) struct Rubbed<N: Lane> {
+pub(crate) struct FrictionResult<N: Lane> {
     /// Force on the first body \[N\].
     pub(crate) force: Vector<N>,
     /// What friction remembers now.
@@ -167,9 +167,12 @@ impl Stage<'_> {
         contact: &Contact<N>,
         normal: &NormalForce<N>,
         mut history: [N; 4],
-    ) -> Rubbed<N> {
-        let mut rubbed =
-            Rubbed { force: contact.normal * normal.force, spring: history, sliding: N::zero().greater(N::zero()) };
+    ) -> FrictionResult<N> {
+        let mut rubbed = FrictionResult {
+            force: contact.normal * normal.force,
+            spring: history,
+            sliding: N::zero().greater(N::zero()),
+        };
         let (remembers, own) = (B::HISTORY.is_some(), self.history.tangential);
         // SAFETY: the caller's promise.
         unsafe {
@@ -180,7 +183,7 @@ impl Stage<'_> {
                     (history, step) = (self.buffer.carry(place).spring(contact.normal, history), N::zero());
                 }
                 let friction = B::force(B::lanes(row), contact, normal, history, step);
-                rubbed = Rubbed {
+                rubbed = FrictionResult {
                     force: rubbed.force + friction.force,
                     spring: friction.history,
                     sliding: friction.sliding,

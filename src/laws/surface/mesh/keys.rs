@@ -4,7 +4,7 @@ use super::topology::Topology;
 use super::{Mesh, faults, files};
 use crate::base::geometry::rotation;
 use crate::base::quantity::{MaterialIndex, Positive, Triple};
-use crate::laws::surface::{Around, Files, Shape, ShapeKeys};
+use crate::laws::surface::{Files, Shape, ShapeContext, ShapeKeys};
 use serde::Deserialize;
 
 /// `mesh = { file }`
@@ -35,8 +35,8 @@ impl Keys {
                 around.refuse_file(key, file, "no triangle", "a surface");
                 return None;
             }
-            Err((found, right)) => {
-                around.refuse_file(key, file, &found, &right);
+            Err((found, expected)) => {
+                around.refuse_file(key, file, &found, &expected);
                 return None;
             }
         };
@@ -63,7 +63,7 @@ impl Keys {
         for file in &self.joined {
             triangles.extend(self.triangles("mesh.joined", file, around)?);
         }
-        let mut refuse = |found: String, right: &str| around.refuse_file("mesh.file", &self.file, &found, right);
+        let mut refuse = |found: String, expected: &str| around.refuse_file("mesh.file", &self.file, &found, expected);
         let mut topology = match Topology::of(&triangles) {
             Ok(topology) => topology,
             Err(triangle) => {
@@ -78,8 +78,8 @@ impl Keys {
             return None;
         }
         if let (Err(triangle), true) = (topology.turn_alike(), front) {
-            let right = if self.sides.is_some() { "sides = 2" } else { "a surface with an inside" };
-            refuse(format!("a surface that has one side only, seen at triangle {triangle}"), right);
+            let expected = if self.sides.is_some() { "sides = 2" } else { "a surface with an inside" };
+            refuse(format!("a surface that has one side only, seen at triangle {triangle}"), expected);
             return None;
         }
         if let Some(found) = faults::found(&topology) {
@@ -112,7 +112,7 @@ impl Keys {
 impl ShapeKeys for Keys {
     const HINT: &'static str = "mesh = { file }";
 
-    fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let material = around.material("a mesh");
         if let Some(sides) = self.sides.filter(|sides| ![1, 2].contains(sides)) {
             around.refuse("mesh.sides", sides.to_string(), "1 or 2");

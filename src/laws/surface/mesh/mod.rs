@@ -22,7 +22,7 @@ use crate::base::quantity::MaterialIndex;
 use edge::Edge;
 use face::Faces;
 pub(crate) use keys::Keys;
-pub use nodes::{Deforming, Grip};
+pub use nodes::{Deforming, NodeWeights};
 use topology::Topology;
 use tree::Tree;
 
@@ -151,7 +151,7 @@ pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -
     let mut triangles = Vec::new();
     for file in files {
         triangles.extend(
-            files::read("mesh.stl", file).map_err(|(found, right)| format!("expected {right}, found {found}"))?,
+            files::read("mesh.stl", file).map_err(|(found, expected)| format!("expected {expected}, found {found}"))?,
         );
     }
     let topology = Topology::of(&triangles).map_err(|triangle| format!("triangle {triangle} has no area"))?;

@@ -21,7 +21,7 @@ use crate::base::number::{Row, Vector};
 
 /// What a node gives to the motion of the surface at a foot, and takes from the load there.
 #[derive(Clone, Copy, Debug)]
-pub struct Grip {
+pub struct NodeWeights {
     /// The node, from 0.
     pub node: u32,
     /// Share of its velocity in that of the foot, and of the force in its own.
@@ -30,7 +30,7 @@ pub struct Grip {
     turn: [Vector; 3],
 }
 
-impl Grip {
+impl NodeWeights {
     /// What its velocity \[m/s\] gives to velocity \[m/s\] and angular velocity \[rad/s\] of the surface at the foot.
     pub fn motion(&self, velocity: Vector) -> [Vector; 2] {
         [velocity * self.weight, Vector::from(self.turn.map(|row| row.dot(velocity)))]
@@ -111,7 +111,7 @@ impl Deforming {
     }
 
     /// Adds what the nodes around a foot on a feature give to the motion there.
-    pub fn grips(&self, feature: u32, foot: Vector, grips: &mut Vec<Grip>) {
+    pub fn grips(&self, feature: u32, foot: Vector, grips: &mut Vec<NodeWeights>) {
         let topology = &self.mesh.topology;
         let (vertices, edges) = (topology.vertices.len() as u32, topology.edges.len() as u32);
         if feature < vertices {
@@ -130,7 +130,7 @@ impl Deforming {
 
     /// How the nodes of a triangle turn it, `share` of it: by their motion along the normal about axes in its plane, by that in its plane
     /// about the normal.
-    fn turn_face(&self, triangle: u32, share: f64, grips: &mut Vec<Grip>) {
+    fn turn_face(&self, triangle: u32, share: f64, grips: &mut Vec<NodeWeights>) {
         let nodes = self.mesh.topology.triangles[triangle as usize];
         let [a, b, c] = nodes.map(|node| self.at(node));
         let (middle, normal) = ((a + b + c) * (1.0 / 3.0), self.mesh.faces.at(triangle).normal);
@@ -138,13 +138,13 @@ impl Deforming {
         let arms = [a - middle, b - middle, c - middle];
         let squares: f64 = arms.iter().map(|arm| arm.dot(*arm)).sum();
         for ((node, opposite), arm) in nodes.into_iter().zip([c - b, a - c, b - a]).zip(arms) {
-            grips.push(Grip::turning(node, opposite * (share / area), normal));
-            grips.push(Grip::turning(node, normal * (share / squares), normal.cross(arm)));
+            grips.push(NodeWeights::turning(node, opposite * (share / area), normal));
+            grips.push(NodeWeights::turning(node, normal * (share / squares), normal.cross(arm)));
         }
     }
 
     /// At a foot inside a triangle.
-    fn on_face(&self, triangle: u32, foot: Vector, grips: &mut Vec<Grip>) {
+    fn on_face(&self, triangle: u32, foot: Vector, grips: &mut Vec<NodeWeights>) {
         let nodes = self.mesh.topology.triangles[triangle as usize];
         let [a, b, c] = nodes.map(|node| self.at(node));
         let normal = (b - a).cross(c - a);
@@ -152,13 +152,13 @@ impl Deforming {
         let opposite = |one: Vector, other: Vector| (one - foot).cross(other - foot).dot(normal) / square;
         let [first, second] = [opposite(b, c), opposite(c, a)];
         for (node, weight) in nodes.into_iter().zip([first, second, 1.0 - first - second]) {
-            grips.push(Grip { node, weight, turn: [Vector::zero(); 3] });
+            grips.push(NodeWeights { node, weight, turn: [Vector::zero(); 3] });
         }
         self.turn_face(triangle, 1.0, grips);
     }
 
     /// At a foot inside an edge.
-    fn at_edge(&self, edge: u32, foot: Vector, grips: &mut Vec<Grip>) {
+    fn at_edge(&self, edge: u32, foot: Vector, grips: &mut Vec<NodeWeights>) {
         let topology = &self.mesh.topology;
         let ends = topology.edges[edge as usize];
         let [a, b] = ends.map(|node| self.at(node));
@@ -169,7 +169,7 @@ impl Deforming {
             // t × v/L, row by row.
             let t = way * (sign / square);
             let turn = [Vector::new(0.0, -t.z, t.y), Vector::new(t.z, 0.0, -t.x), Vector::new(-t.y, t.x, 0.0)];
-            grips.push(Grip { node, weight, turn });
+            grips.push(NodeWeights { node, weight, turn });
         }
         let triangles = &topology.at_edge[edge as usize];
         let from = grips.len();
@@ -180,13 +180,13 @@ impl Deforming {
             // Of what the triangles turn, the part along the edge.
             let [x, y, z] = grip.turn;
             let by = x * along.x + y * along.y + z * along.z;
-            *grip = Grip::turning(grip.node, along, by);
+            *grip = NodeWeights::turning(grip.node, along, by);
         }
     }
 
     /// At a vertex.
-    fn at_vertex(&self, vertex: u32, grips: &mut Vec<Grip>) {
-        grips.push(Grip { node: vertex, weight: 1.0, turn: [Vector::zero(); 3] });
+    fn at_vertex(&self, vertex: u32, grips: &mut Vec<NodeWeights>) {
+        grips.push(NodeWeights { node: vertex, weight: 1.0, turn: [Vector::zero(); 3] });
         let triangles = &self.mesh.topology.at_vertex[vertex as usize];
         let whole: f64 = triangles.iter().map(|triangle| self.mesh.angle(*triangle, vertex)).sum();
         for &triangle in triangles {

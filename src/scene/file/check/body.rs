@@ -17,7 +17,7 @@ pub(super) fn body(
 ) -> Body {
     let free = |axis: usize| axes[axis].is_free();
     let mut senseless = |key: &str, what: String| {
-        faults.add(table, key, Mistake::Senseless { what, right: "leave it out".to_owned() });
+        faults.add(table, key, Mistake::InvalidCombination { what, expected: "leave it out".to_owned() });
     };
     let given = [
         ("mass", written.mass.is_some()),
@@ -55,8 +55,8 @@ pub(super) fn lacks(boundary: &Boundary, table: &str, faults: &mut Faults) {
         return;
     }
     let mut missing = |key: &str, axis: usize| {
-        let right = format!("a {} that forces move ({}) needs it", shape.key(), AxisMotion::WORDS[axis]);
-        faults.add(table, key, Mistake::Missing { right });
+        let expected = format!("a {} that forces move ({}) needs it", shape.key(), AxisMotion::WORDS[axis]);
+        faults.add(table, key, Mistake::Missing { expected });
     };
     let free = |range: std::ops::Range<usize>| range.into_iter().find(|axis| axes[*axis].is_free());
     if let Some(axis) = free(0..3).filter(|_| body.mass == 0.0) {

@@ -51,11 +51,11 @@ fn idle_at_plane(scene: &SceneDraft, bond: &Bond, distance: f64, plane: Boundary
     if closest.is_some_and(|closest| closest < distance) {
         return None;
     }
-    let right = closest.map_or_else(
+    let expected = closest.map_or_else(
         || "a particle in front of the plane".to_owned(),
         |closest| format!("a distance above {closest:.3e}, twice that of the closest centre from the plane"),
     );
-    let mistake = Mistake::Wrong { found: format!("{distance:.3e}"), right };
+    let mistake = Mistake::Unexpected { found: format!("{distance:.3e}"), expected };
     Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
 }
 
@@ -88,6 +88,6 @@ fn idle_law(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
         reach *= 2.0;
         Some(closest(reach)).filter(|least| least.is_finite())
     });
-    let mistake = Mistake::BondsNobody { distance, closest: found };
+    let mistake = Mistake::BondsNoPair { distance, closest: found };
     Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
 }

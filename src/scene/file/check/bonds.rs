@@ -1,11 +1,11 @@
 //! Bond laws: between whom, and which bonds are there at the start.
 
-use super::particles::Born;
+use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
 use crate::base::document::Mistake;
 use crate::base::document::{Document, Faults};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
-use crate::laws::bond::creation::Listed;
+use crate::laws::bond::creation::ListedPairs;
 use crate::laws::bond::keys::Keys;
 use crate::scene::Source;
 use crate::scene::import::REPORTED;
@@ -16,7 +16,7 @@ pub(super) fn bonds(
     written: &RawTables,
     document: &Document,
     source: &Source,
-    born: &Born,
+    born: &ReadParticles,
     run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
@@ -74,8 +74,8 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
 
 /// Pairs cannot be listed where one of the two bodies is a plane.
 fn listed_at_plane() -> Mistake {
-    let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane".to_owned());
-    Mistake::Wrong { found, right }
+    let (found, expected) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane".to_owned());
+    Mistake::Unexpected { found, expected }
 }
 
 /// Refuses `"auto"` where a bond needs to know the step, and a step above its relaxation times.
@@ -83,11 +83,11 @@ fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
     match (step, keys.needs_given_step(), keys.shortest_relaxation()) {
         (Step::Automatic { .. }, Some(reason), _) => {
             let found = format!("\"auto\" beside [{table}]: {reason}");
-            faults.add("run", "step", Mistake::Wrong { found, right: "a step in seconds".to_owned() });
+            faults.add("run", "step", Mistake::Unexpected { found, expected: "a step in seconds".to_owned() });
         }
         (Step::Given(step), _, Some(shortest)) if step > shortest => {
-            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}]");
-            faults.add("run", "step", Mistake::Wrong { found: format!("{step:?}"), right });
+            let expected = format!("{shortest:?} or less, the shortest relaxation time of [{table}]");
+            faults.add("run", "step", Mistake::Unexpected { found: format!("{step:?}"), expected });
         }
         _ => {}
     }
@@ -99,13 +99,13 @@ fn between(
     document: &Document,
     table: &str,
     written: &RawTables,
-    born: &Born,
+    born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {
     // An array of two takes no notice of a third.
     if document.has(&format!("{table}.between.3")) {
-        let (found, right) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
-        faults.add(table, "between", Mistake::Wrong { found, right });
+        let (found, expected) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
+        faults.add(table, "between", Mistake::Unexpected { found, expected });
         return None;
     }
     let mut sets = [None; 2];
@@ -121,9 +121,9 @@ fn between(
                 plane = Some(BoundaryIndex(index as u32));
                 continue;
             }
-            Some(_) => Mistake::Wrong {
+            Some(_) => Mistake::Unexpected {
                 found: format!("\"{name}\""),
-                right: "two particle sets, or a particle set and a plane that neither turns nor conveys".to_owned(),
+                expected: "two particle sets, or a particle set and a plane that neither turns nor conveys".to_owned(),
             },
             None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
         };
@@ -145,12 +145,12 @@ fn listed(
     document: &Document,
     source: &Source,
     table: &str,
-    born: &Born,
+    born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<Vec<[u32; 2]>> {
     let (ids, key) = match keys.create.listed() {
-        Some(Listed::Here(pairs)) => (pairs.to_vec(), "create.pairs"),
-        Some(Listed::InFile(file)) => (from_file(file, source, table, faults)?, "create.file"),
+        Some(ListedPairs::Here(pairs)) => (pairs.to_vec(), "create.pairs"),
+        Some(ListedPairs::InFile(file)) => (from_file(file, source, table, faults)?, "create.file"),
         None => return Some(Vec::new()),
     };
     let before = faults.count();
@@ -165,16 +165,16 @@ fn listed(
             _ => format!("{pair:?}"),
         };
         if faults.count() < before + REPORTED {
-            let right = "the numbers of two particles of this scene".to_owned();
-            faults.add(table, key, Mistake::Wrong { found, right });
+            let expected = "the numbers of two particles of this scene".to_owned();
+            faults.add(table, key, Mistake::Unexpected { found, expected });
         }
     }
     let mut sorted: Vec<[u32; 2]> = pairs.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
     sorted.sort_unstable();
     if let Some([a, b]) = sorted.windows(2).find(|two| two[0] == two[1]).map(|two| two[0]) {
         let id = |index: u32| born.particles[index as usize].id.0;
-        let (found, right) = (format!("{} and {} twice", id(a), id(b)), "each pair once".to_owned());
-        faults.add(table, key, Mistake::Wrong { found, right });
+        let (found, expected) = (format!("{} and {} twice", id(a), id(b)), "each pair once".to_owned());
+        faults.add(table, key, Mistake::Unexpected { found, expected });
     }
     (faults.count() == before).then_some(pairs)
 }
@@ -185,8 +185,8 @@ fn from_file(file: &str, source: &Source, table: &str, faults: &mut Faults) -> O
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(_) => {
-            let (found, right) = ("bytes that are not UTF-8".to_owned(), "a text file".to_owned());
-            faults.in_file(file, None, table, "create.file", Mistake::Wrong { found, right });
+            let (found, expected) = ("bytes that are not UTF-8".to_owned(), "a text file".to_owned());
+            faults.in_file(file, None, table, "create.file", Mistake::Unexpected { found, expected });
             return None;
         }
     };
@@ -208,15 +208,15 @@ fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut F
     let strange = bond.pairs.iter().find(|[a, b]| !bond.joins(particle(*a).set, particle(*b).set));
     if let Some([a, b]) = strange {
         let found = format!("the pair of {} and {}", particle(*a).id.0, particle(*b).id.0);
-        let right = "pairs of the two sets in between".to_owned();
-        faults.add(table, "create", Mistake::Wrong { found, right });
+        let expected = "pairs of the two sets in between".to_owned();
+        faults.add(table, "create", Mistake::Unexpected { found, expected });
     }
     let far = |pair: &&[u32; 2]| bond.create_distance.is_some_and(|most| distance(particles, **pair) >= most);
     if let Some([a, b]) = bond.pairs.iter().find(far) {
         let found =
             format!("{:.3e} between {} and {}", distance(particles, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
-        let right = "listed pairs nearer than this distance".to_owned();
-        faults.add(table, "create_distance", Mistake::Wrong { found, right });
+        let expected = "listed pairs nearer than this distance".to_owned();
+        faults.add(table, "create_distance", Mistake::Unexpected { found, expected });
     }
 }
 

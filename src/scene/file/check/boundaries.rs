@@ -3,14 +3,14 @@
 use super::body;
 use super::contacts::material_index;
 use super::motion;
-use super::particles::Born;
+use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
-use super::selection::{Owners, members};
+use super::selection::{ParticleOwners, members};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::MaterialIndex;
 use crate::laws::contact::Material;
-use crate::laws::surface::{Around, Files, Selection, Shape, Surface};
+use crate::laws::surface::{Files, Selection, Shape, ShapeContext, Surface};
 use crate::scene::Source;
 use crate::scene::file::tables::BoundaryTable;
 use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion, SceneDraft};
@@ -20,10 +20,10 @@ pub(super) fn boundaries(
     written: &RawTables,
     source: &Source,
     materials: &[Material],
-    born: &Born,
+    born: &ReadParticles,
     faults: &mut Faults,
 ) -> Vec<Boundary> {
-    let mut owners = Owners::of(born);
+    let mut owners = ParticleOwners::of(born);
     let mut boundaries = Vec::new();
     for (name, boundary) in &written.boundaries {
         let table = format!("boundary.{name}");
@@ -34,8 +34,8 @@ pub(super) fn boundaries(
         motion::reference(&axes, boundary.reference.is_some(), &table, faults);
         let driven = boundary.nodes != NodeMotion::Rigid;
         if boundary.input.is_some() && !driven && !axes.iter().any(|axis| axis.takes_place()) {
-            let (what, right) = ("no axis is driven by displacement".to_owned(), "leave input out".to_owned());
-            faults.add(&table, "input", Mistake::Senseless { what, right });
+            let (what, expected) = ("no axis is driven by displacement".to_owned(), "leave input out".to_owned());
+            faults.add(&table, "input", Mistake::InvalidCombination { what, expected });
         }
         let input = boundary.input.unwrap_or_default();
         let body = body::body(boundary, &axes, (&*shape, reference), &table, faults);
@@ -60,7 +60,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
         });
         if let Some((member, other)) = taken.next() {
             let (id, other) = (draft.particles[member as usize].id.0, format!("[boundary.{other}]"));
-            faults.add(&format!("boundary.{}", boundary.name), "particles", Mistake::Taken { id, other });
+            faults.add(&format!("boundary.{}", boundary.name), "particles", Mistake::AlreadyTaken { id, other });
         }
         taken.for_each(drop);
     }
@@ -77,8 +77,8 @@ fn alone(boundary: &Boundary, faults: &mut Faults) {
             "\"quadratic\", which is for displacements of the whole boundary, with driven {}",
             if driven { "nodes" } else { "rotations" }
         );
-        let right = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
-        faults.add(&table, "input", Mistake::Wrong { found, right });
+        let expected = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
+        faults.add(&table, "input", Mistake::Unexpected { found, expected });
     }
     body::lacks(boundary, &table, faults);
 }
@@ -89,12 +89,12 @@ fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table:
         return;
     }
     if shape.vertices().is_empty() {
-        let (found, right) = (format!("a {}, which has none", shape.key()), "a mesh, which has nodes".to_owned());
-        faults.add(table, "nodes", Mistake::Wrong { found, right });
+        let (found, expected) = (format!("a {}, which has none", shape.key()), "a mesh, which has nodes".to_owned());
+        faults.add(table, "nodes", Mistake::Unexpected { found, expected });
     } else if let Some(axis) = axes.iter().position(|axis| !axis.is_fixed() || axis.conveys() != 0.0) {
         let what = format!("driven nodes, and {} moves, too", AxisMotion::WORDS[axis]);
-        let right = "leave motion out: the displacements of the nodes say it all".to_owned();
-        faults.add(table, "nodes", Mistake::Senseless { what, right });
+        let expected = "leave motion out: the displacements of the nodes say it all".to_owned();
+        faults.add(table, "nodes", Mistake::InvalidCombination { what, expected });
     }
 }
 
@@ -103,19 +103,19 @@ fn shape(
     (boundary, table): (&BoundaryTable, &str),
     source: &Source,
     materials: &[Material],
-    born: &Born,
+    born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<Shape> {
     match boundary.shapes()[..] {
         [_] => boundary.shape(&mut Written { boundary, table, source, materials, born, faults }),
         [] => {
-            let right = format!("{} gives its shape", alternatives(BoundaryTable::HINTS));
-            faults.add(table, "", Mistake::Missing { right });
+            let expected = format!("{} gives its shape", alternatives(BoundaryTable::HINTS));
+            faults.add(table, "", Mistake::Missing { expected });
             None
         }
         [..] => {
-            let (found, right) = (boundary.shapes().join(" and "), "one shape".to_owned());
-            faults.add(table, "", Mistake::Wrong { found, right });
+            let (found, expected) = (boundary.shapes().join(" and "), "one shape".to_owned());
+            faults.add(table, "", Mistake::Unexpected { found, expected });
             None
         }
     }
@@ -140,15 +140,15 @@ struct Written<'a, 'b, 'c> {
     /// All materials.
     materials: &'a [Material],
     /// All particles.
-    born: &'a Born,
+    born: &'a ReadParticles,
     /// Where mistakes go.
     faults: &'a mut Faults<'b, 'c>,
 }
 
-impl Around for Written<'_, '_, '_> {
+impl ShapeContext for Written<'_, '_, '_> {
     fn material(&mut self, who: &str) -> Option<MaterialIndex> {
         let Some(name) = &self.boundary.material else {
-            self.faults.add(self.table, "material", Mistake::Missing { right: format!("{who} needs one") });
+            self.faults.add(self.table, "material", Mistake::Missing { expected: format!("{who} needs one") });
             return None;
         };
         material_index(self.materials, name, self.table, "material", self.faults)
@@ -156,8 +156,8 @@ impl Around for Written<'_, '_, '_> {
 
     fn no_material(&mut self, why: &str) {
         if self.boundary.material.is_some() {
-            let (what, right) = (why.to_owned(), "leave it out".to_owned());
-            self.faults.add(self.table, "material", Mistake::Senseless { what, right });
+            let (what, expected) = (why.to_owned(), "leave it out".to_owned());
+            self.faults.add(self.table, "material", Mistake::InvalidCombination { what, expected });
         }
     }
 
@@ -177,7 +177,7 @@ impl Files for Written<'_, '_, '_> {
 }
 
 /// The point about which a moment is taken if the scene names none.
-fn centre(shape: &dyn Surface, born: &Born) -> [f64; 3] {
+fn centre(shape: &dyn Surface, born: &ReadParticles) -> [f64; 3] {
     if let Some(point) = shape.reference() {
         return point;
     }

@@ -30,9 +30,9 @@ pub(super) fn laws(scene: &SceneDraft) -> Vec<Finding> {
             if !told.insert((table.clone(), key)) {
                 continue;
             }
-            let right = format!("[contact.{}] needs it for {} and {}", law.name, first.name, second.name);
+            let expected = format!("[contact.{}] needs it for {} and {}", law.name, first.name, second.name);
             let (key, otherwise) = (key.to_owned(), format!("contact.{}", law.name));
-            findings.push(Finding { table, key, otherwise, mistake: Mistake::Missing { right } });
+            findings.push(Finding { table, key, otherwise, mistake: Mistake::Missing { expected } });
         }
     }
     findings
@@ -126,14 +126,14 @@ fn numbers(scene: &SceneDraft) -> Vec<Finding> {
     if let Some(particle) = scene.particles.iter().find(light) {
         let (id, radius, mass, density) = (particle.id.0, particle.radius, particle.mass(), particle.density);
         let found = format!("{mass:?} kg of particle {id} of radius {radius:?} m and density {density:?} kg/m³");
-        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308)".to_owned();
-        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
+        let expected = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308)".to_owned();
+        findings.push(Finding::at(table(particle), "", Mistake::Unexpected { found, expected }));
     }
     if let Some(particle) = scene.particles.iter().find(far) {
         let (id, position, radius) = (particle.id.0, particle.position, particle.radius);
         let found = format!("particle {id} of radius {radius:?} m at {position:?} m, where numbers are too coarse");
-        let right = format!("particles at most {:.1e} m from the origin", COARSE * radius / f64::EPSILON);
-        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
+        let expected = format!("particles at most {:.1e} m from the origin", COARSE * radius / f64::EPSILON);
+        findings.push(Finding::at(table(particle), "", Mistake::Unexpected { found, expected }));
     }
     findings
 }
@@ -145,7 +145,7 @@ fn outside(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let mut lost = scene.particles.iter().filter(|particle| !inside(&particle.position));
     if let Some(first) = lost.next() {
         let (id, position, more) = (first.id.0, first.position, lost.count());
-        let mistake = Mistake::Outside { id, position, more };
+        let mistake = Mistake::OutsideDomain { id, position, more };
         findings.push(Finding::at("domain".to_owned(), "box", mistake));
     }
 }
@@ -173,7 +173,7 @@ fn surfaces(scene: &SceneDraft, findings: &mut Vec<Finding>) {
         }
         let table = format!("boundary.{name}");
         if let (depth, id, count @ 1..) = behind {
-            let mistake = Mistake::Behind { id, boundary: name.clone(), depth, more: count - 1 };
+            let mistake = Mistake::BehindSurface { id, boundary: name.clone(), depth, more: count - 1 };
             findings.push(Finding::at(table, boundary.shape.key(), mistake));
         } else if let (overlap, id, count @ 1..) = deep {
             let mistake = Mistake::WallOverlap { id, boundary: name.clone(), overlap, permitted, more: count - 1 };

@@ -7,7 +7,7 @@ use crate::base::document::Mistake;
 use crate::base::quantity::MaterialIndex;
 use crate::laws::contact::{Material, PairProperties, Scheme, Switches};
 use crate::scene::ContactLaw;
-use crate::scene::file::tables::Between;
+use crate::scene::file::tables::MaterialPairs;
 
 /// The materials, in the order of the text.
 pub(super) fn materials(written: &RawTables) -> Vec<Material> {
@@ -85,7 +85,7 @@ pub(super) fn laws(
 /// The square of pairs that a law names; all, if it names none.
 fn governed(law: &Law, materials: &[Material], table: &str, faults: &mut Faults) -> Vec<bool> {
     let count = materials.len();
-    let Some(Between(pairs)) = &law.table.between else { return vec![true; count * count] };
+    let Some(MaterialPairs(pairs)) = &law.table.between else { return vec![true; count * count] };
     let mut between = vec![false; count * count];
     for [a, b] in pairs {
         let i = material_index(materials, a, table, "between", faults);

@@ -1,9 +1,9 @@
 //! Damping and applied forces: what is done to chosen particles.
 
 use super::contacts::material_index;
-use super::particles::Born;
+use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
-use super::selection::{Owners, members};
+use super::selection::{ParticleOwners, members};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::laws::contact::Material;
@@ -11,8 +11,13 @@ use crate::scene::file::tables::{DampingTable, ScaleTable};
 use crate::scene::{AppliedForce, Damping};
 
 /// All damping.
-pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, faults: &mut Faults) -> Vec<Damping> {
-    let mut owners = Owners::of(born);
+pub(super) fn damping(
+    written: &RawTables,
+    materials: &[Material],
+    born: &ReadParticles,
+    faults: &mut Faults,
+) -> Vec<Damping> {
+    let mut owners = ParticleOwners::of(born);
     let mut list = Vec::new();
     for (name, damping) in &written.damping {
         let table = format!("damping.{name}");
@@ -33,8 +38,8 @@ pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, 
         let newcomers = if all { [damping.linear.get(), damping.angular.get()] } else { [0.0; 2] };
         if all && damping.scale.is_some() && !written.insertions.is_empty() {
             let found = "a scale, which particles that come later have none of".to_owned();
-            let right = "particles = .. that names those to be damped, or no scale".to_owned();
-            faults.add(&table, "scale", Mistake::Wrong { found, right });
+            let expected = "particles = .. that names those to be damped, or no scale".to_owned();
+            faults.add(&table, "scale", Mistake::Unexpected { found, expected });
         }
         let gravity = written.gravity.0 != [0.0; 3];
         let gravity_damped = said(damping.gravity_damped, gravity, &table, "gravity_damped", faults);
@@ -49,7 +54,7 @@ pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, 
 /// A choice that the scene must make where it matters.
 fn said(choice: Option<bool>, matters: bool, table: &str, key: &str, faults: &mut Faults) -> bool {
     if choice.is_none() && matters {
-        faults.add(table, key, Mistake::Missing { right: "true or false".to_owned() });
+        faults.add(table, key, Mistake::Missing { expected: "true or false".to_owned() });
     }
     choice.unwrap_or(false)
 }
@@ -60,7 +65,7 @@ fn scales(
     members: &[u32],
     table: &str,
     materials: &[Material],
-    born: &Born,
+    born: &ReadParticles,
     faults: &mut Faults,
 ) -> Vec<f64> {
     let particle = |member: &u32| &born.particles[*member as usize];
@@ -83,17 +88,17 @@ fn scales(
             from_column(column, members, table, born, faults)
         }
         Some(scale) => {
-            let right = "one of material, radius_divisor and column".to_owned();
+            let expected = "one of material, radius_divisor and column".to_owned();
             let given = scale.material.is_some() || scale.radius_divisor.is_some() || scale.column.is_some();
             let found = if given { "several" } else { "none" }.to_owned();
-            faults.add(table, "scale", Mistake::Wrong { found, right });
+            faults.add(table, "scale", Mistake::Unexpected { found, expected });
             Vec::new()
         }
     }
 }
 
 /// Factors from a column of the sets' files.
-fn from_column(column: &str, members: &[u32], table: &str, born: &Born, faults: &mut Faults) -> Vec<f64> {
+fn from_column(column: &str, members: &[u32], table: &str, born: &ReadParticles, faults: &mut Faults) -> Vec<f64> {
     let mut lacking = vec![false; born.sets.len()];
     let mut factors = Vec::with_capacity(members.len());
     for member in members.iter().map(|member| *member as usize) {
@@ -105,18 +110,18 @@ fn from_column(column: &str, members: &[u32], table: &str, born: &Born, faults: 
     }
     for (name, _) in born.sets.iter().zip(lacking).filter(|(_, lacking)| *lacking) {
         let found = format!("none in [particles.{name}]");
-        let right = format!("a column {column} in the file of every set that is damped");
-        faults.add(table, "scale.column", Mistake::Wrong { found, right });
+        let expected = format!("a column {column} in the file of every set that is damped");
+        faults.add(table, "scale.column", Mistake::Unexpected { found, expected });
     }
     if let Some(factor) = factors.iter().find(|factor| **factor < 0.0) {
-        let (found, right) = (format!("{factor:?} in column {column}"), "factors of 0 or above".to_owned());
-        faults.add(table, "scale.column", Mistake::Wrong { found, right });
+        let (found, expected) = (format!("{factor:?} in column {column}"), "factors of 0 or above".to_owned());
+        faults.add(table, "scale.column", Mistake::Unexpected { found, expected });
     }
     factors
 }
 
 /// All applied forces.
-pub(super) fn forces(written: &RawTables, born: &Born, faults: &mut Faults) -> Vec<AppliedForce> {
+pub(super) fn forces(written: &RawTables, born: &ReadParticles, faults: &mut Faults) -> Vec<AppliedForce> {
     let mut forces = Vec::new();
     for (name, force) in &written.forces {
         let members = members(&force.particles, born, &format!("force.{name}"), faults);

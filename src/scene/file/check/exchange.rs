@@ -55,8 +55,8 @@ fn names(written: &RawTables, faults: &mut Faults) {
     let mut told: Vec<(&str, &String)> = boundaries.chain(regions).collect();
     for (kind, name) in insertions.chain(outlets).chain(meters) {
         if let Some((other, _)) = told.iter().find(|(_, known)| *known == name) {
-            let (found, right) = (format!("that of [{other}.{name}]"), "a name of its own".to_owned());
-            faults.add(&format!("{kind}.{name}"), "", Mistake::Wrong { found, right });
+            let (found, expected) = (format!("that of [{other}.{name}]"), "a name of its own".to_owned());
+            faults.add(&format!("{kind}.{name}"), "", Mistake::Unexpected { found, expected });
         }
         told.push((kind, name));
     }
@@ -74,8 +74,8 @@ fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
     let mut random = generator_after(scene.run.seed, &table, 0);
     if region.shape.place(most, &mut || uniform(&mut random)).is_none() {
         let found = format!("[region.{}], which is too narrow for a sphere of radius {most:?} m", region.name);
-        let right = "a region that holds the largest sphere whole".to_owned();
-        findings.push(Finding::at(table.clone(), "region", Mistake::Wrong { found, right }));
+        let expected = "a region that holds the largest sphere whole".to_owned();
+        findings.push(Finding::at(table.clone(), "region", Mistake::Unexpected { found, expected }));
     }
     let holds = |radius: f64| {
         let mass = insertion.mass(radius);
@@ -83,15 +83,15 @@ fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
     };
     if !holds(least) || !holds(most) {
         let found = format!("spheres of radius {least:?} to {most:?} m");
-        let right = "radii whose mass and moment of inertia 64 bits hold".to_owned();
-        findings.push(Finding::at(table.clone(), "sizes", Mistake::Wrong { found, right }));
+        let expected = "radii whose mass and moment of inertia 64 bits hold".to_owned();
+        findings.push(Finding::at(table.clone(), "sizes", Mistake::Unexpected { found, expected }));
     }
     if let Amount::Mass(mass) = insertion.amount
         && mass < insertion.mass(least)
     {
         let found = format!("{mass:?} kg, less than the smallest sphere has");
-        let right = format!("{:?} kg or more", insertion.mass(least));
-        findings.push(Finding::at(table.clone(), "mass", Mistake::Wrong { found, right }));
+        let expected = format!("{:?} kg or more", insertion.mass(least));
+        findings.push(Finding::at(table.clone(), "mass", Mistake::Unexpected { found, expected }));
     }
     if scene.outside == Outside::Stop
         && let Some([lower, upper]) = scene.domain
@@ -100,8 +100,8 @@ fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
         let [low, high] = region.shape.bounds();
         if (0..3).any(|axis| low[axis] < lower[axis] || high[axis] > upper[axis]) {
             let found = format!("[region.{}], which reaches beyond it", region.name);
-            let right = "a region inside of [domain]".to_owned();
-            findings.push(Finding::at(table, "region", Mistake::Wrong { found, right }));
+            let expected = "a region inside of [domain]".to_owned();
+            findings.push(Finding::at(table, "region", Mistake::Unexpected { found, expected }));
         }
     }
     findings

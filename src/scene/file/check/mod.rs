@@ -101,8 +101,8 @@ impl SceneDraft {
 
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
-    if let Some([found, right]) = draft.stiffness_objection() {
-        faults.add("output", "stiffness", Mistake::Wrong { found, right });
+    if let Some([found, expected]) = draft.stiffness_objection() {
+        faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
@@ -131,17 +131,29 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
     let defaults = Run::default();
     let accuracy = table.accuracy.unwrap_or(defaults.accuracy);
     if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
-        let (what, right) = ("a given step has no safety", "write step = \"auto\", or leave safety out");
-        faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+        let (what, expected) = ("a given step has no safety", "write step = \"auto\", or leave safety out");
+        faults.add(
+            "run",
+            "safety",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
     }
     if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
-        let (what, right) =
+        let (what, expected) =
             ("an automatic step is never above the stable one", "give a step, or leave allow_unstable out");
-        faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+        faults.add(
+            "run",
+            "allow_unstable",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
     }
     if table.plane_particles.is_some() && table.plane.is_none() {
-        let (what, right) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
-        faults.add("run", "plane_particles", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+        let (what, expected) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
+        faults.add(
+            "run",
+            "plane_particles",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
     }
     Run {
         end: table.end.map(crate::base::quantity::Positive::get),
@@ -174,8 +186,8 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
 fn output(table: &Output, faults: &mut Faults) -> Output {
     let with_frames = [(table.contacts, "contacts"), (table.boundaries, "boundaries")];
     if let Some((_, what)) = with_frames.iter().find(|(wanted, _)| *wanted && table.frame_interval.is_none()) {
-        let right = format!("{what} are written with the frames");
-        faults.add("output", "frame_interval", Mistake::Missing { right });
+        let expected = format!("{what} are written with the frames");
+        faults.add("output", "frame_interval", Mistake::Missing { expected });
     }
     *table
 }

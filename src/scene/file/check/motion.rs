@@ -15,13 +15,13 @@ const ALONG: f64 = 1e-9;
 pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
     let (axes, twice) = motion.axes(|axis, keys| tables::read(keys, axis, source, table, faults));
     if motion.drives_nothing_by_velocity() {
-        let (what, right) = ("by = \"velocity\", and no axis is driven".to_owned(), "leave by out".to_owned());
-        faults.add(table, "motion", Mistake::Senseless { what, right });
+        let (what, expected) = ("by = \"velocity\", and no axis is driven".to_owned(), "leave by out".to_owned());
+        faults.add(table, "motion", Mistake::InvalidCombination { what, expected });
     }
     for axis in twice {
         let found = format!("{} twice", AxisMotion::WORDS[axis]);
-        let right = "each axis once: fixed, conveying, driven, prescribed, free, loaded or servo".to_owned();
-        faults.add(table, "motion", Mistake::Wrong { found, right });
+        let expected = "each axis once: fixed, conveying, driven, prescribed, free, loaded or servo".to_owned();
+        faults.add(table, "motion", Mistake::Unexpected { found, expected });
     }
     axes
 }
@@ -30,12 +30,16 @@ pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Fau
 pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
         let found = format!("{} of a {}", AxisMotion::WORDS[axis], shape.key());
-        faults.add(table, "motion", Mistake::Wrong { found, right: "rotations of a shape that turns".to_owned() });
+        faults.add(
+            table,
+            "motion",
+            Mistake::Unexpected { found, expected: "rotations of a shape that turns".to_owned() },
+        );
         return;
     }
     if let Some(axis) = (3..6).find(|&axis| axes[axis].servo().is_some()) {
         let found = format!("one about {}, and a servo reaches forces only", AxisMotion::WORDS[axis]);
-        faults.add(table, "motion", Mistake::Wrong { found, right: "servos along x, y or z".to_owned() });
+        faults.add(table, "motion", Mistake::Unexpected { found, expected: "servos along x, y or z".to_owned() });
         return;
     }
     conveying(axes, shape, table, faults);
@@ -48,19 +52,19 @@ fn conveying(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &
     let velocity = Vector::from([0, 1, 2].map(|axis| axes[axis].conveys()));
     let mistake = if let Some(axis) = (3..6).find(|&axis| axes[axis].conveys() != 0.0) {
         let found = format!("one about {}", AxisMotion::WORDS[axis]);
-        Mistake::Wrong { found, right: "velocities along x, y or z".to_owned() }
+        Mistake::Unexpected { found, expected: "velocities along x, y or z".to_owned() }
     } else if !shape.members().is_empty() {
         let found = format!("a group, which has no surface of its own to convey along {}", AxisMotion::WORDS[axis]);
-        Mistake::Wrong { found, right: "a surface".to_owned() }
+        Mistake::Unexpected { found, expected: "a surface".to_owned() }
     } else if velocity == Vector::zero() {
         let what = format!("{} conveys at 0 m/s", AxisMotion::WORDS[axis]);
-        Mistake::Senseless { what, right: "leave it out".to_owned() }
+        Mistake::InvalidCombination { what, expected: "leave it out".to_owned() }
     } else if shape
         .plane()
         .is_some_and(|plane| velocity.cross(plane.normal.into()).length() < ALONG * velocity.length())
     {
         let found = "one along its normal".to_owned();
-        Mistake::Wrong { found, right: "a velocity along the plane".to_owned() }
+        Mistake::Unexpected { found, expected: "a velocity along the plane".to_owned() }
     } else {
         return;
     };
@@ -74,7 +78,7 @@ fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
     let driven = count(AxisMotion::is_driven);
     let prescribed = count(AxisMotion::is_prescribed);
     let scheduled = count(|motion| !motion.is_steady());
-    let (found, right) = match (free, driven, prescribed) {
+    let (found, expected) = match (free, driven, prescribed) {
         (0, 0, 2..) if scheduled > 0 => {
             ("a schedule about one axis and something else about another", "one prescribed rotation")
         }
@@ -85,7 +89,7 @@ fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
         (_, 1.., 1..) => ("driven and prescribed rotations", "driven or prescribed rotations with the others fixed"),
         _ => return,
     };
-    faults.add(table, "motion", Mistake::Wrong { found: found.to_owned(), right: right.to_owned() });
+    faults.add(table, "motion", Mistake::Unexpected { found: found.to_owned(), expected: expected.to_owned() });
 }
 
 /// Whether a body moves and turns, and does one of it by forces: then it turns about its mass centre.
@@ -100,7 +104,7 @@ pub(super) fn turns_about_its_centre(axes: &[AxisMotion; 6]) -> bool {
 pub(super) fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
     if referred && turns_about_its_centre(axes) {
         let what = "what moves and turns, one of both freely, turns about its mass centre".to_owned();
-        faults.add(table, "reference", Mistake::Senseless { what, right: "leave it out".to_owned() });
+        faults.add(table, "reference", Mistake::InvalidCombination { what, expected: "leave it out".to_owned() });
     }
 }
 
@@ -111,8 +115,8 @@ pub(super) fn damping(boundaries: &[Boundary], damping: &[Damping], faults: &mut
         let alike = |each: &[f64]| members.windows(2).all(|two| each[two[0] as usize] == each[two[1] as usize]);
         if let Some(damping) = damping.iter().find(|it| !alike(&it.linear) || !alike(&it.angular)) {
             let found = format!("several in [damping.{}], while forces move the group as one body", damping.name);
-            let right = "one damping for all spheres of a group".to_owned();
-            faults.add(&format!("boundary.{}", boundary.name), "motion", Mistake::Wrong { found, right });
+            let expected = "one damping for all spheres of a group".to_owned();
+            faults.add(&format!("boundary.{}", boundary.name), "motion", Mistake::Unexpected { found, expected });
         }
     }
 }

@@ -9,8 +9,8 @@ pub(super) type Named<T> = Vec<(String, T)>;
 /// The names of the tables below a table; each must be a name.
 pub(super) fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec<String> {
     if document.has(kind) && !document.is_table(kind) {
-        let (found, right) = (document.written(kind).to_owned(), format!("a table [{kind}.<name>]"));
-        faults.add("", kind, Mistake::Wrong { found, right });
+        let (found, expected) = (document.written(kind).to_owned(), format!("a table [{kind}.<name>]"));
+        faults.add("", kind, Mistake::Unexpected { found, expected });
     }
     let (names, others): (Vec<String>, Vec<String>) = document.names(kind).into_iter().partition(|name| is_name(name));
     for found in others {

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 /// All particles, and where each comes from.
 #[derive(Default)]
-pub(super) struct Born {
+pub(super) struct ReadParticles {
     /// By ascending number.
     pub(super) particles: Vec<Particle>,
     /// Row in its set, of each.
@@ -35,7 +35,7 @@ pub(super) fn particles(
     materials: &[Material],
     faults: &mut Faults,
     tell: &mut dyn FnMut(PackingProgress),
-) -> Born {
+) -> ReadParticles {
     let extra: Vec<String> = written
         .damping
         .iter()
@@ -43,7 +43,7 @@ pub(super) fn particles(
         .collect();
     let seed = written.run.seed.unwrap_or(Run::default().seed);
     let shape = written.run.plane_particles.unwrap_or_default();
-    let mut born = Born::default();
+    let mut born = ReadParticles::default();
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
@@ -62,7 +62,7 @@ pub(super) fn particles(
 /// Gives numbers to those who have none, above all given ones, and sorts by number.
 fn number(
     newborn: Vec<(u32, Unnumbered)>,
-    born: &mut Born,
+    born: &mut ReadParticles,
     places: &[Place],
     sets: &Named<ParticlesTable>,
     faults: &mut Faults,
@@ -83,8 +83,8 @@ fn number(
         places[set].report(&format!("particles.{}", sets[set].0), *row as usize, "id", mistake, faults);
     }
     if let Some((id, ..)) = all.last().filter(|(id, ..)| *id > u64::from(u32::MAX)) {
-        let right = "numbers up to 4294967295".to_owned();
-        faults.add("particles", "", Mistake::Wrong { found: format!("particle {id}"), right });
+        let expected = "numbers up to 4294967295".to_owned();
+        faults.add("particles", "", Mistake::Unexpected { found: format!("particle {id}"), expected });
     }
     born.particles.reserve_exact(all.len());
     born.rows.reserve_exact(all.len());

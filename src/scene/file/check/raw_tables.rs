@@ -119,8 +119,8 @@ impl RawTables {
         };
         let count = document.names("material").len();
         if count > MOST_MATERIALS {
-            let (found, right) = (format!("{count}"), format!("at most {MOST_MATERIALS} materials"));
-            faults.add("material", "", Mistake::Wrong { found, right });
+            let (found, expected) = (format!("{count}"), format!("at most {MOST_MATERIALS} materials"));
+            faults.add("material", "", Mistake::Unexpected { found, expected });
             return None;
         }
         let materials = all(document, "material", faults);
@@ -229,8 +229,8 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
         let table = document.read(&path, faults);
         let normal = model(document, &path, "normal", &models.normal, faults);
         if table.is_some() && !document.has(&format!("{path}.normal")) {
-            let right = format!("a table [{path}.normal.<model>]");
-            faults.add(&path, "normal", Mistake::Missing { right });
+            let expected = format!("a table [{path}.normal.<model>]");
+            faults.add(&path, "normal", Mistake::Missing { expected });
         }
         let tangential = model(document, &path, "tangential", &models.tangential, faults);
         let rolling = model(document, &path, "rolling", &models.rolling, faults);
@@ -262,14 +262,14 @@ fn model<F>(
         return None;
     }
     if !document.is_table(&path) {
-        let (found, right) = (document.written(&path).to_owned(), format!("a table [{path}.<model>]"));
-        faults.add(law, kind, Mistake::Wrong { found, right });
+        let (found, expected) = (document.written(&path).to_owned(), format!("a table [{path}.<model>]"));
+        faults.add(law, kind, Mistake::Unexpected { found, expected });
         return None;
     }
     let models = document.names(&path);
     let [name] = &models[..] else {
         let found = if models.is_empty() { "no model".to_owned() } else { models.join(" and ") };
-        faults.add(&path, "", Mistake::Wrong { found, right: format!("one {kind} model") });
+        faults.add(&path, "", Mistake::Unexpected { found, expected: format!("one {kind} model") });
         return None;
     };
     let Some(row) = known.iter().find(|row| row.name() == name) else {

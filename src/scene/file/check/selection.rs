@@ -1,13 +1,13 @@
 //! Which particles a table chooses, and whose they are.
 
-use super::particles::Born;
+use super::particles::ReadParticles;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::scene::file::tables::Selection;
 use crate::scene::import::REPORTED;
 
 /// The particles that a selection chooses, ascending; reports a selection of none.
-pub(super) fn members(selection: &Selection, born: &Born, table: &str, faults: &mut Faults) -> Vec<u32> {
+pub(super) fn members(selection: &Selection, born: &ReadParticles, table: &str, faults: &mut Faults) -> Vec<u32> {
     let before = faults.count();
     let mut sets: Option<Vec<usize>> = None;
     for name in selection.set.iter().chain(selection.sets.iter().flatten()) {
@@ -25,8 +25,8 @@ pub(super) fn members(selection: &Selection, born: &Born, table: &str, faults: &
         ids.sort_unstable();
         let known = |id: &&u32| born.particles.binary_search_by_key(id, |particle| &particle.id.0).is_ok();
         for id in ids.iter().filter(|id| !known(id)).take(REPORTED) {
-            let (found, right) = (id.to_string(), "the number of a particle of this scene".to_owned());
-            faults.add(table, "particles.ids", Mistake::Wrong { found, right });
+            let (found, expected) = (id.to_string(), "the number of a particle of this scene".to_owned());
+            faults.add(table, "particles.ids", Mistake::Unexpected { found, expected });
         }
         ids
     });
@@ -41,13 +41,13 @@ pub(super) fn members(selection: &Selection, born: &Born, table: &str, faults: &
     let members: Vec<u32> =
         (0..).zip(&born.particles).filter(|(_, particle)| chosen(particle)).map(|(i, _)| i).collect();
     if members.is_empty() && faults.count() == before {
-        faults.add(table, "particles", Mistake::Nobody { right: extent(born) });
+        faults.add(table, "particles", Mistake::EmptySelection { expected: extent(born) });
     }
     members
 }
 
 /// Where the centres of the particles are.
-fn extent(born: &Born) -> String {
+fn extent(born: &ReadParticles) -> String {
     let Some(first) = born.particles.first() else { return "the scene has no particles".to_owned() };
     let (mut lower, mut upper) = (first.position, first.position);
     for particle in &born.particles {
@@ -60,25 +60,25 @@ fn extent(born: &Born) -> String {
 }
 
 /// Whose the particles are.
-pub(super) struct Owners {
+pub(super) struct ParticleOwners {
     /// The tables that have some.
     tables: Vec<String>,
     /// Index into the tables, of each particle.
     of: Vec<Option<u32>>,
 }
 
-impl Owners {
+impl ParticleOwners {
     /// Nobody's yet.
-    pub(super) fn of(born: &Born) -> Self {
+    pub(super) fn of(born: &ReadParticles) -> Self {
         Self { tables: Vec::new(), of: vec![None; born.particles.len()] }
     }
 
     /// Notes the owner of the members; reports a member that already has an owner.
-    pub(super) fn claim(&mut self, members: &[u32], table: &str, born: &Born, faults: &mut Faults) {
+    pub(super) fn claim(&mut self, members: &[u32], table: &str, born: &ReadParticles, faults: &mut Faults) {
         let taken = members.iter().find_map(|member| self.of[*member as usize].map(|owner| (*member, owner)));
         if let Some((member, owner)) = taken {
             let (id, other) = (born.particles[member as usize].id.0, format!("[{}]", self.tables[owner as usize]));
-            faults.add(table, "particles", Mistake::Taken { id, other });
+            faults.add(table, "particles", Mistake::AlreadyTaken { id, other });
         }
         for member in members {
             self.of[*member as usize].get_or_insert(self.tables.len() as u32);

@@ -38,7 +38,7 @@ pub(super) struct SetReader<'a> {
 }
 
 /// The particles of a set, their place, and the columns that damping asks for.
-pub(super) type Offspring = (Vec<Unnumbered>, Place, BTreeMap<String, Vec<f64>>);
+pub(super) type ReadSet = (Vec<Unnumbered>, Place, BTreeMap<String, Vec<f64>>);
 
 impl SetReader<'_> {
     /// Reads the set.
@@ -48,7 +48,7 @@ impl SetReader<'_> {
         extra: &[String],
         faults: &mut Faults,
         tell: &mut dyn FnMut(PackingProgress),
-    ) -> Offspring {
+    ) -> ReadSet {
         let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
         if !self.has_one_origin(faults) {
             return nobody;
@@ -87,13 +87,13 @@ impl SetReader<'_> {
         match given[..] {
             [_] => {}
             [] => {
-                let right = "one of list, file, lattice, packing says where its particles come from".to_owned();
-                faults.add(&self.table, "", Mistake::Missing { right });
+                let expected = "one of list, file, lattice, packing says where its particles come from".to_owned();
+                faults.add(&self.table, "", Mistake::Missing { expected });
                 return false;
             }
             [_, second, ..] => {
-                let (found, right) = (given.join(" and "), "one origin of the particles".to_owned());
-                faults.add(&self.table, second, Mistake::Wrong { found, right });
+                let (found, expected) = (given.join(" and "), "one origin of the particles".to_owned());
+                faults.add(&self.table, second, Mistake::Unexpected { found, expected });
                 return false;
             }
         }
@@ -104,8 +104,8 @@ impl SetReader<'_> {
             ("materials", !written.materials.is_empty()),
         ];
         for (key, _) in of_files.into_iter().filter(|(_, given)| *given && written.file.is_none()) {
-            let (what, right) = ("this is about a file, and there is none".to_owned(), "leave it out".to_owned());
-            faults.add(&self.table, key, Mistake::Senseless { what, right });
+            let (what, expected) = ("this is about a file, and there is none".to_owned(), "leave it out".to_owned());
+            faults.add(&self.table, key, Mistake::InvalidCombination { what, expected });
         }
         true
     }
@@ -150,7 +150,7 @@ impl SetReader<'_> {
     }
 
     /// Particles from a file.
-    fn filed(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Offspring {
+    fn filed(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> ReadSet {
         let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
         let Some(bytes) = source.files.get(file) else { return nobody };
         let ParticlesTable { format, units, timestep, .. } = *self.written;
@@ -171,7 +171,7 @@ impl SetReader<'_> {
     }
 
     /// Particles from the rows of a file.
-    fn rows(&self, file: &str, mut rows: Rows, extra: &[String], faults: &mut Faults) -> Offspring {
+    fn rows(&self, file: &str, mut rows: Rows, extra: &[String], faults: &mut Faults) -> ReadSet {
         let before = faults.count();
         let materials = self.labelled(file, &rows, faults);
         let mut newborn = Vec::with_capacity(rows.count);
@@ -193,14 +193,14 @@ impl SetReader<'_> {
             particle.velocity = velocity.map_or(particle.velocity, |velocity| at(velocity, row));
             particle.angular_velocity = spin.map_or(particle.angular_velocity, |spin| at(spin, row));
             let number = id.map(|id| id[row]);
-            for (key, found, right, fine) in [
+            for (key, found, expected, fine) in [
                 ("radius", particle.radius, "a number above 0", particle.radius > 0.0),
                 ("density", particle.density, "a number above 0", particle.density > 0.0),
                 ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
             ] {
                 if !fine && faults.count() < before + REPORTED {
                     let found = if key == "id" { format!("{found}") } else { format!("{found:?}") };
-                    let mistake = Mistake::Wrong { found, right: right.to_owned() };
+                    let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
                     faults.in_file(file, rows.line(row), &self.table, key, mistake);
                 }
             }
@@ -217,8 +217,8 @@ impl SetReader<'_> {
                 self.no_material(faults);
             }
             if !self.written.materials.is_empty() {
-                let (what, right) = ("the file names no materials or types", "leave it out");
-                let mistake = Mistake::Senseless { what: what.to_owned(), right: right.to_owned() };
+                let (what, expected) = ("the file names no materials or types", "leave it out");
+                let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
                 faults.add(&self.table, "materials", mistake);
             }
             return vec![self.fallback(faults)];
@@ -236,9 +236,9 @@ impl SetReader<'_> {
             if material.is_none() && mapped.is_none() && faults.count() < before + REPORTED {
                 let row = rows.label.iter().position(|label| *label as usize == index).unwrap_or(0);
                 let mistake = match label.parse::<i64>() {
-                    Ok(_) => Mistake::Wrong {
+                    Ok(_) => Mistake::Unexpected {
                         found: format!("type {label}"),
-                        right: format!("a type named in materials, as materials = {{ {label} = \"..\" }}"),
+                        expected: format!("a type named in materials, as materials = {{ {label} = \"..\" }}"),
                     },
                     Err(_) => unknown_material(self.materials, label),
                 };
@@ -277,8 +277,8 @@ impl SetReader<'_> {
 
     /// Neither the set nor its particles say what they are made of.
     fn no_material(&self, faults: &mut Faults) {
-        let right = "the name of a [material] table".to_owned();
-        faults.add(&self.table, "material", Mistake::Missing { right });
+        let expected = "the name of a [material] table".to_owned();
+        faults.add(&self.table, "material", Mistake::Missing { expected });
     }
 }
 

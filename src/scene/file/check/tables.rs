@@ -19,17 +19,17 @@ pub(super) fn read(
     columns(bytes, keys, word)
         .and_then(|(lines, [times, places])| {
             let rows = Table::of(times, places, keys.interpolation);
-            rows.map_err(|(row, found, right)| (lines.get(row).copied(), found, right.to_owned()))
+            rows.map_err(|(row, found, expected)| (lines.get(row).copied(), found, expected.to_owned()))
         })
-        .map_err(|(line, found, right)| {
+        .map_err(|(line, found, expected)| {
             let line = line.map_or_else(String::new, |line| format!(", line {line}"));
-            let message = format!("{}{line}: expected {right}, found {found}", keys.file);
+            let message = format!("{}{line}: expected {expected}, found {found}", keys.file);
             faults.add(table, "motion.prescribed", Mistake::Refused { message });
         })
         .ok()
 }
 
-/// What is wrong: line of the file, what was found, what would be right.
+/// What is wrong: line of the file, what was found, what was expected.
 type Wrong = (Option<u64>, String, String);
 
 /// Line of each row, times \[s\] and displacements.

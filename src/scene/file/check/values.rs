@@ -44,8 +44,8 @@ struct Table<'f, 'd, 'a> {
 
 impl Table<'_, '_, '_> {
     /// Reports a value that is not what its key takes.
-    fn wrong(&mut self, key: &str, found: String, right: &str) {
-        self.faults.add(&self.name, key, Mistake::Wrong { found, right: right.to_owned() });
+    fn wrong(&mut self, key: &str, found: String, expected: &str) {
+        self.faults.add(&self.name, key, Mistake::Unexpected { found, expected: expected.to_owned() });
     }
 
     /// A number above 0.
@@ -77,9 +77,9 @@ impl Table<'_, '_, '_> {
     }
 
     /// A list of so many.
-    fn length(&mut self, key: &str, found: usize, right: usize) {
-        if found != right {
-            self.wrong(key, format!("a list of {found}"), &format!("a list of {right}"));
+    fn length(&mut self, key: &str, found: usize, expected: usize) {
+        if found != expected {
+            self.wrong(key, format!("a list of {found}"), &format!("a list of {expected}"));
         }
     }
 

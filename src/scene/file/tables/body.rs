@@ -25,9 +25,9 @@ impl<'de> Deserialize<'de> for Inertia {
             /// Row by row.
             Rows([Triple; 3]),
         }
-        /// What is right.
-        const RIGHT: &str = "[xx, yy, zz] or three rows of a symmetric, positive definite matrix [kg m²]";
-        let other = |_| D::Error::custom(format!("expected {RIGHT}, found something else"));
+        /// What is expected.
+        const EXPECTED: &str = "[xx, yy, zz] or three rows of a symmetric, positive definite matrix [kg m²]";
+        let other = |_| D::Error::custom(format!("expected {EXPECTED}, found something else"));
         let rows = match Written::deserialize(deserializer).map_err(other)? {
             Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
             Written::Rows(rows) => rows.map(|row| row.0),
@@ -35,7 +35,7 @@ impl<'de> Deserialize<'de> for Inertia {
         if is_positive_definite(&rows) {
             Ok(Self(rows))
         } else {
-            Err(D::Error::custom(format!("expected {RIGHT}, found {rows:?}")))
+            Err(D::Error::custom(format!("expected {EXPECTED}, found {rows:?}")))
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::body::{Inertia, Supports};
 use crate::base::quantity::{Positive, Triple};
 use crate::laws::motion::{self, InputCourse, NodeMotion};
-use crate::laws::surface::{self, Around, Shape, ShapeKeys, with_shapes};
+use crate::laws::surface::{self, Shape, ShapeContext, ShapeKeys, with_shapes};
 use serde::Deserialize;
 
 /// Declares the table of a boundary: a key for each shape, and what every boundary has.
@@ -60,7 +60,7 @@ macro_rules! boundary_table {
             }
 
             /// The first shape that is written; what is wrong with it is reported.
-            pub(in crate::scene::file) fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
+            pub(in crate::scene::file) fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
                 $(if let Some(keys) = &self.$key {
                     return keys.shape(around);
                 })+

@@ -10,7 +10,7 @@ pub(super) use crate::laws::surface::Selection;
 pub(super) use body::{Inertia, Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
-pub(super) use values::{Between, StepKey};
+pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
 use crate::laws::contact::Scheme;
@@ -96,7 +96,7 @@ pub(in crate::scene::file) struct MaterialTable {
 #[serde(deny_unknown_fields)]
 pub(in crate::scene::file) struct ContactTable {
     /// The pairs of materials; absent: all.
-    pub(in crate::scene::file) between: Option<Between>,
+    pub(in crate::scene::file) between: Option<MaterialPairs>,
     /// Whether the normal force is limited so that it never pulls.
     #[serde(default)]
     pub(in crate::scene::file) limit_force: bool,

@@ -18,17 +18,17 @@ impl<'de> Deserialize<'de> for StepKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes a number or a word.
         struct NumberOrWord;
-        /// What is right.
-        const RIGHT: &str = "a number above 0, in seconds, or \"auto\"";
+        /// What is expected.
+        const EXPECTED: &str = "a number above 0, in seconds, or \"auto\"";
         impl Visitor<'_> for NumberOrWord {
             type Value = StepKey;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(RIGHT)
+                f.write_str(EXPECTED)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<StepKey, E> {
                 match Positive::new(value) {
                     Some(step) => Ok(StepKey::Given(step.get())),
-                    None => Err(E::custom(format!("expected {RIGHT}, found {value:?}"))),
+                    None => Err(E::custom(format!("expected {EXPECTED}, found {value:?}"))),
                 }
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<StepKey, E> {
@@ -37,7 +37,7 @@ impl<'de> Deserialize<'de> for StepKey {
             fn visit_str<E: Error>(self, word: &str) -> Result<StepKey, E> {
                 match word {
                     "auto" => Ok(StepKey::Automatic),
-                    _ => Err(E::custom(format!("expected {RIGHT}, found {word:?}"))),
+                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
                 }
             }
         }
@@ -47,9 +47,9 @@ impl<'de> Deserialize<'de> for StepKey {
 
 /// Pairs of material names.
 #[derive(Clone, Debug)]
-pub(in crate::scene::file) struct Between(pub(in crate::scene::file) Vec<[String; 2]>);
+pub(in crate::scene::file) struct MaterialPairs(pub(in crate::scene::file) Vec<[String; 2]>);
 
-impl<'de> Deserialize<'de> for Between {
+impl<'de> Deserialize<'de> for MaterialPairs {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// A name or a pair of names.
         struct Part(Vec<String>, bool);
@@ -76,19 +76,19 @@ impl<'de> Deserialize<'de> for Between {
                 deserializer.deserialize_any(NameOrNames)
             }
         }
-        /// What is right.
-        const RIGHT: &str = "[\"a\", \"b\"] or a list of such pairs";
+        /// What is expected.
+        const EXPECTED: &str = "[\"a\", \"b\"] or a list of such pairs";
         let parts = Vec::<Part>::deserialize(deserializer)?;
         let pair = |names: &[String]| match names {
             [a, b] => Ok([a.clone(), b.clone()]),
-            names => Err(D::Error::custom(format!("expected {RIGHT}, found {} names", names.len()))),
+            names => Err(D::Error::custom(format!("expected {EXPECTED}, found {} names", names.len()))),
         };
         if parts.iter().all(|part| !part.1) {
             let names: Vec<String> = parts.into_iter().flat_map(|part| part.0).collect();
             return pair(&names).map(|pair| Self(vec![pair]));
         }
         if parts.iter().any(|part| !part.1) {
-            return Err(D::Error::custom(format!("expected {RIGHT}, found names beside pairs")));
+            return Err(D::Error::custom(format!("expected {EXPECTED}, found names beside pairs")));
         }
         parts.iter().map(|part| pair(&part.0)).collect::<Result<_, _>>().map(Self)
     }

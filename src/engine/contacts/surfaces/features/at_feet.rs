@@ -1,12 +1,12 @@
 //! Particles at their feet on a surface, as batches see them.
 
-use super::standing::Standing;
+use super::standing::MovingSurface;
 use crate::base::lanes::Lane;
 use crate::base::number::Vector;
 use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, Touching};
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::contacts::surfaces::nodes::HeldColumns;
-use crate::engine::contacts::surfaces::sphere::{Load, Loaded, SphereAt, along};
+use crate::engine::contacts::surfaces::sphere::{Load, ParticleLoads, SphereAt, along};
 use crate::engine::state::Row;
 use crate::laws::contact::Needs;
 
@@ -14,7 +14,7 @@ use crate::laws::contact::Needs;
 #[derive(Clone, Copy)]
 pub(super) struct AtFeet<'a> {
     /// The surface, where it stands.
-    pub(super) at: Standing<'a>,
+    pub(super) at: MovingSurface<'a>,
     /// The particle of each foot.
     pub(super) particle: &'a [u32],
     /// Numbers of the feet.
@@ -28,7 +28,7 @@ pub(super) struct AtFeet<'a> {
     /// The surface's material.
     pub(super) material: u32,
     /// The particles.
-    pub(super) particles: Loaded<'a>,
+    pub(super) particles: ParticleLoads<'a>,
 }
 
 impl Bodies for AtFeet<'_> {

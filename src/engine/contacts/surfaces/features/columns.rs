@@ -2,7 +2,7 @@
 
 use super::together::Together;
 use crate::base::number::Vector;
-use crate::engine::contacts::surfaces::history::{Past, Present};
+use crate::engine::contacts::surfaces::history::{CurrentContacts, PreviousContacts};
 use crate::engine::contacts::surfaces::nodes::Held;
 use crate::engine::state::contacts::{REVERSE, SLIDING, TOUCHING};
 use crate::engine::state::{History, Row, WallContacts};
@@ -97,7 +97,7 @@ impl FeatureContacts {
 
     /// Ends the search: all contacts have their numbers. Looks whether they are those of the last evaluation, which stood
     /// there in the list.
-    pub(super) fn complete(&mut self, past: &Past, range: Range<usize>, rows: usize) {
+    pub(super) fn complete(&mut self, past: &PreviousContacts, range: Range<usize>, rows: usize) {
         let count = self.particle.len();
         self.number.extend(self.number.len() as u32..count as u32);
         let same = past.particle == self.particle && past.feature == self.feature && past.entries.rows() == rows;
@@ -105,7 +105,7 @@ impl FeatureContacts {
     }
 
     /// What a particle touches whose contacts are these.
-    pub(super) fn present(&self, contacts: Range<usize>) -> Present<'_> {
+    pub(super) fn present(&self, contacts: Range<usize>) -> CurrentContacts<'_> {
         let saddles = &self.saddles[..];
         let [from, to] = match contacts.clone().next() {
             Some(contact) if !saddles.is_empty() => {
@@ -117,7 +117,7 @@ impl FeatureContacts {
             }
             _ => [0; 2],
         };
-        Present { features: &self.feature[contacts], saddles: &saddles[from..to] }
+        CurrentContacts { features: &self.feature[contacts], saddles: &saddles[from..to] }
     }
 
     /// What the contacts have beside where nodes move one by one.
@@ -138,7 +138,7 @@ pub(super) fn finish(flags: &mut [u8], side: &[u8], weight: &[[f64; 2]]) {
 
 /// The columns of a list of contacts with features.
 #[derive(Default)]
-pub(in crate::engine::contacts::surfaces) struct Spare {
+pub(in crate::engine::contacts::surfaces) struct ColumnBuffer {
     /// Particles.
     particle: Vec<u32>,
     /// Features.
@@ -154,7 +154,7 @@ pub(in crate::engine::contacts::surfaces) struct Spare {
 pub(in crate::engine::contacts::surfaces) fn replace<'a>(
     list: &mut WallContacts,
     rows: usize,
-    spare: &mut Spare,
+    spare: &mut ColumnBuffer,
     pieces: impl Iterator<Item = &'a FeatureContacts> + Clone,
 ) {
     if pieces.clone().all(|piece| piece.kept.is_some()) {

@@ -12,9 +12,9 @@ mod standing;
 mod together;
 mod told;
 
-use super::history::{Past, Present, source, taken};
+use super::history::{CurrentContacts, PreviousContacts, source, taken};
 use super::nodes::Held;
-use super::sphere::{Load, Loaded};
+use super::sphere::{Load, ParticleLoads};
 use super::{AtSurface, Range, Work};
 use crate::base::lanes::Width;
 use crate::base::number::Vector;
@@ -24,8 +24,8 @@ use crate::engine::state::contacts::REVERSE;
 use crate::laws::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
 use at_feet::AtFeet;
 use columns::finish;
-pub(super) use columns::{FeatureContacts, Spare, replace};
-use standing::{Stand, Standing};
+pub(super) use columns::{ColumnBuffer, FeatureContacts, replace};
+use standing::{MovingSurface, SphereOnSurface};
 
 /// The parts that are near a listed particle.
 fn parts(list: &WallContacts, place: usize) -> &[u32] {
@@ -43,17 +43,17 @@ impl AtSurface {
     pub(super) fn piece_at_features(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let boundary = work.walls[self.index].boundary as usize;
         let nodes = work.nodes.iter().find(|nodes| nodes.boundary as usize == boundary);
-        let evaluate = |at: Standing| self.piece_at(at, work, slots, contacts);
-        Standing::with(self, (&work.boundaries[boundary], nodes), evaluate).unwrap_or_default()
+        let evaluate = |at: MovingSurface| self.piece_at(at, work, slots, contacts);
+        MovingSurface::with(self, (&work.boundaries[boundary], nodes), evaluate).unwrap_or_default()
     }
 
     /// The same where it stands.
-    fn piece_at(&self, at: Standing, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
+    fn piece_at(&self, at: MovingSurface, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let list = &work.walls[self.index];
         let [from, to] =
             [slots.start, slots.end].map(|end| list.particle.partition_point(|&slot| (slot as usize) < end));
         let entries = work.entries[self.index].from(from, &mut []);
-        let past = Past { particle: &list.particle[from..to], feature: &list.feature[from..to], entries };
+        let past = PreviousContacts { particle: &list.particle[from..to], feature: &list.feature[from..to], entries };
         // Triangles lie all over the memory; those that were touched are most of what is looked at first.
         at.features.prefetch(past.feature);
         contacts.clear(self.kept_rows);
@@ -84,11 +84,11 @@ impl AtSurface {
     /// Finds the contacts of the particles in a range of slots.
     fn find(
         &self,
-        at: &Standing,
+        at: &MovingSurface,
         list: &WallContacts,
-        particles: &Loaded,
+        particles: &ParticleLoads,
         (slots, width): (Range<usize>, Width),
-        past: &Past,
+        past: &PreviousContacts,
         contacts: &mut FeatureContacts,
     ) {
         // Where contacts have no more than a foot.
@@ -115,10 +115,10 @@ impl AtSurface {
     /// Finds the contacts of one particle, whose place in the list is this one, from all parts that are near.
     fn find_at(
         &self,
-        at: &Standing,
+        at: &MovingSurface,
         (list, place): (&WallContacts, usize),
-        particles: &Loaded,
-        past: &Past,
+        particles: &ParticleLoads,
+        past: &PreviousContacts,
         (contacts, feet): (&mut FeatureContacts, &mut Feet),
     ) {
         let (slot, constant) = (list.near.particle[place], constant(list, place));
@@ -129,14 +129,14 @@ impl AtSurface {
         if sticks {
             self.keep_touched(at, (slot, position[3]), past, feet);
         }
-        let here = Here { at, particles, slot, constant, feet };
+        let here = SphereContacts { at, particles, slot, constant, feet };
         feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
         contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
     }
 
     /// Adds a contact.
     #[inline]
-    fn add(&self, here: &Here, foot: &Foot, contacts: &mut FeatureContacts) {
+    fn add(&self, here: &SphereContacts, foot: &Foot, contacts: &mut FeatureContacts) {
         let normal = here.at.frame.outside(foot.normal);
         let share = match foot.weight > 0.0 {
             true if here.feet.saddles.is_empty() => foot.weight,
@@ -154,7 +154,7 @@ impl AtSurface {
 
     /// Keeps those feet of a particle (slot, radius \[m\]) that are touched: beyond touch, where there was a contact before.
     #[inline(never)]
-    fn keep_touched(&self, at: &Standing, (slot, radius): (u32, f64), past: &Past, feet: &mut Feet) {
+    fn keep_touched(&self, at: &MovingSurface, (slot, radius): (u32, f64), past: &PreviousContacts, feet: &mut Feet) {
         if feet.list.iter().all(|foot| foot.distance <= radius) {
             return;
         }
@@ -163,7 +163,7 @@ impl AtSurface {
         features.clear();
         features.extend(feet.list.iter().map(|foot| foot.feature));
         let saddles: Vec<(u32, Saddle)> = feet.saddles.iter().map(|saddle| (slot, *saddle)).collect();
-        let present = Present { features: &features, saddles: &saddles };
+        let present = CurrentContacts { features: &features, saddles: &saddles };
         feet.list.retain(|foot| {
             let known = || source((foot.feature, foot.weight), present, (past, &entries), at.features, &self.law.law);
             foot.distance <= radius || known().is_some()
@@ -173,7 +173,7 @@ impl AtSurface {
 
     /// Gives all contacts what is remembered of them.
     #[inline(never)]
-    fn remember(&self, at: &Standing, past: &Past, contacts: &mut FeatureContacts) {
+    fn remember(&self, at: &MovingSurface, past: &PreviousContacts, contacts: &mut FeatureContacts) {
         let (law, mut history) = (&self.law.law, std::mem::take(&mut contacts.history));
         let (mut first, mut entries) = (0, 0..0);
         while let Some(&slot) = contacts.particle.get(first) {
@@ -200,16 +200,16 @@ impl AtSurface {
 
     /// The share of friction that a foot beside a saddle has.
     #[inline(never)]
-    fn friction(&self, here: &Here, foot: &Foot) -> f64 {
+    fn friction(&self, here: &SphereContacts, foot: &Foot) -> f64 {
         let (slot, particles) = (here.slot as usize, here.particles);
         let body = particles.body(slot);
         let row = self.table.row(particles.material[slot], self.material);
-        Stand { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
+        SphereOnSurface { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
     }
 }
 
 /// A particle (slot) whose centre came from one side of a face to the other.
-fn went_through(past: &Past, contacts: &FeatureContacts) -> Option<u32> {
+fn went_through(past: &PreviousContacts, contacts: &FeatureContacts) -> Option<u32> {
     // SAFETY: the entries are those of this piece.
     let before = unsafe { past.entries.flags.part(0, past.particle.len()) };
     if contacts.kept.is_some() {
@@ -231,11 +231,11 @@ fn went_through(past: &Past, contacts: &FeatureContacts) -> Option<u32> {
 }
 
 /// What a particle touches. What few contacts need is found from it, out of line.
-struct Here<'a> {
+struct SphereContacts<'a> {
     /// The surface.
-    at: &'a Standing<'a>,
+    at: &'a MovingSurface<'a>,
     /// The particles.
-    particles: &'a Loaded<'a>,
+    particles: &'a ParticleLoads<'a>,
     /// Which particle (slot).
     slot: u32,
     /// Its pair constant.
@@ -244,7 +244,7 @@ struct Here<'a> {
     feet: &'a Feet,
 }
 
-impl Here<'_> {
+impl SphereContacts<'_> {
     /// Adds what a contact has beside where nodes move one by one.
     #[inline(never)]
     fn hold(&self, foot: &Foot, normal: Vector, held: &mut Held) {

@@ -1,11 +1,11 @@
 //! Contacts of particles over planes of parts, found many at a time.
 
 use super::columns::FeatureContacts;
-use super::standing::Standing;
+use super::standing::MovingSurface;
 use crate::base::lanes::Width;
 use crate::engine::contacts::surfaces::AtSurface;
-use crate::engine::contacts::surfaces::history::Past;
-use crate::engine::contacts::surfaces::sphere::Loaded;
+use crate::engine::contacts::surfaces::history::PreviousContacts;
+use crate::engine::contacts::surfaces::sphere::ParticleLoads;
 use crate::engine::state::WallContacts;
 use crate::laws::surface::{Feet, TOGETHER};
 use std::ops::Range;
@@ -15,10 +15,10 @@ impl AtSurface {
     /// of parts, from one of them. Takes and returns the entry at which the last contacts of the particles begin.
     pub(super) fn find_together(
         &self,
-        at: &Standing,
+        at: &MovingSurface,
         (list, places): (&WallContacts, Range<usize>),
-        (particles, width): (&Loaded, Width),
-        (past, entry): (&Past, usize),
+        (particles, width): (&ParticleLoads, Width),
+        (past, entry): (&PreviousContacts, usize),
         (contacts, feet): (&mut FeatureContacts, &mut Feet),
     ) -> usize {
         let (slots, planes) = (&list.near.particle[places.clone()], &list.near.plane[places.clone()]);

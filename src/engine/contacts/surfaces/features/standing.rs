@@ -14,7 +14,7 @@ use std::sync::PoisonError;
 
 /// A surface where it stands, as it moves.
 #[derive(Clone, Copy)]
-pub(super) struct Standing<'a> {
+pub(super) struct MovingSurface<'a> {
     /// Its features, in its own axes.
     pub(super) features: &'a dyn Features,
     /// Where these axes are.
@@ -35,7 +35,7 @@ pub(super) struct Standing<'a> {
     pub(super) moving: Option<Moving<'a>>,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> MovingSurface<'a> {
     /// A surface of features where its boundary stands.
     pub(super) fn of(features: &'a dyn Features, surface: &AtSurface, boundary: &BoundaryState) -> Self {
         let frame = Frame::of(surface.reference, boundary.displacement.into(), boundary.orientation.0);
@@ -50,14 +50,14 @@ impl<'a> Standing<'a> {
     pub(super) fn with<T>(
         surface: &AtSurface,
         (boundary, nodes): (&BoundaryState, Option<&Nodes>),
-        then: impl FnOnce(Standing) -> T,
+        then: impl FnOnce(MovingSurface) -> T,
     ) -> Option<T> {
         match (&surface.touched, nodes) {
-            (Touched::Features(shape), _) => Some(then(Standing::of(shape.features()?, surface, boundary))),
+            (Touched::Features(shape), _) => Some(then(MovingSurface::of(shape.features()?, surface, boundary))),
             (Touched::Nodes(shape), Some(nodes)) => {
                 let shape = shape.read().unwrap_or_else(PoisonError::into_inner);
                 let moving = Some(Moving { shape: &shape, nodes });
-                Some(then(Standing { moving, ..Standing::of(shape.features(), surface, boundary) }))
+                Some(then(MovingSurface { moving, ..MovingSurface::of(shape.features(), surface, boundary) }))
             }
             _ => None,
         }
@@ -95,9 +95,9 @@ impl<'a> Standing<'a> {
 pub(super) type Body = [Row; 3];
 
 /// What a particle touches, and by which coefficients.
-pub(super) struct Stand<'a> {
+pub(super) struct SphereOnSurface<'a> {
     /// The surface.
-    pub(super) at: &'a Standing<'a>,
+    pub(super) at: &'a MovingSurface<'a>,
     /// The particle.
     pub(super) body: Body,
     /// Coefficients.
@@ -106,7 +106,7 @@ pub(super) struct Stand<'a> {
     pub(super) constant: f64,
 }
 
-impl Stand<'_> {
+impl SphereOnSurface<'_> {
     /// The contact at a foot.
     pub(super) fn meet(&self, foot: &Foot) -> ContactGeometry {
         let moving = self.at.moving.map(|moving| moving.motion(foot, self.centre(), self.body[0][3]));

@@ -2,8 +2,8 @@
 
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
-use crate::engine::contacts::surfaces::history::Past;
-use crate::engine::contacts::surfaces::sphere::Loaded;
+use crate::engine::contacts::surfaces::history::PreviousContacts;
+use crate::engine::contacts::surfaces::sphere::ParticleLoads;
 use crate::engine::state::contacts::REVERSE;
 use crate::laws::surface::{NO_PLANE, OnPlanes, TOGETHER};
 
@@ -32,8 +32,8 @@ impl Together {
         &mut self,
         frame: &Frame,
         (slots, planes): (&[u32], &[u32]),
-        particles: &Loaded,
-        (past, mut entry): (&Past, usize),
+        particles: &ParticleLoads,
+        (past, mut entry): (&PreviousContacts, usize),
     ) -> usize {
         let OnPlanes { sphere, feature, .. } = &mut self.spheres;
         for ((&slot, &plane), (sphere, feature)) in slots.iter().zip(planes).zip(sphere.iter_mut().zip(feature)) {

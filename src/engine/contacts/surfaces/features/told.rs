@@ -1,9 +1,9 @@
 //! What the contacts with features are, for those who ask: stiffness, records, energies.
 
-use super::standing::{Stand, Standing};
+use super::standing::{MovingSurface, SphereOnSurface};
 use super::{constant, parts};
 use crate::base::number::Vector;
-use crate::engine::contacts::ahead::{Ahead, Link};
+use crate::engine::contacts::ahead::{Link, SearchLimits};
 use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::records::{self, ContactRecord, Motion};
 use crate::engine::contacts::surfaces::AtSurface;
@@ -18,13 +18,13 @@ impl AtSurface {
         let _ = self.follow(state);
         let boundary = self.list(state).boundary as usize;
         let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
-        Standing::with(self, standing, |at| self.each_at(&at, state, motion, hand));
+        MovingSurface::with(self, standing, |at| self.each_at(&at, state, motion, hand));
     }
 
     /// The same where it stands.
     fn each_at(
         &self,
-        at: &Standing,
+        at: &MovingSurface,
         state: &State,
         motion: Motion,
         mut hand: impl FnMut(usize, &Foot, f64, &ContactGeometry),
@@ -39,7 +39,7 @@ impl AtSurface {
             let (velocity, spin) = motion.of(state, slot);
             let constant = constant(list, place);
             let row = self.row(state, slot);
-            let stand = Stand { at, body: [position, velocity, spin], row, constant };
+            let stand = SphereOnSurface { at, body: [position, velocity, spin], row, constant };
             let beyond = if law.holds_beyond_touch() { constant } else { 0.0 };
             feet.clear();
             at.features.feet(
@@ -61,7 +61,7 @@ impl AtSurface {
     pub(in crate::engine::contacts::surfaces) fn stiffness_at_features(
         &self,
         state: &State,
-        ahead: &Ahead,
+        ahead: &SearchLimits,
         tell: &mut dyn FnMut(Link),
     ) {
         let (list, law) = (self.list(state), &self.law.law);

@@ -10,7 +10,7 @@ use crate::base::number::Vector;
 /// Corners of triangles as a file has them \[file's unit\].
 pub(super) type Triangles = Vec<[[f64; 3]; 3]>;
 
-/// A mistake in a file: what was found and what would be right.
+/// A mistake in a file: what was found and what was expected.
 pub(super) type Wrong = (String, String);
 
 /// Memory that a byte of a file takes as it is read: nine numbers of 8 bytes over the shortest line of a face.
@@ -40,8 +40,8 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Triangles, Wrong> {
 /// Refuses a file with so many entries of so much memory each \[bytes\], if there is not as much memory.
 fn has_room(each: u64, count: usize) -> Result<(), Wrong> {
     let needed = each.saturating_mul(count as u64);
-    memory::lacking(needed).map_or(Ok(()), |right| {
-        Err((format!("triangles that need about {:.2} GB of memory", needed as f64 / 1e9), right))
+    memory::lacking(needed).map_or(Ok(()), |expected| {
+        Err((format!("triangles that need about {:.2} GB of memory", needed as f64 / 1e9), expected))
     })
 }
 

@@ -8,7 +8,7 @@ const HEAD: usize = 84;
 /// Length of a triangle in a binary file.
 const RECORD: usize = 50;
 
-/// The triangles of a file, or what is wrong with it: what was found and what would be right.
+/// The triangles of a file, or what is wrong with it: what was found and what was expected.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, (String, String)> {
     // "solid" at the start says nothing: many binary files have it.
     let declared = bytes.get(80..HEAD).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);

@@ -3,8 +3,8 @@
 use super::{Triangles, Wrong, add_polygon};
 use crate::base::vtk_reader::{self, Cell, POLYGON, TRIANGLE_STRIP, Wanted};
 
-/// What is right.
-const RIGHT: &str = "a VTK file with triangles, quads, polygons or triangle strips";
+/// What is expected.
+const EXPECTED: &str = "a VTK file with triangles, quads, polygons or triangle strips";
 
 /// VTK's number of a triangle.
 const TRIANGLE: u8 = 5;
@@ -17,7 +17,7 @@ const QUAD: u8 = 9;
 
 /// A refusal.
 fn wrong(found: impl Into<String>) -> Wrong {
-    (found.into(), RIGHT.to_owned())
+    (found.into(), EXPECTED.to_owned())
 }
 
 /// The triangles of a file, legacy or XML.

@@ -4,7 +4,7 @@
 use super::{RunError, Simulation};
 use crate::base::geometry::Frame;
 use crate::base::memory;
-use crate::engine::neighbours::room;
+use crate::engine::neighbours::pair_estimate;
 
 /// Bytes of a listed pair, without what is remembered of it: in the list, in the one it is made of, and where it is found.
 const PAIR: f64 = 46.0;
@@ -23,7 +23,7 @@ const MOST: f64 = u32::MAX as f64;
 
 impl Simulation {
     /// Refuses lists that have no room.
-    pub(super) fn check_room(&self) -> Result<(), RunError> {
+    pub(super) fn check_memory(&self) -> Result<(), RunError> {
         let Some(free) = memory::available() else { return Ok(()) };
         let particles = &self.state.particles;
         let every = 0.5 * particles.len() as f64 * particles.len() as f64;
@@ -38,12 +38,12 @@ impl Simulation {
         // Where even all pairs have room nothing needs to be counted.
         if every * pair > free as f64 && !self.scene.contacts.is_empty() {
             let skin = self.state.neighbours.skin;
-            let pairs = room::pairs(particles, spheres(skin));
+            let pairs = pair_estimate::pairs(particles, spheres(skin));
             refuse((pairs, rows), pair, format!("near pairs with a [run] skin of {skin:e} m"))?;
         }
         for bond in &self.scene.bonds {
             let Some(distance) = bond.create_distance.filter(|_| every * BOND > free as f64) else { continue };
-            let pairs = room::pairs(particles, |_, _| distance);
+            let pairs = pair_estimate::pairs(particles, |_, _| distance);
             refuse((pairs, 1.0), BOND, format!("pairs with a [bond.{}] create_distance of {distance:e} m", bond.name))?;
         }
         let skin = self.state.neighbours.skin;
@@ -52,7 +52,7 @@ impl Simulation {
             let most = features.map_or(0, |features| features.counts()[0] * particles.len());
             let Some(features) = features.filter(|_| most as f64 * PART > free as f64) else { continue };
             let frame = Frame::of(boundary.reference.into(), stands.displacement.into(), stands.orientation.0);
-            let parts = room::parts(particles, features, (&frame, skin));
+            let parts = pair_estimate::parts(particles, features, (&frame, skin));
             let why = format!("parts of [boundary.{}] near particles with a [run] skin of {skin:e} m", boundary.name);
             refuse((parts, 1.0), PART, why)?;
         }

@@ -12,7 +12,7 @@ const MOST_STEPS: u64 = 64;
 
 /// What the outside gave for a communication step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Given {
+pub(super) struct StepInputs {
     /// Values of the axes of a boundary.
     target: [f64; 6],
     /// Their rates.
@@ -21,7 +21,7 @@ pub(super) struct Given {
     acceleration: [f64; 3],
 }
 
-impl Given {
+impl StepInputs {
     /// What was given to a boundary.
     pub(super) fn of(boundary: &BoundaryState) -> Self {
         Self { target: boundary.target, rate: boundary.target_rate, acceleration: boundary.target_acceleration }
@@ -36,7 +36,7 @@ impl Given {
 
 /// An earlier state and the communication steps since then.
 #[derive(Debug, Default)]
-pub(super) struct WayBack {
+pub(super) struct Rollback {
     /// The state.
     earlier: Option<State>,
     /// Whether it is one of the present course.
@@ -44,7 +44,7 @@ pub(super) struct WayBack {
     /// Length of each communication step since then \[s\].
     intervals: Vec<f64>,
     /// What was given for them, boundary by boundary.
-    given: Vec<Given>,
+    given: Vec<StepInputs>,
     /// The same of the nodes of meshes: values and rates.
     nodes: Vec<[Row; 2]>,
     /// Rates of insertions that were given for them, and how they change, insertion by insertion.
@@ -55,7 +55,7 @@ pub(super) struct WayBack {
     pub(super) room: Option<State>,
 }
 
-impl WayBack {
+impl Rollback {
     /// The simulation has changed otherwise than by its communication steps.
     pub(super) fn forget(&mut self) {
         self.holds = false;
@@ -85,7 +85,7 @@ impl WayBack {
             self.holds = true;
         }
         self.intervals.push(interval);
-        self.given.extend(state.boundaries.iter().map(Given::of));
+        self.given.extend(state.boundaries.iter().map(StepInputs::of));
         let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
         self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
         let feeds = state.exchange.iter().flat_map(|exchange| &exchange.feeds);
@@ -96,24 +96,24 @@ impl WayBack {
 impl Simulation {
     /// Runs one communication step of `interval` \[s\] as [`Simulation::advance`] does. If it fails, the state is that of
     /// its beginning.
-    pub fn advance_or_return(&mut self, interval: f64) -> Result<(), RunError> {
-        self.way_back.note(&self.state, interval);
+    pub fn advance_or_roll_back(&mut self, interval: f64) -> Result<(), RunError> {
+        self.rollback.note(&self.state, interval);
         self.advance(interval).inspect_err(|_| self.go_back())
     }
 
     /// Goes back to the beginning of the communication step that was noted last, and gives its length \[s\]. From now on the beginning
     /// of each one is kept.
     pub(super) fn return_to_last(&mut self) -> f64 {
-        self.way_back.close = true;
-        let length = self.way_back.intervals.last().copied().expect("a communication step was made");
+        self.rollback.close = true;
+        let length = self.rollback.intervals.last().copied().expect("a communication step was made");
         self.go_back();
-        self.way_back.holds = true;
+        self.rollback.holds = true;
         length
     }
 
     /// Goes back to the beginning of the communication step that was noted last.
     fn go_back(&mut self) {
-        let mut way = std::mem::take(&mut self.way_back);
+        let mut way = std::mem::take(&mut self.rollback);
         let stop = self.stop.take();
         if let Some(earlier) = &way.earlier {
             self.state.clone_from(earlier);
@@ -141,6 +141,6 @@ impl Simulation {
         }
         self.stop = stop;
         way.forget();
-        self.way_back = way;
+        self.rollback = way;
     }
 }
