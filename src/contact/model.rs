@@ -65,6 +65,8 @@ pub struct ModelRow<F> {
     pub(super) needs: Needs,
     /// The type of what it computes.
     form: fn() -> TypeId,
+    /// The type of its keys.
+    keys: fn() -> TypeId,
     /// Reads its keys below a table.
     read: fn(&Document, &str, &str, &mut Faults) -> Option<Kept>,
     /// What its kind does.
@@ -90,6 +92,11 @@ impl<F> ModelRow<F> {
     /// The type of what it computes: models that differ in their coefficients alone share it.
     pub(crate) fn form(&self) -> TypeId {
         (self.form)()
+    }
+
+    /// The sub-model with these keys, if they are of its type.
+    pub fn with<K: ModelKeys>(&'static self, keys: K) -> Option<Model<F>> {
+        ((self.keys)() == TypeId::of::<K>()).then(|| Model { row: self, keys: keep(keys) })
     }
 
     /// Reads the sub-model from its table, which stands below this one.
@@ -226,6 +233,7 @@ impl NormalRow {
                 history: M::Form::HISTORY,
                 needs: M::Form::NEEDS,
                 form: TypeId::of::<M::Form>,
+                keys: TypeId::of::<M::Keys>,
                 read: read::<M::Keys>,
                 does: NormalFunctions {
                     adhesion: M::Form::ADHESION,
@@ -316,6 +324,7 @@ impl TangentialRow {
                 history: M::HISTORY,
                 needs: Needs { torque: M::ACTIVE, ..Needs::NONE },
                 form: TypeId::of::<M>,
+                keys: TypeId::of::<M::Keys>,
                 read: read::<M::Keys>,
                 does: TangentialFunctions {
                     has_spring: M::HAS_SPRING,
@@ -394,6 +403,7 @@ impl RollingRow {
                 history: M::HISTORY,
                 needs: M::NEEDS,
                 form: TypeId::of::<M>,
+                keys: TypeId::of::<M::Keys>,
                 read: read::<M::Keys>,
                 does: RollingFunctions {
                     takes_overlap: M::TAKES_OVERLAP,
@@ -474,6 +484,7 @@ impl CohesionRow {
                 history: M::Form::HISTORY,
                 needs: M::Form::NEEDS,
                 form: TypeId::of::<M::Form>,
+                keys: TypeId::of::<M::Keys>,
                 read: read::<M::Keys>,
                 does: CohesionFunctions {
                     beyond_touch: M::Form::BEYOND_TOUCH,

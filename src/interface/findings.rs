@@ -1,4 +1,4 @@
-//! What a pass over particles or contacts is needed for, found once at a communication point.
+//! Quantities that need a pass over particles or contacts: each is computed once at a communication point.
 
 use crate::averages::{self, Content, Coordination, Tensor};
 use crate::quantity::BoundaryIndex;

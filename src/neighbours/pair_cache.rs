@@ -1,4 +1,4 @@
-//! PairCache pairs for bonds that are made in every step: looked for again only when a particle has moved.
+//! Near pairs for bonds that are made in every step: they are searched again only when a particle has moved.
 
 use super::near_pairs;
 use crate::number::Vector;

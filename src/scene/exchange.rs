@@ -1,4 +1,4 @@
-//! How the number of particles changes, as parts of a scene.
+//! Insertions, outlets and flow meters of a scene.
 
 use super::{Boundary, ParticleShape, SceneDraft};
 use crate::document::Mistake;
@@ -10,7 +10,7 @@ use crate::quantity::{BoundaryIndex, MaterialIndex};
 pub struct Insertion {
     /// Its name in the scene and in the unit's variables.
     pub name: String,
-    /// In which of the scene's regions every new sphere lies whole.
+    /// The region of the scene in which every new sphere lies whole.
     pub region: usize,
     /// What they are made of.
     pub material: MaterialIndex,
@@ -22,7 +22,7 @@ pub struct Insertion {
     pub amount: Amount,
     /// Their velocity \[m/s\].
     pub velocity: [f64; 3],
-    /// By how much each component differs from that at most \[m/s\].
+    /// Largest difference of each component from that \[m/s\].
     pub scatter: f64,
 }
 

@@ -113,7 +113,7 @@ pub struct SceneDraft {
     pub output: Output,
     /// Numbers of the text that a unit shows as its parameters; none in a scene built in code.
     pub parameters: Vec<Parameter>,
-    /// Of the text, every file it names and the program's version; 0 for a scene built in code.
+    /// Fingerprint of the text, every file it names and the program's version; 0 for a scene built in code.
     pub fingerprint: u64,
 }
 
@@ -193,7 +193,7 @@ pub enum Step {
 pub struct ContactLaw {
     /// Its name in the scene.
     pub name: String,
-    /// Whose contacts it governs; `between[a * materials + b]` and the mirrored entry are equal.
+    /// The pairs of materials that it governs; `between[a * materials + b]` and the mirrored entry are equal.
     pub between: Vec<bool>,
     /// Normal sub-model.
     pub normal: NormalModel,
@@ -226,7 +226,7 @@ pub struct Bond {
     pub keys: crate::bond::keys::Keys,
     /// The law in numbers.
     pub law: crate::bond::Law,
-    /// Between which sets of particles (one twice: inside it, or at a plane).
+    /// The two sets of particles that it bonds (one twice: inside it, or at a plane).
     pub between: [SetIndex; 2],
     /// The plane to which the set is bonded; none where particles are bonded to each other.
     pub plane: Option<BoundaryIndex>,
@@ -254,7 +254,7 @@ pub struct Particle {
     pub set: SetIndex,
     /// What it is made of.
     pub material: MaterialIndex,
-    /// What its mass and moment of inertia are those of.
+    /// The body whose mass and moment of inertia it has.
     pub shape: ParticleShape,
     /// Radius \[m\].
     pub radius: f64,

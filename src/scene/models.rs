@@ -1,8 +1,8 @@
 //! The sub-models that scenes may name.
 
 use crate::contact::{
-    self, Cohesion, CohesionModel, CohesionRow, ModelRow, Normal, NormalRow, Rolling, RollingModel, RollingRow,
-    Tangential, TangentialModel, TangentialRow,
+    self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
+    RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
 
 /// The sub-models that scenes may name: those of the program, and those that another crate adds.
@@ -66,6 +66,26 @@ impl Models {
     pub fn with_cohesion<M: Cohesion>(mut self) -> Self {
         put(&mut self.cohesion, CohesionRow::of::<M>());
         self
+    }
+
+    /// The normal sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn normal<K: ModelKeys>(&self, name: &str, keys: K) -> Option<NormalModel> {
+        self.normal.iter().find(|row| row.name() == name)?.with(keys)
+    }
+
+    /// The tangential sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn tangential<K: ModelKeys>(&self, name: &str, keys: K) -> Option<TangentialModel> {
+        self.tangential.iter().find(|row| row.name() == name)?.with(keys)
+    }
+
+    /// The rolling sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn rolling<K: ModelKeys>(&self, name: &str, keys: K) -> Option<RollingModel> {
+        self.rolling.iter().find(|row| row.name() == name)?.with(keys)
+    }
+
+    /// The cohesion sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn cohesion<K: ModelKeys>(&self, name: &str, keys: K) -> Option<CohesionModel> {
+        self.cohesion.iter().find(|row| row.name() == name)?.with(keys)
     }
 
     /// Names of the normal sub-models.

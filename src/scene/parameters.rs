@@ -50,7 +50,7 @@ pub(crate) const fn range_of<T: DeserializeOwned>(minimum: Option<f64>, maximum:
 }
 
 impl Range {
-    /// Whether a number is one of them; otherwise what would be right, in the words of a scene's mistakes.
+    /// Whether a number is one of them; otherwise the refusal, in the words of a scene's mistakes.
     pub fn check(&self, value: f64) -> Result<(), String> {
         (self.check)(value)?;
         match self.maximum.filter(|&most| value > most) {

@@ -12,7 +12,7 @@ pub enum MotionPlane {
     Xz,
 }
 
-/// `[run] plane_particles`: what a particle's mass and moment of inertia are those of. Contact and bond laws see its
+/// `[run] plane_particles`: the body whose mass and moment of inertia a particle has. Contact and bond laws see its
 /// radius and mass alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum ParticleShape {

@@ -1,4 +1,4 @@
-//! What is known of particles that come and go: counts, rates, where generators stand, and what the books have of it.
+//! The state of particles that come and go: counts, rates, random generators, and their part in the energy books.
 
 use super::in_place::clone_in_place;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What the stable time step was found for, and when it is to be found again.
+//! The conditions for which the stable time step was computed, and when it is computed again.
 
 use serde::{Deserialize, Serialize};
 

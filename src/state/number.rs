@@ -1,4 +1,4 @@
-//! Particles come and go: rows of the state and the lists follow.
+//! Adds and removes particles: the rows of the state and the lists follow.
 
 use super::{BondList, Columns, ContactList, GONE, NearParts, Particles, Row, State, WallContacts};
 use crate::geometry::Quaternion;

@@ -1,4 +1,4 @@
-//! Bodies put where another program had them, in the middle of their way.
+//! Puts bodies where another program had them, in the middle of their motion.
 
 use super::{RunError, Simulation, assemble};
 use crate::bond::Rows;

@@ -1,4 +1,4 @@
-//! What is to be foreseen until the stable time step is found again.
+//! How far speeds, contacts and bonds may change until the stable time step is computed again.
 
 use super::Simulation;
 use crate::bond::creation::Window;

@@ -8,11 +8,9 @@ use cograin::contact::cohesion::sjkr;
 use cograin::contact::normal::{eepa, hooke, hooke_stiffness, sticky};
 use cograin::contact::rolling::rocking;
 use cograin::contact::tangential::turned_history::Keys as Turned;
-use cograin::contact::{
-    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
-    TangentialModel, cohesion, normal, rolling, tangential,
-};
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
+use cograin::scene::Models;
 
 /// The other engine's name of each pair property, with ours.
 const PROPERTIES: [(&str, &str); 21] = [
@@ -200,17 +198,19 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         let value = value.ok_or_else(|| Mistake::new(field, "absent; the chosen model needs it"))?;
         Ok(hooke::Keys { characteristic_velocity: positive(field, value)? })
     };
+    let models = Models::standard();
     let normal = match model.normal.as_str() {
-        "hertz" => NormalModel::of::<normal::hertz::Hertz>(NoKeys {}),
-        "hertz/stiffness" => NormalModel::of::<normal::hertz_stiffness::HertzStiffness>(NoKeys {}),
-        "hooke" if model.viscous => NormalModel::of::<normal::hooke_viscous::HookeViscous>(speed()?),
-        "hooke" => NormalModel::of::<normal::hooke::Hooke>(speed()?),
-        "hooke/stiffness" => NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys {
-            absolute_damping: model.absolute_damping,
-        }),
-        "edinburgh" => NormalModel::of::<normal::eepa::Eepa>(eepa(case)?),
-        "jkr" => NormalModel::of::<normal::jkr::Jkr>(sticky(case)?),
-        "dmt" => NormalModel::of::<normal::dmt::Dmt>(sticky(case)?),
+        "hertz" => models.normal("hertz", NoKeys {}),
+        "hertz/stiffness" => models.normal("hertz_stiffness", NoKeys {}),
+        "hooke" if model.viscous => models.normal("hooke_viscous", speed()?),
+        "hooke" => models.normal("hooke", speed()?),
+        "hooke/stiffness" => {
+            let keys = hooke_stiffness::Keys { absolute_damping: model.absolute_damping };
+            models.normal("hooke_stiffness", keys)
+        }
+        "edinburgh" => models.normal("eepa", eepa(case)?),
+        "jkr" => models.normal("jkr", sticky(case)?),
+        "dmt" => models.normal("dmt", sticky(case)?),
         other => {
             let right = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
             return Err(unknown("normal", other, right));
@@ -220,39 +220,39 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     let turned = Turned::default();
     let rocking =
         rocking::Keys { torsion: model.torsion_torque, engine_exact: true, set_up_step: Positive::new(case.dt) };
+    let tangential = match model.tangential.as_str() {
+        "off" => models.tangential("none", NoKeys {}),
+        "history" => models.tangential("history", NoKeys {}),
+        "no_history" | "linear_nohistory" => models.tangential("no_history", NoKeys {}),
+        "linear_history" => models.tangential("turned_history", Turned { given_stiffness: true, ..turned }),
+        "mindlin" => models.tangential("turned_history", turned),
+        "mindlin_rescale" => models.tangential("turned_history", Turned { rescale: true, ..turned }),
+        other => {
+            let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
+            return Err(unknown("tangential", other, right));
+        }
+    };
+    let rolling = match model.rolling_friction.as_str() {
+        "off" => models.rolling("none", NoKeys {}),
+        "cdt" => models.rolling("cdt", NoKeys {}),
+        "epsd" => models.rolling("epsd", rocking),
+        "epsd2" => models.rolling("epsd2", rocking),
+        other => return Err(unknown("rolling_friction", other, "cdt, epsd, epsd2 or off")),
+    };
     let keys = sjkr::Keys { tangential_reduce: model.tangential_reduce };
+    let cohesion = match model.cohesion.as_str() {
+        "off" | "bond" => models.cohesion("none", NoKeys {}),
+        "sjkr" => models.cohesion("sjkr", keys),
+        "sjkr2" => models.cohesion("sjkr2", keys),
+        other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
+    };
+    /// Sub-models of the program are asked for by name: so they are compiled with it, and not here once more.
+    const OURS: &str = "the program has this sub-model, with keys of this type";
     Ok(LawChoice {
-        normal,
-        tangential: match model.tangential.as_str() {
-            "off" => TangentialModel::of::<tangential::none::None>(NoKeys {}),
-            "history" => TangentialModel::of::<tangential::history::History>(NoKeys {}),
-            "no_history" | "linear_nohistory" => TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {}),
-            "linear_history" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned {
-                given_stiffness: true,
-                ..turned
-            }),
-            "mindlin" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(turned),
-            "mindlin_rescale" => {
-                TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned { rescale: true, ..turned })
-            }
-            other => {
-                let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
-                return Err(unknown("tangential", other, right));
-            }
-        },
-        rolling: match model.rolling_friction.as_str() {
-            "off" => RollingModel::of::<rolling::none::None>(NoKeys {}),
-            "cdt" => RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
-            "epsd" => RollingModel::of::<rolling::epsd::Epsd>(rocking),
-            "epsd2" => RollingModel::of::<rolling::epsd2::Epsd2>(rocking),
-            other => return Err(unknown("rolling_friction", other, "cdt, epsd, epsd2 or off")),
-        },
-        cohesion: match model.cohesion.as_str() {
-            "off" | "bond" => CohesionModel::of::<cohesion::none::None>(NoKeys {}),
-            "sjkr" => CohesionModel::of::<cohesion::sjkr::Sjkr>(keys),
-            "sjkr2" => CohesionModel::of::<cohesion::sjkr2::Sjkr2>(keys),
-            other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
-        },
+        normal: normal.expect(OURS),
+        tangential: tangential.expect(OURS),
+        rolling: rolling.expect(OURS),
+        cohesion: cohesion.expect(OURS),
         scheme: Scheme::Engine,
         switches: Switches::of(model.limit_force, model.tangential_damping),
     })

@@ -162,7 +162,8 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
     // One block of 300 MB that half a megabyte of text can well hold.
     let packed = format!(
         "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\
-         <DataArray type=\"Float64\" Name=\"radius\" format=\"binary\">{}</DataArray>{}</VTKFile>",
+         <UnstructuredGrid><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><PointData>\
+         <DataArray type=\"Float64\" Name=\"radius\" format=\"binary\">{}{}</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>",
         "AQAAAACj4REAo+ERFAAAAA==",
         " ".repeat(700_000)
     );
@@ -181,7 +182,7 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
         (
             "vtu",
             format!("{particles}file = \"packed.vtu\"\n"),
-            "data that need about 1.20 GB of memory instead of what fits into",
+            "an array radius that needs about 2.70 GB of memory instead of what fits into",
         ),
         ("stl", mesh, ", found triangles that need about 0.12 GB of memory"),
     ] {

@@ -284,7 +284,7 @@ impl Instance {
             return Err(Refusal::Time { argument: "startTime", value: start, right: "a finite number" });
         }
         if let Some(value) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
-            let right = "a finite number, startTime or later,";
+            let right = "a finite number, startTime or later";
             return Err(Refusal::Time { argument: "stopTime", value, right });
         }
         if let Some(value) = tolerance.filter(|tolerance| !tolerance.is_finite() || *tolerance < 0.0) {
@@ -374,7 +374,7 @@ impl Instance {
             return Err(Refusal::Time { argument: "currentCommunicationPoint", value: point, right });
         }
         if !length.is_finite() || length <= 0.0 || present + length <= present {
-            let right = "a finite number above 0, large enough to change the time,";
+            let right = "a finite number above 0, large enough to change the time";
             return Err(Refusal::Time { argument: "communicationStepSize", value: length, right });
         }
         // hosts count in nanoseconds or sum up; a step that was left out or done twice differs by far more

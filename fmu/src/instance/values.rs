@@ -137,7 +137,7 @@ impl Instance {
                 1 => self.unit.interface.check_rate(index, rate)?,
                 2 => drop(self.unit.interface.check_acceleration(&self.unit.scene, index, rate)?),
                 _ => {
-                    let right = "order 1, or order 2 of quadratic motion,";
+                    let right = "order 1, or order 2 of quadratic motion";
                     return Err(Refusal::Order { order, right, reference, name: variable.name.clone() });
                 }
             }

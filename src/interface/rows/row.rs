@@ -1,4 +1,4 @@
-//! What a kind of variable says of itself, and what many kinds have in common.
+//! The description of a kind of variable, and what many kinds have in common.
 
 use crate::averages::Content;
 use crate::interface::{Findings, Quantity, Value, Variability};
