@@ -13,22 +13,21 @@ const INTEGER: &str = "int";
 
 /// A type of C as `fmi-sys` writes it, for one of ours as it is written.
 fn c_type(ours: &str) -> String {
-    let named = match ours {
-        "Component" | "StateHandle" | "*mut c_void" => "*mut core::ffi::c_void",
+    if let Some((kind, pointed)) =
+        ["*const ", "*mut "].into_iter().find_map(|kind| Some((kind, ours.strip_prefix(kind)?)))
+    {
+        return format!("{kind}{}", c_type(pointed));
+    }
+    let named = match ours.rsplit("::").next().unwrap_or(ours) {
+        "Component" | "StateHandle" => "*mut core::ffi::c_void",
         "Reference" | "Boolean" | "c_int" | "Status" => INTEGER,
         "Text" => return c_type("*const c_char"),
         "c_char" => type_name::<c_char>(),
         "Callbacks" => type_name::<fmi2CallbackFunctions>(),
         "f64" | "usize" => ours,
-        _ => "",
+        _ => panic!("{ours} is no type that is known here"),
     };
-    if !named.is_empty() {
-        return named.to_owned();
-    }
-    match ["*const ", "*mut "].into_iter().find_map(|kind| Some((kind, ours.strip_prefix(kind)?))) {
-        Some((kind, pointed)) => format!("{kind}{}", c_type(pointed)),
-        None => panic!("{ours} is no type that is known here"),
-    }
+    named.to_owned()
 }
 
 /// The signature of each exported function of the unit: its parameters and its result.
