@@ -2,24 +2,22 @@
 //! press each other.
 //!
 //! Two simulations of a scene go on by turns. One is never asked; its communication step is an evaluation. The other is asked after
-//! each step. What its step and the question take more, in evaluations, is the cost of the derivatives.
+//! each step. What its step and the question take more, in evaluations, is the cost of a derivative, the way back included.
 //!
-//! `cargo bench --bench derivatives`; with `-- bed 1 8` behind it of these scenes and numbers of inputs alone, with `-- four` in
-//! registers of four numbers
+//! `cargo bench --bench derivatives`; with `-- bed` behind it of this scene alone
 
-use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::step::{Input, Simulation};
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::sync::Arc;
 
 /// Time steps of a communication step.
-const STEPS: f64 = 50.0;
+const LENGTHS: [u32; 4] = [10, 50, 100, 400];
 
-/// Communication steps that are timed; the quickest counts.
-const ROUNDS: usize = 40;
+/// Time steps that are timed in all; the quickest communication step counts.
+const STEPS: u32 = 4000;
 
 /// Ten by ten by ten spheres between planes, pressed by the upper one.
 const PRESSED: &str = r#"
@@ -83,55 +81,42 @@ fn time(work: impl FnOnce()) -> f64 {
     worked() - begun
 }
 
-/// Prints the cost of derivatives in a scene by so many inputs, from its beginning on.
+/// Prints the cost of a derivative by the axis z of a boundary, with communication steps of so many time steps.
 #[allow(clippy::print_stdout, reason = "a benchmark prints")]
-fn tell(source: &Source, step: f64, boundary: &str, inputs: usize, width: Width) {
+fn tell(source: &Source, step: f64, boundary: &str, steps: u32) {
     let scene = Arc::new(Scene::from_source(source).unwrap_or_else(|errors| panic!("{errors}")));
     let place = scene.boundaries.iter().position(|it| it.name == boundary).expect("the boundary is there");
-    let inputs: Vec<(BoundaryIndex, usize)> = vec![(BoundaryIndex(place as u32), 2); inputs];
-    let [mut plain, mut asked] = [(); 2].map(|()| {
-        let mut simulation = Simulation::new(Arc::clone(&scene)).expect("the scene starts");
-        simulation.set_width(width);
-        simulation
-    });
-    let length = STEPS * step;
+    let direction = [(Input::Axis(BoundaryIndex(place as u32), 2), 1.0)];
+    let [mut plain, mut asked] = [(); 2].map(|()| Simulation::new(Arc::clone(&scene)).expect("the scene starts"));
+    let length = f64::from(steps) * step;
     let advance = |simulation: &mut Simulation| {
         simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
     };
     let ask = |simulation: &mut Simulation| {
-        black_box(simulation.derivatives(&inputs).unwrap_or_else(|refusal| panic!("{refusal}")));
+        let mut read = |simulation: &Simulation| simulation.state().boundaries[place].force.to_vec();
+        black_box(simulation.differences(&direction, &mut read).unwrap_or_else(|refusal| panic!("{refusal}")));
     };
     let (mut once, mut with) = (f64::INFINITY, f64::INFINITY);
     // By turns, so that both have the same share of a machine's slow moments.
-    for _ in 0..ROUNDS {
+    for _ in 0..STEPS.div_ceil(steps).max(10) {
         once = once.min(time(|| advance(&mut plain)));
         with = with.min(time(|| {
             advance(&mut asked);
             ask(&mut asked);
         }));
     }
-    let (count, steps) = (inputs.len(), with / once - 1.0);
-    println!(
-        "{:10} {:7.3} ms, {count} inputs: {steps:5.2} evaluations, {:4.2} an input",
-        source.name,
-        once * 1e3,
-        steps / count as f64
-    );
+    let cost = with / once - 1.0;
+    println!("{:10} {steps:4} time steps, {:8.3} ms: {cost:5.2} evaluations a derivative", source.name, once * 1e3);
 }
 
 fn main() {
     // Cargo adds an option of its own.
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
-    let counts: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
-    let counts = if counts.is_empty() { vec![1, 2, 4, 8] } else { counts };
     let pressed = Source { name: "pressed".into(), text: PRESSED.into(), files: BTreeMap::new() };
     let all = [(model("block"), 1e-6, "top"), (model("bed"), 5e-5, "floor"), (pressed, 1e-5, "top")];
-    let width = if words.iter().any(|word| word == "four") { Width::Four } else { Width::widest() };
-    let some = all.iter().any(|(source, ..)| words.contains(&source.name));
-    let named = |name: &String| !some || words.contains(name);
-    for (source, step, boundary) in all.iter().filter(|it| named(&it.0.name)) {
-        for &count in &counts {
-            tell(source, *step, boundary, count, width);
+    for (source, step, boundary) in all.iter().filter(|it| words.is_empty() || words.contains(&it.0.name)) {
+        for steps in LENGTHS {
+            tell(source, *step, boundary, steps);
         }
     }
 }

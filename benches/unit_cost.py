@@ -93,7 +93,7 @@ def build(folder):
 def unpack(folder, scene):
     """The unit of a scene: what the host has to know of it."""
     unit = folder / f"{scene.stem}.fmu"
-    subprocess.run([PROGRAM, "export", scene, "-o", unit], check=True)
+    subprocess.run([PROGRAM, "export", scene, "-o", unit, "--overwrite"], check=True)
     place = folder / scene.stem
     with zipfile.ZipFile(unit) as archive:
         archive.extractall(place)

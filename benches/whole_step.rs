@@ -6,12 +6,8 @@
 //! SCENE is part of a name below; without one all of them run. `--widths` repeats each in every lane width: the states
 //! must be the same. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
 
-use cograin::contact::cohesion::CohesionChoice;
-use cograin::contact::normal::NormalChoice;
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::tangential::TangentialChoice;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::{Models, Scene, Source};
 use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -261,10 +257,11 @@ impl Options {
 /// The dense packing with every contact law: name, and what it is made of.
 fn every_law() -> Vec<(String, Kind)> {
     let mut laws = Vec::new();
-    for &normal in NormalChoice::NAMES {
-        for &tangential in TangentialChoice::NAMES {
-            for &rolling in RollingChoice::NAMES {
-                for &cohesion in CohesionChoice::NAMES {
+    let models = Models::standard();
+    for normal in models.normal_names() {
+        for tangential in models.tangential_names() {
+            for rolling in models.rolling_names() {
+                for cohesion in models.cohesion_names() {
                     let name = [normal, tangential, rolling, cohesion].join(" ");
                     laws.push((name, Kind::Dense { normal, tangential, rolling, cohesion }));
                 }

@@ -1,12 +1,9 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
+use crate::contact::batch::CoefficientRows;
 use crate::contact::{Contact, Law, MOST_HISTORY, MaterialPair, Response};
-use crate::lanes::{Lane, lanes_of};
 use crate::number::Vector;
 use crate::scene::{ContactLaw, Scene};
-
-/// Most coefficients that a composed law may have.
-pub(crate) const MOST_COEFFICIENTS: usize = 32;
 
 /// The coefficients that the scene gives a law for all pairs of materials it governs, row by row; others get zeros.
 pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
@@ -46,16 +43,6 @@ pub(crate) struct CoefficientTable {
     governed: Vec<bool>,
     /// How many particles of the scene are of each material.
     particles: Vec<usize>,
-}
-
-/// A row of coefficients, the same in each lane; behind them zeros.
-#[inline(always)]
-pub(crate) fn in_lanes<N: Lane>(row: &[f64]) -> [N; MOST_COEFFICIENTS] {
-    let mut numbers = [N::zero(); MOST_COEFFICIENTS];
-    for (number, value) in numbers.iter_mut().zip(row) {
-        *number = N::splat(*value);
-    }
-    numbers
 }
 
 /// Bodies that may meet under a law.
@@ -116,25 +103,9 @@ impl CoefficientTable {
         a * self.materials as u32 + b
     }
 
-    /// The coefficient of each lane that stands at this place in the rows with these numbers.
-    ///
-    /// # Safety
-    /// `place` is below the number of coefficients; `entry` points to [`Lane::WIDTH`] results of
-    /// [`CoefficientTable::entry`].
-    #[inline(always)]
-    pub(crate) unsafe fn gather<N: Lane>(&self, place: usize, entry: *const u32) -> N {
-        // SAFETY: the table has a row for each two materials.
-        unsafe { N::gather(self.rows.as_ptr().add(place), entry, self.count) }
-    }
-
-    /// The coefficients that bodies of these materials have with each other, a register's worth; behind them zeros.
-    #[inline(always)]
-    pub(crate) fn lanes<N: Lane>(&self, a: [u32; 8], b: [u32; 8]) -> [N; MOST_COEFFICIENTS] {
-        let mut numbers = [N::zero(); MOST_COEFFICIENTS];
-        for (place, number) in numbers.iter_mut().take(self.count).enumerate() {
-            *number = lanes_of(|lane| self.row(a[lane], b[lane])[place]);
-        }
-        numbers
+    /// Its rows.
+    pub(crate) fn rows(&self) -> CoefficientRows<'_> {
+        CoefficientRows { numbers: &self.rows, count: self.count }
     }
 
     /// The stiffest response of an impact between bodies that the scene has.

@@ -65,12 +65,6 @@ pub trait Number:
     fn zero() -> Self {
         Self::splat(0.0)
     }
-    /// Times a factor that does not change with anything that slopes are followed of: over numbers with slopes those of the factor
-    /// are not looked at.
-    #[inline(always)]
-    fn scaled(self, factor: Self) -> Self {
-        self * factor
-    }
     /// A polynomial with these coefficients, from that of the zeroth power up.
     #[inline(always)]
     fn polynomial<const COUNT: usize>(self, coefficients: &[f64; COUNT]) -> Self {
@@ -162,11 +156,6 @@ impl<N: Number> Vector<N> {
     #[inline(always)]
     pub fn new(x: N, y: N, z: N) -> Self {
         Self { x, y, z }
-    }
-    /// [`Number::scaled`]
-    #[inline(always)]
-    pub fn scaled(self, factor: N) -> Self {
-        Self::new(self.x.scaled(factor), self.y.scaled(factor), self.z.scaled(factor))
     }
     /// The zero vector.
     #[inline(always)]

@@ -27,7 +27,7 @@ macro_rules! checked {
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 let value = f64::deserialize(deserializer)?;
-                Self::new(value).ok_or_else(|| D::Error::custom(format!("{value:?} found; {} is right", $words)))
+                Self::new(value).ok_or_else(|| D::Error::custom(format!("expected {}, found {value:?}", $words)))
             }
         }
     };
@@ -93,7 +93,7 @@ impl<'de> Deserialize<'de> for Triple {
         let list: Vec<Finite> = deserializer.deserialize_seq(Numbers)?;
         match list[..] {
             [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
-            _ => Err(D::Error::custom(format!("{} numbers found; [x, y, z] is right", list.len()))),
+            _ => Err(D::Error::custom(format!("expected [x, y, z], found {} numbers", list.len()))),
         }
     }
 }
@@ -126,12 +126,12 @@ impl<'de> Deserialize<'de> for Corners {
         let corners = Vec::<Triple>::deserialize(deserializer)?;
         let [Triple(lower), Triple(upper)] = corners[..] else {
             let found = corners.len();
-            return Err(D::Error::custom(format!("{found} corners found; [[x, y, z], [x, y, z]] is right")));
+            return Err(D::Error::custom(format!("expected [[x, y, z], [x, y, z]], found {found} corners")));
         };
         match (0..3).find(|axis| lower[*axis] >= upper[*axis]) {
             None => Ok(Self([lower, upper])),
             Some(axis) => Err(D::Error::custom(format!(
-                "{:?} to {:?} along {} found; the lower corner before the upper one is right",
+                "expected the lower corner before the upper one, found {:?} to {:?} along {}",
                 lower[axis],
                 upper[axis],
                 ["x", "y", "z"][axis]

@@ -1,6 +1,7 @@
 //! Particles that go where bonds hold them: their bonds go with them, counted by themselves, and every book knows.
 
-use crate::exchange::{begun, scene};
+use crate::exchange::begun;
+use crate::support::scene;
 use cograin::lanes::Width;
 use cograin::scene::Scene;
 use cograin::state::State;

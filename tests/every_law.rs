@@ -5,12 +5,8 @@
 //! in which bonds between particles and to a plane are loaded in every way and break. Threads share a pass by slabs,
 //! whatever the law; `same_bits.rs` and `bonded_block.rs` look at them.
 
-use cograin::contact::cohesion::CohesionChoice;
-use cograin::contact::normal::NormalChoice;
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::tangential::TangentialChoice;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::{Models, Scene, Source};
 use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -100,10 +96,11 @@ energy = true
 /// Every contact law there is: name, and scene.
 pub(crate) fn contact_laws() -> BTreeMap<String, String> {
     let mut scenes = BTreeMap::new();
-    for &normal in NormalChoice::NAMES {
-        for &tangential in TangentialChoice::NAMES {
-            for &rolling in RollingChoice::NAMES {
-                for &cohesion in CohesionChoice::NAMES {
+    let models = Models::standard();
+    for normal in models.normal_names() {
+        for tangential in models.tangential_names() {
+            for rolling in models.rolling_names() {
+                for cohesion in models.cohesion_names() {
                     // A torque, or an attraction, by the overlap does not go with a pull beyond touch.
                     if normal == "jkr" && (rolling == "cdt" || cohesion != "none") {
                         continue;
@@ -300,9 +297,10 @@ fn hashes(width: Width) -> BTreeMap<String, u64> {
         hashes.insert(name, hash);
     }
     hashes.insert("others".into(), run("others", OTHERS, width, OTHER_STEPS).0);
-    let axes = [NormalChoice::NAMES, TangentialChoice::NAMES, RollingChoice::NAMES, CohesionChoice::NAMES];
+    let models = Models::standard();
+    let axes = [models.normal_names(), models.tangential_names(), models.rolling_names(), models.cohesion_names()];
     let bonds = (2 * 5 * 3 + 3 * 2) * 2;
-    let refused = TangentialChoice::NAMES.len() * (RollingChoice::NAMES.len() * CohesionChoice::NAMES.len() - 3);
+    let refused = axes[1].len() * (axes[2].len() * axes[3].len() - 3);
     let laws = axes.iter().map(|names| names.len()).product::<usize>() - refused;
     assert_eq!(hashes.len(), laws + bonds + 1);
     hashes

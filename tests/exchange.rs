@@ -1,16 +1,11 @@
 //! Particles that come and go: counted, booked, and the same bits whoever works on them and wherever a run is taken up.
 
+use crate::support::scene;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::state::State;
 use cograin::step::Simulation;
 use std::sync::Arc;
-
-/// The scene of a text.
-pub(crate) fn scene(text: &str) -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: text.into(), ..Source::default() };
-    Arc::new(Scene::from_source(&source).map_err(|errors| errors.to_string()).unwrap())
-}
 
 /// A feed of spheres of several sizes that fall through a hole in a floor, with friction and rolling, both books kept.
 fn falling(more: &str) -> String {
@@ -220,7 +215,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
         before += came;
     }
     let refused = interface.check(rate, -1.0).unwrap_err().to_string();
-    assert!(refused.ends_with("(feed.rate): -1.0 found; a number of 0.0 or above is right"), "{refused}");
+    assert!(refused.ends_with("(feed.rate): expected a number of 0.0 or above, found -1.0"), "{refused}");
 }
 
 #[test]
@@ -283,7 +278,7 @@ fn a_state_that_cannot_be_is_refused() {
         refused(|state| state.exchange.as_mut().unwrap().feeds[0].owed = f64::NAN),
         refused(|state| state.exchange.as_mut().unwrap().next = 1),
     ];
-    assert!(told.iter().all(|message| message.starts_with("a state that cannot be")), "{told:?}");
+    assert!(told.iter().all(|message| message.starts_with("invalid state, ")), "{told:?}");
 }
 
 /// The scene of [`falling`] that fills a closed bed, then opens its hole: `stage` is `"fill"` or `"open"`.

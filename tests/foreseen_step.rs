@@ -4,17 +4,9 @@
 //! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
 //! the messages blamed the step where speed or load was the cause.
 
+use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
 use cograin::step::{Cause, RunError, Simulation};
-use std::sync::Arc;
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// An elastic sphere at rest and a plane that comes at it as this motion says.
 fn plane_hits_sphere(run: &str, motion: &str) -> String {
@@ -211,4 +203,32 @@ fn spheres_that_are_too_soft_for_their_impact_do_not_pass_through_each_other_uns
     let error = start(&too_soft("")).advance(0.01).expect_err("they jump over each other");
     let RunError::Runaway { cause: Cause::Speed { speed, .. }, .. } = &error else { panic!("{error}") };
     assert_eq!(*speed, 16.0);
+}
+
+#[test]
+fn spheres_that_are_squeezed_slowly_are_not_told_that_they_met_too_fast() {
+    let text = "[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e4\npoissons_ratio = 0.3\n\
+                [pair.a.a]\nrestitution = 0.3\n[contact.c.normal.hertz]\n[particles.p]\nmaterial = \"a\"\nlist = [\n\
+                { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.0, 0.0, 0.03], radius = 0.01 },\n]\n\
+                [boundary.floor]\nmaterial = \"a\"\nplane = { point = [0, 0, 0], normal = [0, 0, 1] }\n\
+                [boundary.lid]\nmaterial = \"a\"\nplane = { point = [0, 0, 0.04], normal = [0, 0, -1] }\n\
+                motion = { prescribed = { z = -0.01 } }\n";
+    let error = start(text).advance(4.0).expect_err("the lid comes down to the floor");
+    assert!(matches!(error, RunError::Crushed { cause: Cause::Load, .. }), "{error}");
+}
+
+#[test]
+fn spheres_with_one_centre_are_told_so() {
+    let text = too_soft("max_overlap = 2.0\n").replace("[0.05, 0.0, 0.0]", "[0.0, 0.0, 0.0]").replace("16.0", "0.0");
+    let scene = scene(&text);
+    let error = Simulation::new(scene).and_then(|mut simulation| simulation.advance(0.01)).expect_err("no direction");
+    assert!(error.to_string().contains("the centres of particles 1 and 2 coincide"), "{error}");
+}
+
+#[test]
+fn where_nothing_is_stiff_no_stable_step_is_told() {
+    let text = "[run]\nstep = 1e-2\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                list = [ { position = [0.0, 0.0, 0.0], radius = 0.01, velocity = [10.0, 0.0, 0.0] } ]\n";
+    let told = start(text).advance(0.1).expect_err("it moves ten radii in a step").to_string();
+    assert!(told.ends_with("its speed, 1.000e1 m/s, is too high for a time step of 1.000e-2 s"), "{told}");
 }

@@ -3,8 +3,9 @@
 //! Kernels trust the slots in the lists, and took them from the bytes: six of eight series of 300 such states ended in a
 //! signal. What is tried here goes through the same door as a checkpoint and a state from a host.
 
+use crate::support;
 use cograin::results::{Checkpoint, write_checkpoint};
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::state::State;
 use cograin::state::contacts::BONDED;
 use cograin::step::Simulation;
@@ -116,8 +117,7 @@ fn scene_with(text: &str) -> Arc<Scene> {
         ("top.csv".to_owned(), block([4, 3, 1], 5.0e-3, 1.99e-3, 100)),
         ("mat.obj".to_owned(), MAT.into()),
     ]);
-    let source = Source { name: "scene.toml".into(), text: text.into(), files };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    support::scene_with(text, files)
 }
 
 /// How a state ended.
@@ -235,7 +235,7 @@ fn a_checkpoint_without_its_rows_is_refused_also_where_outputs_ask_for_more() {
     state.contacts[0].history.clear(rows);
     let refusal = go_on(&state).unwrap_err().to_string();
     std::fs::remove_file(&path).unwrap();
-    assert!(refusal.contains("history[2]: the rows of the law"), "{refusal}");
+    assert!(refusal.contains("history[2]: expected the rows of the law"), "{refusal}");
 }
 
 #[test]
@@ -250,40 +250,38 @@ fn a_state_is_refused_with_the_part_that_cannot_be() {
     assert!(simulation.check(simulation.state()).is_ok());
     assert_eq!(
         refusal(&|state| state.contacts[0].second[3] = 4000),
-        "a state that cannot be: contacts[3]: a second particle behind it, of this slab or the next, is right"
+        "invalid state, contacts[3]: expected a second particle behind it, of this slab or the next"
     );
     assert_eq!(
         refusal(&|state| state.particles.velocity[2][3] *= 2.0),
-        "a state that cannot be: particles[2]: the scene's radius, mass, inertia, material and group is right"
+        "invalid state, particles[2]: expected the scene's radius, mass, inertia, material and group"
     );
     assert_eq!(
         refusal(&|state| state.particles.position[1][0] = f64::NAN),
-        "a state that cannot be: position[1]: finite numbers is right"
+        "invalid state, position[1]: expected finite numbers"
     );
     assert_eq!(
         refusal(&|state| state.nodes[0].force[3][2] = f64::INFINITY),
-        "a state that cannot be: nodes[3]: finite numbers is right"
+        "invalid state, nodes[3]: expected finite numbers"
     );
     assert_eq!(
         refusal(&|state| state.nodes[0].listed.truncate(3)),
-        "a state that cannot be: nodes[6]: columns of one length is right"
+        "invalid state, nodes[6]: expected columns of one length"
     );
     assert_eq!(
         refusal(&|state| state.nodes[0].boundary = 1),
-        "a state that cannot be: nodes[0]: the nodes of the scene's meshes is right"
+        "invalid state, nodes[0]: expected the nodes of the scene's meshes"
     );
 }
 
 #[test]
-fn bytes_of_another_layout_are_refused_in_words() {
+fn bytes_of_another_schema_are_refused_in_words() {
     let scene = scene();
     let mut bytes = Simulation::new(Arc::clone(&scene)).unwrap().state().to_bytes(scene.fingerprint);
     bytes[15] ^= 1;
     let refusal = State::from_bytes(&bytes, scene.fingerprint).unwrap_err().to_string();
     assert!(
-        refusal.starts_with(
-            "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout "
-        ),
+        refusal.starts_with("expected the schema ") && refusal.ends_with("that of another build of this program"),
         "{refusal}"
     );
 }

@@ -1,20 +1,14 @@
 //! Groups of particles that forces move, or that turn: against theory, against single particles, and their books.
 
+use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{AxisMotion, InputCourse, Scene, Source};
+use cograin::scene::{AxisMotion, InputCourse};
 use cograin::state::{BoundaryState, State};
 use cograin::step::{LimiterKind, RunError, Simulation};
 use std::sync::Arc;
 
 /// The first boundary.
 const FIRST: BoundaryIndex = BoundaryIndex(0);
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// The first boundary of a simulation.
 fn group(simulation: &Simulation) -> BoundaryState {
@@ -428,8 +422,8 @@ fn half_a_turn_about_several_axes_is_refused_and_changes_nothing() {
     assert!(matches!(error, RunError::Turn { .. }), "{error}");
     assert_eq!(
         error.to_string(),
-        "boundary top would turn 3.5355 rad about several axes in one communication step at t = 0 s; \
-         less than half a turn (pi) is right"
+        "boundary top: expected less than half a turn (pi) about several axes in one communication step, found \
+         3.5355 rad at t = 0 s"
     );
     assert_eq!(*simulation.state(), before);
     simulation.set_input(FIRST, 4, 0.0);

@@ -135,11 +135,12 @@ fn a_packing_tells_how_far_it_is() {
         packing = { box = [[5, 0, 0], [6, 1, 1]], solid_fraction = 0.4, radius = 0.1 }\n";
     std::fs::write(&path, two).unwrap();
     let (mut placed, mut rounds) = (0, 0);
-    Scene::read_with(&path, &[], &mut |progress| match progress {
-        PackingProgress::Placing { placed: now, count, .. } => placed = now * usize::from(count == 5),
-        PackingProgress::Pushing { rounds: now, .. } => rounds = now,
-    })
-    .unwrap();
+    cograin::scene::Models::standard()
+        .read(&path, &[], &mut |progress| match progress {
+            PackingProgress::Placing { placed: now, count, .. } => placed = now * usize::from(count == 5),
+            PackingProgress::Pushing { rounds: now, .. } => rounds = now,
+        })
+        .unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!(placed, 5);
     assert!(rounds > 10, "{rounds}");

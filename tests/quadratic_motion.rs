@@ -1,9 +1,8 @@
 //! Boundaries that go through a communication step at constant acceleration, and the slope of the force on them.
 
+use crate::support;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
 use cograin::step::Simulation;
-use std::sync::Arc;
 
 /// The first boundary.
 const FLOOR: BoundaryIndex = BoundaryIndex(0);
@@ -41,9 +40,7 @@ input = "{input}"
 "#,
         damping = if held { 0.0 } else { 50.0 }
     );
-    let source = Source { name: "scene.toml".into(), text, files: std::collections::BTreeMap::new() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
+    support::start(&text)
 }
 
 /// Sends the floor to a height \[m\] at an acceleration \[m/s²\] within a communication step \[s\].

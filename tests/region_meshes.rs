@@ -1,6 +1,7 @@
 //! Regions inside of meshes: what they say is what boxes of the same shape say, and nothing depends on how the work is shared.
 
-use crate::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, start_with, value};
+use crate::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, value};
+use crate::support::start_with;
 use cograin::averages::{self, Tensor};
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;

@@ -4,11 +4,11 @@
 //! or none where it was too far away. Setting one in a scene that began in a reached state shifted the energy book, and
 //! a settled state kept what damping had taken of its bonds.
 
+use crate::support;
 use cograin::interface::{Interface, Value};
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
 use cograin::state::State;
 use cograin::step::Simulation;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A row of bonded spheres, held at one end and driven at the other.
@@ -48,8 +48,7 @@ energy = true
 
 /// The scene.
 fn scene() -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: BEAM.into(), files: BTreeMap::new() };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    support::scene(BEAM)
 }
 
 /// Gives the tip a displacement.

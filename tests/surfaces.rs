@@ -3,8 +3,9 @@
 //!
 //! Unless something else is said: radius 5 mm, E = 5 MPa and ν = 0.3 of both, hence E* = 2.7473 MPa; F(δ) = 4/3 E* √(R δ³).
 
+use crate::support::{scene_with, start_with};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::scene::{Scene, SceneDraft};
 use cograin::step::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -71,8 +72,7 @@ list = [{}]
         spheres.join(", ")
     );
     let files: BTreeMap<String, Vec<u8>> = files.iter().map(|(name, list)| ((*name).to_owned(), stl(list))).collect();
-    let source = Source { name: "scene.toml".into(), text, files };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    scene_with(&text, files)
 }
 
 /// Friction and rolling resistance.
@@ -406,10 +406,10 @@ impl FullBox {
         let files: Vec<(&str, Vec<Triangle>)> =
             self.files.iter().map(|(name, list)| (name.as_str(), list.clone())).collect();
         let (boundaries, files) = if meshes { (&self.meshes, files) } else { (&self.planes, Vec::new()) };
-        let mut scene = Scene::clone(&scene(&self.places, ROUGH, boundaries, &files));
+        let mut scene = SceneDraft::clone(&scene(&self.places, ROUGH, boundaries, &files));
         scene.gravity = self.gravity;
         scene.run.step = cograin::scene::Step::Given(2e-5);
-        Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
+        Simulation::new(Arc::new(scene.build().unwrap())).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// After so many time steps between planes or meshes: contacts and, of each sphere, position, velocity, angular velocity.
@@ -528,10 +528,10 @@ fn tumbling() -> Arc<Scene> {
                       [boundary.bumps]\nmaterial = \"wall\"\nmesh = { file = \"bumps.stl\" }\n\
                       motion = { driven = [\"z\"] }\n[output]\nenergy = true\n";
     let scene = scene(&places, ROUGH, boundaries, &[("wall.stl", drum(48, 0.03)), ("bumps.stl", bumps)]);
-    let mut scene = Scene::clone(&scene);
+    let mut scene = SceneDraft::clone(&scene);
     scene.gravity = [0.0, 0.0, -9.81];
     scene.run.step = cograin::scene::Step::Given(2e-5);
-    Arc::new(scene)
+    Arc::new(scene.build().unwrap())
 }
 
 /// Moves the boundaries of [`tumbling`] through a communication step.
@@ -634,10 +634,10 @@ fn a_closed_body_in_a_bed_gets_what_the_particles_lose() {
     let far = |place: &&[f64; 3]| place.map(|part| part * part).iter().sum::<f64>().sqrt() > 0.0165;
     let places: Vec<[f64; 3]> = full.places.iter().filter(far).copied().collect();
     let boundaries = format!("{}[boundary.body]\nmaterial = \"wall\"\nmesh = {{ file = \"ball.stl\" }}\n", full.planes);
-    let mut scene = Scene::clone(&scene(&places, ROUGH, &boundaries, &[("ball.stl", ball(0.011))]));
+    let mut scene = SceneDraft::clone(&scene(&places, ROUGH, &boundaries, &[("ball.stl", ball(0.011))]));
     scene.gravity = [0.0, 0.0, -98.1];
     scene.run.step = cograin::scene::Step::Given(2e-5);
-    let mut simulation = Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(Arc::new(scene.build().unwrap())).unwrap_or_else(|error| panic!("{error}"));
     simulation.advance(0.1).unwrap_or_else(|error| panic!("{error}"));
     let (force, moment, turnover) = unbalanced(&simulation, [0.0, 0.0, -98.1]);
     assert!(simulation.state().boundaries[6].force[2].abs() > 1e-3 * turnover, "the bed lies on the body");
@@ -736,9 +736,7 @@ material = "wall"
     let corners = [[-0.05, -0.05, 0.0], [0.05, -0.05, 0.0], [0.05, 0.05, 0.0], [-0.05, 0.05, 0.0]];
     let floor = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
     let files = BTreeMap::from([("floor.stl".to_owned(), stl(&floor))]);
-    let source = Source { name: "scene.toml".into(), text, files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let mut simulation = Simulation::new(Arc::new(scene)).expect("it starts");
+    let mut simulation = start_with(&text, files);
     let step = |_| {
         simulation.advance(2e-7).unwrap_or_else(|error| panic!("{error}"));
         let particles = &simulation.state().particles;

@@ -1,12 +1,13 @@
 //! A user's scene over the time step: how far its outputs are from those of a fine step, what it costs, and which setting suffices.
 
-use crate::ChartError;
-use crate::charts::Drawing;
 use crate::picture::{Panel, Picture, logarithmic};
 use crate::table::Table;
+use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
-use cograin::scene::{Scene, Setting, Step};
+use cograin::scene::{Models, Scene, SceneDraft, Setting, Step};
 use cograin::step::Simulation;
+use rayon::prelude::*;
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -37,7 +38,7 @@ pub struct SceneChart {
     interval: f64,
     /// Largest error that is wanted, over the largest value of each quantity.
     wanted: f64,
-    /// What the chart costs, about \[s\].
+    /// Processor time of the chart, about \[s\].
     pub seconds: f64,
 }
 
@@ -47,16 +48,18 @@ struct Run {
     part: f64,
     /// Time steps made.
     steps: u64,
-    /// Wall time \[s\].
+    /// Wall time of its one thread, while other runs go on beside it \[s\].
     seconds: f64,
     /// Outputs, row by row.
     rows: Vec<Vec<f64>>,
 }
 
 impl SceneChart {
-    /// Reads a scene and finds out what its chart costs.
-    pub fn of(path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
-        let (scene, _) = Scene::read_with(path, settings, &mut |_| {})?;
+    /// Reads a scene, which may name these sub-models, and finds out what its chart costs.
+    pub fn of(models: &Models, path: &Path, settings: &[Setting], wanted: f64) -> Result<Self, ChartError> {
+        let (scene, _) = models.read(path, settings, &mut |_| {})?;
+        // The runs are made side by side, a thread each.
+        let scene = scene.with_threads(NonZeroUsize::new(1));
         let end = scene.run.end.ok_or(ChartError::NoEnd)?;
         let rows = (end / scene.output.history_interval.unwrap_or(end / ROWS)).ceil();
         let mut chart = Self { scene: Arc::new(scene), end, interval: end / rows, wanted, seconds: 0.0 };
@@ -87,18 +90,18 @@ impl SceneChart {
     }
 
     /// The scene at one of them.
-    fn at(&self, part: f64) -> Scene {
-        let mut scene = Scene::clone(&self.scene);
-        scene.run.step = match scene.run.step {
+    fn at(&self, part: f64) -> Result<Scene, ChartError> {
+        let mut draft = SceneDraft::clone(&self.scene);
+        draft.run.step = match draft.run.step {
             Step::Automatic { .. } => Step::Automatic { safety: part },
             Step::Given(step) => Step::Given(part * step),
         };
-        scene
+        Ok(draft.build()?)
     }
 
     /// Runs it, each interval in so many communication steps.
     fn run(&self, part: f64, communication_steps: u32) -> Result<Run, ChartError> {
-        let mut simulation = Simulation::new(Arc::new(self.at(part)))?;
+        let mut simulation = Simulation::new(Arc::new(self.at(part)?))?;
         let interface = Interface::of(&self.scene);
         let begun = Instant::now();
         let mut rows = Vec::new();
@@ -114,17 +117,22 @@ impl SceneChart {
 
     /// Computes the chart.
     pub fn draw(&self) -> Result<Drawing, ChartError> {
-        let [coarser @ .., finest] = self.parts();
-        let right = self.run(finest, 1)?;
-        let word = match self.scene.run.step {
-            Step::Automatic { .. } => "safety",
-            Step::Given(_) => "given step times",
+        let (word, own) = match self.scene.run.step {
+            Step::Automatic { safety } => ("safety", safety),
+            Step::Given(_) => ("given step times", 1.0),
         };
+        // Longest first: what is left at the end, for fewer threads than there are, is short.
+        let wanted: Vec<_> =
+            self.parts().into_iter().rev().map(|part| (part, 1)).chain([(own, 1), (own, DIVISIONS)]).collect();
+        let runs: Vec<_> = wanted.par_iter().with_max_len(1).map(|&(part, count)| self.run(part, count)).collect();
+        let mut runs = runs.into_iter();
+        let right = runs.next().expect("the finest step is among them")?;
+        let coarser: Vec<_> = runs.by_ref().take(self.parts().len() - 1).collect();
         let mut table = Table::new(COLUMNS);
         let mut notes = Vec::new();
         let mut enough = [None, None];
-        for part in coarser {
-            let run = match self.run(part, 1) {
+        for (part, run) in self.parts().into_iter().zip(coarser.into_iter().rev()) {
+            let run = match run {
                 Ok(run) => run,
                 Err(error) => {
                     notes.push(format!("{word} {part}: {error}"));
@@ -142,7 +150,9 @@ impl SceneChart {
                 }
             }
         }
-        notes.extend(self.communication());
+        if let (Some(Ok(whole)), Some(Ok(divided))) = (runs.next(), runs.next()) {
+            notes.push(self.communication(&whole, &divided));
+        }
         for (enough, when) in enough.into_iter().zip(["at any moment", "in the mean"]) {
             let wanted = self.wanted;
             notes.push(match enough {
@@ -161,16 +171,9 @@ impl SceneChart {
     }
 
     /// What shorter communication steps change at the scene's own step: in a run alone they shorten time steps that do not fit.
-    fn communication(&self) -> Option<String> {
-        let own = match self.scene.run.step {
-            Step::Automatic { safety } => safety,
-            Step::Given(_) => 1.0,
-        };
-        let [whole, divided] = [1, DIVISIONS].map(|count| self.run(own, count).ok());
-        let [moment, mean] = self.compare(&divided?, &whole?, &mut Table::new(COLUMNS));
-        Some(format!(
-            "communication steps 1/{DIVISIONS} as long change {moment:.1e} at any moment, {mean:.1e} in the mean"
-        ))
+    fn communication(&self, whole: &Run, divided: &Run) -> String {
+        let [moment, mean] = self.compare(divided, whole, &mut Table::new(COLUMNS));
+        format!("communication steps 1/{DIVISIONS} as long change {moment:.1e} at any moment, {mean:.1e} in the mean")
     }
 
     /// Adds how far a run is from the finest one, a row for each quantity. Returns the worst at any moment and in the mean.

@@ -93,6 +93,11 @@ impl<T: Copy> Items<T> {
 }
 
 impl Items<u8> {
+    /// The first so many, or all if there are fewer.
+    pub(crate) fn first(self, most: usize) -> Vec<u8> {
+        Self { length: self.length.min(most), ..self }.to_vec()
+    }
+
     /// The bytes, copied.
     pub(crate) fn to_vec(self) -> Vec<u8> {
         let mut bytes = vec![0; self.length];
@@ -102,12 +107,16 @@ impl Items<u8> {
     }
 }
 
+/// Elements of an array of more than one byte each: there are no more references.
+const MOST: usize = u32::MAX as usize;
+
 /// Whether an array can be.
 fn fits<T>(argument: &'static str, is_null: bool, length: usize) -> Result<(), Refusal> {
     if length > 0 && is_null {
         return Err(Refusal::Null { argument });
     }
-    if length > isize::MAX.unsigned_abs() / size_of::<T>().max(1) {
+    let most = if size_of::<T>() > 1 { MOST } else { isize::MAX.unsigned_abs() };
+    if length > most {
         return Err(Refusal::Length { argument, length });
     }
     Ok(())

@@ -6,6 +6,7 @@
 //! in a zero, and pointers to results may be written. Components and state handles are looked up, not followed:
 //! wrong ones are refused.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![allow(clippy::missing_safety_doc, reason = "the demands are those of FMI 2.0, stated above once for all functions")]
 
 mod calls;
@@ -18,23 +19,24 @@ mod location;
 mod logger;
 mod refusal;
 mod saved;
-mod types;
+pub mod types;
 pub mod values;
 
 use cograin::export::LIBRARY_MARK;
+use cograin::scene::Models;
 use guard::{Guarded, call};
 use host_memory::{Items, Target, readable, text};
 use instance::{Instance, Request};
 use logger::Logger;
 use refusal::Refusal;
+use saved::{CHECKED, Saved};
 use std::ffi::{CStr, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, null_mut};
 use types::{Boolean, Callbacks, Component, StateHandle, Status, Text};
 
-/// Tells `cograin export` that this is the right library.
-#[used]
-static MARK: [u8; LIBRARY_MARK.len()] = {
+/// Stands in every library of units of this version: [`LIBRARY_MARK`].
+pub const MARK: [u8; LIBRARY_MARK.len()] = {
     let mut bytes = [0; LIBRARY_MARK.len()];
     bytes.copy_from_slice(LIBRARY_MARK.as_bytes());
     bytes
@@ -52,17 +54,27 @@ pub extern "C" fn fmi2GetVersion() -> Text {
     c"2.0".as_ptr()
 }
 
-/// `fmi2Instantiate`: null if there is no instance; the reason goes to the logger.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Instantiate(
-    name: Text,
-    kind: c_int,
-    guid: Text,
-    location: Text,
-    functions: *const Callbacks,
-    _visible: Boolean,
-    logging: Boolean,
-) -> Component {
+/// What a host hands over to make an instance.
+#[derive(Clone, Copy)]
+pub struct Arguments {
+    /// Name of the instance.
+    pub name: Text,
+    /// Kind of unit.
+    pub kind: c_int,
+    /// GUID of the description.
+    pub guid: Text,
+    /// Where the resources are.
+    pub location: Text,
+    /// What the host offers.
+    pub functions: *const Callbacks,
+    /// Whether events are logged.
+    pub logging: Boolean,
+}
+
+/// `fmi2Instantiate`, for scenes that may name these sub-models: null if there is no instance; the reason goes to the logger. What
+/// [`unit!`] exports calls it.
+pub unsafe fn instantiate(arguments: &Arguments, models: fn() -> Models) -> Component {
+    let Arguments { name, kind, guid, location, functions, logging } = *arguments;
     guard::silence_panics();
     // SAFETY: demands of FMI 2.0. The callbacks are copied: the host may free its own after this call.
     let (callbacks, label) = unsafe {
@@ -74,7 +86,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     // SAFETY: demands of FMI 2.0.
     let [name, identity, location] = unsafe { [text(name), text(guid), text(location)] }.map(|text| text.map(readable));
     let request = Request { name, kind, identity, location };
-    let made = || catch_unwind(AssertUnwindSafe(|| Instance::new(&request)));
+    let made = || catch_unwind(AssertUnwindSafe(|| Instance::new(&request, models())));
     match floating_point::standard(made) {
         Ok(Ok(instance)) => {
             logger.event(|| format!("fmi2Instantiate: {}", instance.about()));
@@ -90,6 +102,39 @@ pub unsafe extern "C" fn fmi2Instantiate(
         }
     }
 }
+
+/// Makes a crate the library of units: `unit!(models)`, with the [`Models`] that their scenes may name, once in a crate of type
+/// `cdylib`. The other functions of FMI 2.0 are those of this crate, which the library exports as well.
+#[macro_export]
+macro_rules! unit {
+    ($models:expr) => {
+        /// Tells `export` that this is the library of a unit.
+        #[used]
+        static COGRAIN_UNIT: [u8; $crate::MARK.len()] = $crate::MARK;
+
+        /// `fmi2Instantiate`
+        ///
+        /// # Safety
+        /// As FMI 2.0 demands.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn fmi2Instantiate(
+            name: $crate::types::Text,
+            kind: ::std::ffi::c_int,
+            guid: $crate::types::Text,
+            location: $crate::types::Text,
+            functions: *const $crate::types::Callbacks,
+            _visible: $crate::types::Boolean,
+            logging: $crate::types::Boolean,
+        ) -> $crate::types::Component {
+            let arguments = $crate::Arguments { name, kind, guid, location, functions, logging };
+            // SAFETY: demands of FMI 2.0.
+            unsafe { $crate::instantiate(&arguments, || $models) }
+        }
+    };
+}
+
+#[cfg(test)]
+unit!(Models::standard());
 
 /// `fmi2FreeInstance`
 #[unsafe(no_mangle)]
@@ -254,6 +299,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
             let handle = target.first();
             (Items::new("serializedState", bytes.cast::<u8>(), size)?, target, handle)
         };
+        Saved::check_length(&bytes.first(CHECKED), bytes.len())?;
         target.put(0, ptr::without_provenance_mut(instance.deserialize(&bytes.to_vec(), handle.addr())?));
         Ok(())
     })

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum LocationError {
     /// Another scheme.
-    #[error("fmuResourceLocation {uri:?} is not a file: URI; file:///path/to/resources is right")]
+    #[error("fmuResourceLocation: expected a file: URI, as file:///path/to/resources, found {uri:?}")]
     Scheme {
         /// What was given.
         uri: String,
     },
     /// Another machine.
-    #[error("fmuResourceLocation {uri:?} is on the machine {host:?}; this one is right")]
+    #[error("fmuResourceLocation: expected a path on this machine, found {uri:?} on the machine {host:?}")]
     Host {
         /// What was given.
         uri: String,
@@ -21,7 +21,10 @@ pub(crate) enum LocationError {
         host: String,
     },
     /// A broken escape.
-    #[error("fmuResourceLocation {uri:?}: a percent sign without two hexadecimal digits; %25 is right for the sign")]
+    #[error(
+        "fmuResourceLocation: expected two hexadecimal digits after each percent sign, found {uri:?}; write %25 \
+             for the sign itself"
+    )]
     Escape {
         /// What was given.
         uri: String,

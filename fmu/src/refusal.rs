@@ -9,7 +9,7 @@ use cograin::step::RunError;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Refusal {
     /// Not now.
-    #[error("called {phase}; {} is right", list(allowed))]
+    #[error("expected a call {}, found one {phase}", list(allowed))]
     Phase {
         /// Where the instance stands.
         phase: Phase,
@@ -17,16 +17,16 @@ pub(crate) enum Refusal {
         allowed: &'static [Phase],
     },
     /// A call within a call, or from two threads at once.
-    #[error("called while another call of this instance runs; one call at a time is right")]
+    #[error("expected one call of this instance at a time, found another one that runs")]
     Busy,
     /// A null pointer.
-    #[error("{argument} is null; an address is right")]
+    #[error("{argument}: expected an address, found null")]
     Null {
         /// The argument.
         argument: &'static str,
     },
     /// A text in another encoding.
-    #[error("{argument} is {text:?}, which is not UTF-8; UTF-8 is right")]
+    #[error("{argument}: expected UTF-8, found {text:?}")]
     Utf8 {
         /// The argument.
         argument: &'static str,
@@ -34,7 +34,7 @@ pub(crate) enum Refusal {
         text: String,
     },
     /// An array that no memory holds.
-    #[error("{argument} has {length} elements; fewer are right")]
+    #[error("{argument}: expected an array that memory can hold, found {length} elements")]
     Length {
         /// The argument.
         argument: &'static str,
@@ -45,7 +45,7 @@ pub(crate) enum Refusal {
     #[error(transparent)]
     Interface(#[from] InterfaceError),
     /// A variable of another type.
-    #[error("{reference} ({name}) is {found}; a variable of type {expected} is right")]
+    #[error("{reference} ({name}): expected a variable of type {expected}, found {found}")]
     Type {
         /// Its value reference.
         reference: u32,
@@ -67,7 +67,7 @@ pub(crate) enum Refusal {
         value: f64,
     },
     /// A derivative of an order that is not taken.
-    #[error("order {order} for {reference} ({name}); {right} is right")]
+    #[error("{reference} ({name}): expected {right}, found order {order}")]
     Order {
         /// The order.
         order: i32,
@@ -79,7 +79,7 @@ pub(crate) enum Refusal {
         name: String,
     },
     /// A time that is not a finite number.
-    #[error("{argument} is {value} s; {right} is right")]
+    #[error("{argument}: expected {right}, found {value} s")]
     Time {
         /// The argument.
         argument: &'static str,
@@ -89,13 +89,13 @@ pub(crate) enum Refusal {
         right: &'static str,
     },
     /// A tolerance that is not a finite number of 0 or above.
-    #[error("tolerance is {value}; a finite number of 0 or above is right")]
+    #[error("tolerance: expected a finite number of 0 or above, found {value}")]
     Tolerance {
         /// Its value.
         value: f64,
     },
     /// A communication step from another time.
-    #[error("the communication point {given} s is not the present time, {present} s")]
+    #[error("communication point: expected the present time, {present} s, found {given} s")]
     Point {
         /// What was given \[s\].
         given: f64,
@@ -103,7 +103,7 @@ pub(crate) enum Refusal {
         present: f64,
     },
     /// A communication step beyond the experiment.
-    #[error("the step to {end} s goes beyond the stop time of fmi2SetupExperiment, {stop} s")]
+    #[error("expected a step up to the stop time of fmi2SetupExperiment, {stop} s, found one to {end} s")]
     Stop {
         /// End of the step \[s\].
         end: f64,
@@ -112,8 +112,8 @@ pub(crate) enum Refusal {
     },
     /// A communication step of so many time steps that they would take days.
     #[error(
-        "a step of {length} s is {count:.1e} time steps of {step:.2e} s, days of computing in which the host cannot \
-         stop; at most {most:.1e} in one fmi2DoStep are right"
+        "expected at most {most:.1e} time steps in one fmi2DoStep, found {count:.1e}, days of computing in which \
+         the host cannot stop: {length} s in time steps of {step:.2e} s"
     )]
     TooMany {
         /// Length of the communication step \[s\].
@@ -126,10 +126,12 @@ pub(crate) enum Refusal {
         most: f64,
     },
     /// A handle that is not of this instance.
-    #[error("not a state that fmi2GetFMUstate or fmi2DeSerializeFMUstate of this instance gave out")]
+    #[error(
+        "expected a state that fmi2GetFMUstate or fmi2DeSerializeFMUstate of this instance gave out, found another"
+    )]
     Handle,
     /// A buffer of a wrong size.
-    #[error("{given} bytes are given; {needed} are right")]
+    #[error("expected {needed} bytes, found {given}")]
     Size {
         /// Its size.
         given: usize,
@@ -140,7 +142,7 @@ pub(crate) enum Refusal {
     #[error(transparent)]
     Blob(#[from] crate::saved::BlobError),
     /// A category of messages that is not declared.
-    #[error("there is no category {name:?}; {} are right", categories())]
+    #[error("expected a category among {}, found {name:?}", categories())]
     Category {
         /// The name given.
         name: String,
@@ -153,7 +155,8 @@ pub(crate) enum Refusal {
     },
     /// `fmi2CancelStep`
     #[error(
-        "no communication step is under way: fmi2DoStep returns when it is done; a call from another thread while it runs is right"
+        "no communication step is under way: fmi2DoStep returns when it is done; call from another thread while it \
+         runs"
     )]
     NothingToCancel,
     /// The scene cannot start so.
@@ -183,7 +186,7 @@ pub(crate) enum Refusal {
         time: f64,
     },
     /// A panic.
-    #[error("internal error: {message}; fmi2Reset or fmi2FreeInstance is right")]
+    #[error("internal error: {message}; call fmi2Reset or fmi2FreeInstance")]
     Panic {
         /// Its message.
         message: String,

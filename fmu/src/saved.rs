@@ -36,17 +36,17 @@ pub(crate) struct Course {
 /// What the bytes start with.
 const MAGIC: &[u8; 8] = b"cogunit\0";
 /// Version of the layout.
-const VERSION: u32 = 2;
-/// Length of what stands before the state: magic, version, checksum, three bytes, origin, stop, length of the GUID.
-const HEADER: usize = 8 + 4 + 8 + 3 + 8 + 8 + 4;
+const VERSION: u32 = 3;
+/// Length of what stands before the state: magic, version, length, checksum, three bytes, origin, stop, length of the GUID.
+const HEADER: usize = CHECKED + 3 + 8 + 8 + 4;
 /// Where the part begins that the checksum covers.
-const CHECKED: usize = 8 + 4 + 8;
+pub(crate) const CHECKED: usize = 8 + 4 + 8 + 8;
 
 /// Why bytes are not a state of this unit.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BlobError {
     /// Another kind of data.
-    #[error("not a state of a cograin unit; bytes of fmi2SerializeFMUstate are right")]
+    #[error("expected the bytes of fmi2SerializeFMUstate, found no state of a cograin unit")]
     Foreign,
     /// Another layout.
     #[error("state of layout version {found}; this unit reads version {VERSION}")]
@@ -63,7 +63,7 @@ pub(crate) enum BlobError {
         expected: String,
     },
     /// Changed or cut.
-    #[error("damaged state: the checksum does not fit")]
+    #[error("damaged state: its length or checksum does not fit")]
     Damaged,
     /// The simulation's part does not fit.
     #[error(transparent)]
@@ -77,7 +77,7 @@ impl Saved {
         let mut bytes = Vec::with_capacity(HEADER + identity.len() + state.len());
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
-        bytes.extend_from_slice(&[0; 8]);
+        bytes.extend_from_slice(&[0; 16]);
         bytes.push(self.course.phase as u8);
         bytes.push(u8::from(self.course.placed));
         bytes.push(self.course.last_step as u8);
@@ -92,14 +92,16 @@ impl Saved {
             bytes.extend_from_slice(&value.to_le_bytes());
         }
         bytes.extend_from_slice(&state);
+        let length = (bytes.len() as u64).to_le_bytes();
+        bytes[CHECKED - 16..CHECKED - 8].copy_from_slice(&length);
         let checksum = xxh3_64(&bytes[CHECKED..]).to_le_bytes();
         bytes[CHECKED - 8..CHECKED].copy_from_slice(&checksum);
         bytes
     }
 
-    /// Reads what [`Saved::to_bytes`] wrote for the same unit.
-    pub(crate) fn from_bytes(bytes: &[u8], identity: &str, scene_fingerprint: u64) -> Result<Self, BlobError> {
-        let mut reader = Reader { bytes };
+    /// Whether bytes that begin so can be as many as these: an array is copied only then.
+    pub(crate) fn check_length(head: &[u8], length: usize) -> Result<(), BlobError> {
+        let mut reader = Reader { bytes: head };
         if reader.take::<8>() != Ok(*MAGIC) {
             return Err(BlobError::Foreign);
         }
@@ -107,6 +109,13 @@ impl Saved {
         if version != VERSION {
             return Err(BlobError::Version { found: version });
         }
+        if u64::from_le_bytes(reader.take()?) == length as u64 { Ok(()) } else { Err(BlobError::Damaged) }
+    }
+
+    /// Reads what [`Saved::to_bytes`] wrote for the same unit.
+    pub(crate) fn from_bytes(bytes: &[u8], identity: &str, scene_fingerprint: u64) -> Result<Self, BlobError> {
+        Self::check_length(bytes, bytes.len())?;
+        let mut reader = Reader { bytes: bytes.get(CHECKED - 8..).ok_or(BlobError::Damaged)? };
         let checksum = u64::from_le_bytes(reader.take()?);
         if xxh3_64(reader.bytes) != checksum {
             return Err(BlobError::Damaged);

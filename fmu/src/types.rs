@@ -3,15 +3,15 @@
 use std::ffi::{c_char, c_int, c_void};
 
 /// `fmi2Component`: names an instance; never followed as an address.
-pub(crate) type Component = *mut c_void;
+pub type Component = *mut c_void;
 /// `fmi2FMUstate`: names a saved state; never followed as an address.
-pub(crate) type StateHandle = *mut c_void;
+pub type StateHandle = *mut c_void;
 /// `fmi2ValueReference`
-pub(crate) type Reference = u32;
+pub type Reference = u32;
 /// `fmi2Boolean`
-pub(crate) type Boolean = c_int;
+pub type Boolean = c_int;
 /// `fmi2String`
-pub(crate) type Text = *const c_char;
+pub type Text = *const c_char;
 
 /// `fmi2Status`
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub(crate) const LAST_SUCCESSFUL_TIME: c_int = 2;
 pub(crate) const TERMINATED: c_int = 3;
 
 /// `fmi2CallbackLogger`
-pub(crate) type LogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, ...);
+pub type LogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, ...);
 
 /// `fmi2CallbackFunctions`
 #[derive(Clone, Copy)]

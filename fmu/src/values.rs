@@ -150,12 +150,14 @@ pub unsafe extern "C" fn fmi2SetString(
 ) -> Status {
     call(component, &calls::SET_STRING, |instance, _| {
         // SAFETY: demands of FMI 2.0.
-        let (references, values) = unsafe {
-            let values: Vec<_> = Items::new("value", values, count)?.iter().map(|value| text(value)).collect();
-            (Items::new("vr", references, count)?, values)
-        };
-        let values = values.into_iter().map(|value| utf8("a value", value));
-        instance.set_texts(references, values.collect::<Result<_, _>>()?)
+        let (references, values) =
+            unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
+        // No text is read for a wrong reference.
+        instance.check_texts(references)?;
+        // SAFETY: demands of FMI 2.0.
+        let values = values.iter().map(|value| utf8("a value", unsafe { text(value) }));
+        instance.set_texts(references, values.collect::<Result<_, _>>()?);
+        Ok(())
     })
 }
 

@@ -97,32 +97,41 @@ fn what_has_no_derivative_is_refused_by_name() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
     host.shake(0, 1);
-    let energy = host.change(&["energy.kinetic"], &["floor.displacement.z"], &[1.0]);
-    host.refused(energy.expect_err("it is not followed"), &["energy.kinetic", "mean loads"]);
+    let input = host.change(&["floor.displacement.z"], &["floor.displacement.z"], &[1.0]);
+    host.refused(input.expect_err("it is no output"), &["floor.displacement.z", "changes continuously"]);
     let output = host.change(&["floor.force.z"], &["floor.force.x"], &[1.0]);
-    host.refused(output.expect_err("it is not an input"), &["floor.force.x", "inputs"]);
-    host.refused(host.rate("floor.mean_force.z", 1).expect_err("a mean has none"), &["floor.mean_force.z"]);
-    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "order 1 is right"]);
+    host.refused(output.expect_err("it is not an input"), &["floor.force.x", "expected an input"]);
+    host.refused(host.rate("energy.kinetic", 1).expect_err("it has none"), &["energy.kinetic", "mean_force"]);
+    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "expected order 1"]);
+}
 
+#[test]
+fn a_unit_with_a_drum_has_derivatives_of_everything_that_changes_continuously() {
     let drum = BED.replace(
         "[boundary.grip]",
-        "[boundary.drum]\nmaterial = \"glass\"\ncylinder = { from = [0.02, 0.02, -0.1], to = [0.02, 0.02, 0.2], radius = 0.1 }\n[boundary.grip]",
+        "[boundary.drum]\nmaterial = \"glass\"\ncylinder = { from = [0.02, 0.02, -0.1], to = [0.02, 0.02, 0.2], radius = 0.1 }\n\
+         motion = { driven = [\"rotation.z\"] }\n[boundary.grip]",
     );
     let unit = Unpacked::of(&Source { text: drum, ..source() }, "drum");
     let host = Host::started(&unit);
-    host.shake(0, 1);
-    let refused = host.change(&["floor.force.z"], &["floor.displacement.z"], &[1.0]);
-    host.refused(refused.expect_err("it is not followed"), &["[boundary.drum]", "a plane"]);
-    host.refused(host.rate("floor.force.z", 1).expect_err("it is not followed"), &["[boundary.drum]"]);
+    host.shake(0, 3);
+    let before = host.outputs();
+    let found = host.change(&["floor.force.z", "energy.kinetic"], &["floor.displacement.z"], &[1.0]);
+    assert!(found.expect("the unit has derivatives").iter().all(|change| *change != 0.0));
+    assert!(host.change(&["drum.moment.z"], &["drum.rotation.z"], &[1.0]).is_ok());
+    assert_eq!(host.outputs(), before, "asking changes nothing");
 }
 
 #[test]
 fn rates_are_handed_out_and_change_nothing() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
+    assert_eq!(host.rate("floor.force.z", 1), Ok(0.0), "before the first step nothing changes");
     host.shake(0, 3);
     let before = host.outputs();
-    let rate = host.rate("floor.force.z", 1).expect("it is known");
-    assert!(rate.is_finite() && rate != 0.0);
+    for name in ["floor.force.z", "floor.mean_force.z"] {
+        let rate = host.rate(name, 1).expect("it is known");
+        assert!(rate.is_finite() && rate != 0.0);
+    }
     assert_eq!(host.outputs(), before);
 }

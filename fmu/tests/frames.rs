@@ -291,15 +291,15 @@ fn a_folder_that_cannot_be_had_is_refused_in_words_and_another_one_can_be_named(
         assert_eq!(host.set_text(FRAMES, name), Status::Ok);
         host.refused(fmi2ExitInitializationMode(host.component), &[&["run.frames: ", name], words].concat());
     };
-    refused(file.name(), &["is a file; a folder, or a name that is not there yet, is right"]);
+    refused(file.name(), &["expected a folder, or a name that is not there yet, found a file"]);
     refused(&format!("{}/below", file.name()), &["cannot be written"]);
-    refused(full.name(), &["in use by process", "another folder is right"]);
+    refused(full.name(), &["in use by process", "take another folder"]);
     refused(blocked.name(), &["boundaries_000000.vtu", "cannot be written"]);
     assert_eq!(fs::read_dir(&blocked.0).unwrap().count(), 1, "nothing is left there");
     drop(first);
     refused(
         full.name(),
-        &["holds results of an earlier run", "an empty folder, or a name that is not there yet, is right"],
+        &["found results of an earlier run", "expected an empty folder, or a name that is not there yet"],
     );
     assert_eq!(host.set_text(FRAMES, place.name()), Status::Ok);
     assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok, "{}", host.said());
@@ -318,15 +318,15 @@ fn texts_that_are_none_are_refused() {
     let (wrong, none) = (bytes.as_ptr().cast(), ptr::null());
     // SAFETY: one reference and one text each.
     unsafe {
-        host.refused(fmi2SetString(host.component, &raw const reference, 1, &raw const wrong), &["not UTF-8"]);
+        host.refused(fmi2SetString(host.component, &raw const reference, 1, &raw const wrong), &["expected UTF-8"]);
         host.refused(fmi2SetString(host.component, &raw const reference, 1, &raw const none), &["null"]);
         let text = c"here".as_ptr();
         host.refused(
             fmi2SetString(host.component, &raw const number, 1, &raw const text),
-            &["run.time_step", "String"],
+            &["run.time_step", "type String"],
         );
     }
-    host.refused(host.set(FRAMES, 1.0), &[FRAMES, "is String", "Real"]);
+    host.refused(host.set(FRAMES, 1.0), &[FRAMES, "type Real, found String"]);
 }
 
 #[test]

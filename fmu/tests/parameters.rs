@@ -144,10 +144,10 @@ fn wrong_values_are_refused_in_the_words_of_the_scene_and_change_nothing() {
     let unit = Unpacked::new();
     let host = Host::instantiated(&unit);
     let friction = "pair.glass.glass.friction";
-    host.refused(host.set(friction, -0.1), &[friction, "-0.1 found; a number of 0 or above is right"]);
+    host.refused(host.set(friction, -0.1), &[friction, "expected a number of 0 or above, found -0.1"]);
     host.refused(
         host.set("pair.glass.glass.restitution", 1.5),
-        &["1.5 found; a number above 0 and at most 1 is right"],
+        &["expected a number above 0 and at most 1, found 1.5"],
     );
     host.refused(host.set_rate(friction, 0.1), &[friction, "only inputs have rates"]);
     assert_eq!(start(&host), Status::Ok);

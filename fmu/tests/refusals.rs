@@ -58,9 +58,9 @@ fn outputs_are_not_set_and_types_are_not_mixed() {
     // SAFETY: one reference and one value each.
     unsafe {
         let status = fmi2GetReal(host.component, &raw const count, 1, &raw mut real);
-        host.refused(status, &["contacts.count", "is Integer", "type Real"]);
+        host.refused(status, &["contacts.count", "type Real, found Integer"]);
         let status = fmi2GetInteger(host.component, &raw const force, 1, &raw mut integer);
-        host.refused(status, &["floor.force.z", "is Real", "type Integer"]);
+        host.refused(status, &["floor.force.z", "type Integer, found Real"]);
         let status = fmi2SetInteger(host.component, &raw const count, 1, &raw const integers);
         host.refused(status, &["contacts.count", "only inputs and parameters may be set"]);
         let status = fmi2GetBoolean(host.component, &raw const force, 1, &raw mut integer);
@@ -90,7 +90,7 @@ fn second_derivatives_are_those_of_quadratic_motion() {
     let (length, acceleration) = (1.0e-3, 8.0);
     host.refused(
         host.set_derivative("floor.displacement.z", 3, 0.1),
-        &["order 3", "order 1, or order 2 of quadratic motion, is right"],
+        &["order 3", "expected order 1, or order 2 of quadratic motion"],
     );
     host.refused(host.set_derivative("grip.displacement.z", 2, 0.1), &["order 2", "quadratic"]);
     host.refused(host.set_derivative("floor.displacement.z", 2, f64::NAN), &["floor.displacement.z", "NaN"]);
@@ -106,10 +106,13 @@ fn times_that_cannot_be_are_refused() {
     let unit = Unpacked::new();
     let host = Host::instantiated(&unit);
     let set_up = |start, stop| fmi2SetupExperiment(host.component, 0, 0.0, start, 1, stop);
-    host.refused(set_up(f64::NAN, 1.0), &["startTime is NaN"]);
-    host.refused(set_up(0.0, f64::INFINITY), &["stopTime is inf"]);
-    host.refused(set_up(1.0, 0.5), &["stopTime is 0.5"]);
-    host.refused(fmi2SetupExperiment(host.component, 1, f64::NAN, 0.0, 0, 0.0), &["tolerance is NaN"]);
+    host.refused(set_up(f64::NAN, 1.0), &["startTime: expected a finite number, found NaN"]);
+    host.refused(set_up(0.0, f64::INFINITY), &["stopTime: expected", "found inf s"]);
+    host.refused(set_up(1.0, 0.5), &["stopTime: expected", "found 0.5 s"]);
+    host.refused(
+        fmi2SetupExperiment(host.component, 1, f64::NAN, 0.0, 0, 0.0),
+        &["tolerance: expected a finite number of 0 or above, found NaN"],
+    );
     assert_eq!(set_up(0.0, 3.0e-4), Status::Ok);
     assert_eq!(fmi2EnterInitializationMode(host.component), Status::Ok);
     assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok);
@@ -122,13 +125,16 @@ fn times_that_cannot_be_are_refused() {
         }
         host.refused(host.step(0.0, length), &["communicationStepSize"]);
     }
-    host.refused(host.step(f64::NAN, 1.0e-4), &["currentCommunicationPoint is NaN"]);
-    host.refused(host.step(2.0e-4, 1.0e-4), &["communication point 0.0002 s is not the present time, 0.0001 s"]);
-    host.refused(host.step(0.0, 1.0e-4), &["communication point 0 s is not the present time"]);
-    host.refused(host.step(1.0e-4, 3.0e-4), &["beyond the stop time", "0.0003"]);
+    host.refused(host.step(f64::NAN, 1.0e-4), &["currentCommunicationPoint: expected", "found NaN s"]);
+    host.refused(
+        host.step(2.0e-4, 1.0e-4),
+        &["communication point: expected the present time, 0.0001 s, found 0.0002 s"],
+    );
+    host.refused(host.step(0.0, 1.0e-4), &["communication point: expected the present time, 0.0001 s, found 0 s"]);
+    host.refused(host.step(1.0e-4, 3.0e-4), &["up to the stop time", "found one to 0.0003"]);
     assert_eq!(host.step(1.0e-4, 1.0e-4), Status::Ok);
     assert_eq!(host.step(2.0e-4 * (1.0 + 1.0e-12), 1.0e-4), Status::Ok);
-    host.refused(host.step(3.0e-4, 1.0e-4), &["beyond the stop time"]);
+    host.refused(host.step(3.0e-4, 1.0e-4), &["up to the stop time"]);
 }
 
 #[test]
@@ -190,7 +196,7 @@ fn a_call_within_a_call_is_refused() {
         Ok(())
     });
     assert_eq!(outer, Status::Ok);
-    host.refused(inner, &["called while another call of this instance runs"]);
+    host.refused(inner, &["expected one call of this instance at a time, found another one that runs"]);
 }
 
 #[test]
@@ -200,5 +206,33 @@ fn a_message_holds_no_percent_sign() {
     let name = [c"%s%n".as_ptr()];
     // SAFETY: one category.
     let status = unsafe { fmi2SetDebugLogging(host.component, 1, 1, name.as_ptr()) };
-    host.refused(status, &["there is no category"]);
+    host.refused(status, &["expected a category among"]);
+}
+
+/// Room was once made for as many values as the host said, before the first reference was looked at.
+#[test]
+fn counts_that_no_memory_holds_are_refused_before_anything_is_done() {
+    let unit = Unpacked::new();
+    let host = Host::started(&unit);
+    let force = unit.reference("floor.force.z");
+    let (mut real, mut flag, mut text) = (7.0, 7, c"a".as_ptr());
+    for count in [1_usize << 33, 1 << 40, 1 << 60, usize::MAX] {
+        // SAFETY: the count is refused before anything is read or written.
+        unsafe {
+            host.refused(fmi2GetReal(host.component, &raw const force, count, &raw mut real), &["fewer are right"]);
+            host.refused(fmi2GetBoolean(host.component, &raw const force, count, &raw mut flag), &["fewer are right"]);
+            host.refused(fmi2SetString(host.component, &raw const force, count, &raw const text), &["fewer are right"]);
+            host.refused(fmi2GetString(host.component, &raw const force, count, &raw mut text), &["fewer are right"]);
+        }
+    }
+    assert_eq!((real, flag), (7.0, 7));
+    let bytes = host.serialize(host.save());
+    let mut state = null_mut();
+    for size in [1_usize << 33, 1 << 45, isize::MAX.unsigned_abs()] {
+        // SAFETY: the state says how long it is: the size is refused before more is read.
+        let status = unsafe { fmi2DeSerializeFMUstate(host.component, bytes.as_ptr().cast(), size, &raw mut state) };
+        host.refused(status, &["its length or checksum does not fit"]);
+    }
+    assert!(state.is_null());
+    assert_eq!(host.step(0.0, 1.0e-4), Status::Ok);
 }

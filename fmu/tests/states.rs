@@ -70,7 +70,7 @@ fn a_state_holds_where_the_instance_stands_and_when_it_must_stop() {
 
     let ready = host.deserialize(&bytes);
     assert_eq!(fmi2SetFMUstate(host.component, ready), Status::Ok);
-    host.refused(host.step(2.0, 2.0e-4), &["beyond the stop time"]);
+    host.refused(host.step(2.0, 2.0e-4), &["up to the stop time"]);
     assert_eq!(host.step(2.0, 1.0e-4), Status::Ok, "{}", host.said());
     assert_eq!(fmi2SetFMUstate(host.component, made), Status::Ok);
     host.refused(host.step(0.0, 1.0e-4), &["before the initialisation mode"]);
@@ -91,8 +91,8 @@ fn a_handle_is_overwritten_freed_and_then_unknown() {
         assert!(state.is_null());
         assert_eq!(fmi2FreeFMUstate(host.component, &raw mut state), Status::Ok);
     }
-    host.refused(fmi2SetFMUstate(host.component, before), &["fmi2SetFMUstate: not a state"]);
-    host.refused(fmi2SetFMUstate(host.component, null_mut()), &["fmi2SetFMUstate: not a state"]);
+    host.refused(fmi2SetFMUstate(host.component, before), &["fmi2SetFMUstate: expected a state that "]);
+    host.refused(fmi2SetFMUstate(host.component, null_mut()), &["fmi2SetFMUstate: expected a state that "]);
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn a_handle_of_another_instance_is_refused() {
     let unit = Unpacked::new();
     let (host, other) = (Host::started(&unit), Host::started(&unit));
     let state = host.save();
-    other.refused(fmi2SetFMUstate(other.component, state), &["not a state"]);
+    other.refused(fmi2SetFMUstate(other.component, state), &["expected a state that "]);
     assert_eq!(fmi2SetFMUstate(host.component, state), Status::Ok);
 }
 
@@ -138,7 +138,7 @@ fn a_buffer_that_is_too_small_is_refused_and_left_alone() {
     let mut bytes = vec![7_u8; size - 1];
     // SAFETY: a buffer of that size.
     let status = unsafe { fmi2SerializeFMUstate(host.component, state, bytes.as_mut_ptr().cast(), bytes.len()) };
-    host.refused(status, &[&format!("{} bytes are given; {size} are right", size - 1)]);
+    host.refused(status, &[&format!("expected {size} bytes, found {}", size - 1)]);
     assert!(bytes.iter().all(|byte| *byte == 7));
 }
 

@@ -163,7 +163,10 @@ fn a_step_under_way_is_cancelled_from_another_thread() {
 fn a_step_that_nobody_would_see_the_end_of_is_refused_with_the_count() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);
-    host.refused(host.step(0.0, 1.0e5), &["1.0e10 time steps of 1.00e-5 s", "at most 9.9e8"]);
+    host.refused(
+        host.step(0.0, 1.0e5),
+        &["expected at most 9.9e8 time steps", "found 1.0e10", "time steps of 1.00e-5 s"],
+    );
     assert_eq!(host.step(0.0, 1.0e-4), Status::Ok);
 }
 

@@ -62,9 +62,9 @@ def main():
     program, scene = Program(options.program), HERE / "scene.toml"
     settled = options.output / "settled.checkpoint"
     skin = ["--set", f'boundary.skin.mesh.file="{options.skin}"']
-    print(program("settle", scene, *skin, "-o", settled), end="", flush=True)
+    print(program("settle", scene, *skin, "-o", settled, "--overwrite"), end="", flush=True)
     path = options.output / "plate.fmu"
-    program("export", scene, *skin, "--from", settled, "-o", path)
+    program("export", scene, *skin, "--from", settled, "-o", path, "--overwrite")
     found = []
     with Unit(path) as unit:
         start = unit.save()

@@ -75,7 +75,7 @@ class Coupling:
         watch: Watch = (),
     ) -> None:
         if not step > 0.0:
-            raise ValueError(f"step: {step}; above 0 is right")
+            raise ValueError(f"step: expected a step above 0, found {step}")
         self.interface = interface
         self.partner = partner
         self.exchange = exchange
@@ -115,7 +115,7 @@ class Coupling:
         """The rows until a time, which is a multiple of the step, one after the other."""
         count = (end - self._start) / self.step
         if abs(count - round(count)) > 1e-6:
-            raise ValueError(f"end: {end:g} s is {count:.6g} steps of {self.step:g} s; a whole number is right")
+            raise ValueError(f"end: expected a whole number of steps of {self.step:g} s, found {count:.10g} up to {end:g} s")
         while self._place < round(count):
             yield self.advance()
 

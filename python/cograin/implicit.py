@@ -410,7 +410,7 @@ class Newton(Implicit):
     ) -> None:
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         if derivative not in ("unit", "differences"):
-            raise ValueError(f"derivative: {derivative!r}; 'unit' or 'differences' is right")
+            raise ValueError(f"derivative: expected 'unit' or 'differences', found {derivative!r}")
         self.derivative = derivative
         self.keep = keep or derivative == "differences"
         self.perturbation = perturbation

@@ -113,9 +113,9 @@ class Interface:
         if not len(inputs) == len(ends) == len(means):
             raise ValueError(f"{len(inputs)} displacements, {len(ends)} forces and {len(means)} mean forces: one each")
         if substeps < 1:
-            raise ValueError(f"substeps: {substeps}; at least 1 is right")
+            raise ValueError(f"substeps: expected at least 1, found {substeps}")
         if through is not None and through.shape[0] != len(inputs):
-            raise ValueError(f"through: {through.shape[0]} rows for {len(inputs)} displacements; one each is right")
+            raise ValueError(f"through: expected a row for each of {len(inputs)} displacements, found {through.shape[0]}")
         self._parts = [_Part(unit, inputs, ends, means, through)]
         self.substeps = substeps
         self._refresh()
@@ -123,7 +123,7 @@ class Interface:
     def __add__(self, other: Interface) -> Interface:
         """The directions of both, in this order."""
         if self.substeps != other.substeps:
-            raise ValueError(f"substeps: {self.substeps} and {other.substeps}; the same in all units is right")
+            raise ValueError(f"substeps: expected the same in all units, found {self.substeps} and {other.substeps}")
         both = Interface.__new__(Interface)
         both._parts = [*self._parts, *other._parts]
         both.substeps = self.substeps
@@ -203,7 +203,7 @@ class Interface:
         Returns mean \\[N\\] and slope \\[N/s\\] of the force. Needs ``input = "quadratic"`` in the scenes of the units.
         """
         if self.substeps != 1:
-            raise ValueError(f"quadratic motion with {self.substeps} substeps of the units; 1 is right")
+            raise ValueError(f"quadratic motion: expected 1 substep of the units, found {self.substeps}")
         first = 0
         for part in self._parts:
             part.bend(acceleration[first : first + part.size], displacement[first : first + part.size], step.length)
@@ -266,7 +266,7 @@ def _answer(name: str, kind: int) -> str:
     parts = name.split(".")
     if len(parts) < 3 or parts[-2] not in _ANSWERS:
         expected = "<boundary>.displacement.<axis> or <boundary>.rotation.<axis>"
-        raise ValueError(f"{name}: {expected} is right; name forces and mean_forces where a unit calls them otherwise")
+        raise ValueError(f"expected {expected}, found {name}; name forces and mean_forces where a unit calls them otherwise")
     return ".".join([*parts[:-2], _ANSWERS[parts[-2]][kind], parts[-1]])
 
 

@@ -68,7 +68,7 @@ def _through(matrix: Any, values: ArrayLike, what: str) -> Matrix:
     rows = np.asarray(values, dtype=float)
     right = (matrix.shape[1] // 3, 3)
     if rows.shape != right:
-        raise ValueError(f"{what}: an array of {rows.shape}; {right} is right")
+        raise ValueError(f"{what}: expected an array of {right}, found {rows.shape}")
     found: Matrix = (matrix @ rows.ravel()).reshape(-1, 3)
     return found
 
@@ -79,11 +79,11 @@ def _checked(nodes: ArrayLike, triangles: ArrayLike, points: ArrayLike) -> tuple
     faces = np.asarray(triangles, dtype=np.int64)
     for name, rows in (("nodes", corners), ("triangles", faces), ("points", targets)):
         if rows.ndim != 2 or rows.shape[1] != 3 or len(rows) == 0:
-            raise ValueError(f"{name}: an array of {rows.shape}; rows of three are right")
+            raise ValueError(f"{name}: expected rows of three, found an array of {rows.shape}")
         if not np.all(np.isfinite(rows)):
-            raise ValueError(f"{name}: a number that is not finite; finite numbers are right")
+            raise ValueError(f"{name}: expected finite numbers, found others")
     if faces.min() < 0 or faces.max() >= len(corners):
-        raise ValueError(f"triangles: nodes {faces.min()} to {faces.max()}; 0 to {len(corners) - 1} are there")
+        raise ValueError(f"triangles: expected nodes from 0 to {len(corners) - 1}, found {faces.min()} to {faces.max()}")
     a, b, c = (corners[faces[:, corner]] for corner in range(3))
     flat = np.linalg.norm(np.cross(b - a, c - a), axis=1) == 0.0
     if flat.any():

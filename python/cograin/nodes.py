@@ -47,7 +47,7 @@ class Nodes:
         given = np.asarray(values, dtype=float)
         if given.shape != self.places.shape:
             raise ValueError(
-                f"displacement: an array of {given.shape}; {self.places.shape} is right: a row for each node"
+                f"displacement: expected an array of {self.places.shape}, a row for each node, found {given.shape}"
             )
         self.unit.set(self.names("displacement"), given.ravel())
 

@@ -30,11 +30,11 @@ class Program:
         return done.stdout
 
     def settle(self, scene: str | Path, checkpoint: str | Path) -> str:
-        """Brings a scene to rest; returns what the command printed."""
-        return self("settle", scene, "-o", checkpoint)
+        """Brings a scene to rest, in place of an earlier file; returns what the command printed."""
+        return self("settle", scene, "-o", checkpoint, "--overwrite")
 
     def export(self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None) -> Path:
-        """Packages a scene as a unit, in a settled state if one is given; returns the path of the unit."""
+        """Packages a scene as a unit, in a settled state if one is given, in place of an earlier file; returns its path."""
         settled = () if start is None else ("--from", start)
-        self("export", scene, *settled, "-o", unit)
+        self("export", scene, *settled, "-o", unit, "--overwrite")
         return Path(unit)

@@ -33,7 +33,7 @@ class QuadraticStep:
         if structure.static:
             raise ValueError("quadratic motion needs a partner with mass or damping; this one is static")
         if structure.substeps != 1:
-            raise ValueError(f"quadratic motion with {structure.substeps} substeps of the partner; 1 is right")
+            raise ValueError(f"quadratic motion: expected 1 substep of the partner, found {structure.substeps}")
         self._structure = structure
         self._length = length
         mass, stiffness, damping = structure.mass, structure.stiffness, structure.damping

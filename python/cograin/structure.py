@@ -60,7 +60,7 @@ class Structure:
         self._sparse = sparse
         self._load = load
         if substeps < 1:
-            raise ValueError(f"substeps: {substeps}; at least 1 is right")
+            raise ValueError(f"substeps: expected at least 1, found {substeps}")
         self.substeps = substeps
         self._damped = _any(self.damping)
         self.static = not _any(self.mass) and not self._damped

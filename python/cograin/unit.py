@@ -297,15 +297,12 @@ class Unit:
     def derivative(self, outputs: Sequence[str], inputs: Sequence[str]) -> Matrix:
         """Change of outputs (rows) at the end of the last step per unit change of inputs (columns) at that end.
 
-        The unit follows its own time steps, exactly and in one go for all inputs; its state stays as it is.
+        The unit makes its last step again for each input, displaced a little; its state stays as it is.
         """
         if not self.has_derivatives:
             raise UnitError(f"{self.name}: gives no directional derivatives")
         unknown = [self.variable(name).valueReference for name in outputs]
         known = [self.variable(name).valueReference for name in inputs]
-        if len(known) > 1:
-            # The unit follows together what it is asked for in one call; those below find it done.
-            self._call(self.slave.getDirectionalDerivative, unknown, known, [0.0] * len(known))
         columns = [self._call(self.slave.getDirectionalDerivative, unknown, [one], [1.0]) for one in known]
         return np.array(columns, dtype=float).T.reshape(len(outputs), len(inputs))
 

@@ -93,13 +93,13 @@ def test_an_edge_and_a_corner_are_the_nearest_places_outside():
 
 def test_what_is_no_mesh_is_refused_in_words():
     square = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
-    with pytest.raises(ValueError, match=r"triangles: nodes 0 to 3; 0 to 2 are there"):
+    with pytest.raises(ValueError, match=r"triangles: expected nodes from 0 to 2, found 0 to 3"):
         Mapping(square, [[0, 1, 3]], square)
     with pytest.raises(ValueError, match="triangles: row 0 has no area"):
         Mapping([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], square)
-    with pytest.raises(ValueError, match=r"points: an array of \(3,\); rows of three are right"):
+    with pytest.raises(ValueError, match=r"points: expected rows of three, found an array of \(3,\)"):
         Mapping(square, [[0, 1, 2]], [0, 0, 0])
-    with pytest.raises(ValueError, match="nodes: a number that is not finite"):
+    with pytest.raises(ValueError, match="nodes: expected finite numbers"):
         Mapping([[0, 0, np.nan], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]], square)
-    with pytest.raises(ValueError, match=r"forces on the points: an array of \(2, 3\); \(3, 3\) is right"):
+    with pytest.raises(ValueError, match=r"forces on the points: expected an array of \(3, 3\), found \(2, 3\)"):
         Mapping(square, [[0, 1, 2]], square).force(np.zeros((2, 3)))

@@ -40,7 +40,7 @@ def test_whole_variables_come_as_whole_numbers_and_arrays_as_arrays(drop):
 
 
 def test_a_refused_value_changes_nothing_and_says_why(drop):
-    with pytest.raises(UnitError, match=r"fmi2SetReal: NaN for"):
+    with pytest.raises(UnitError, match=r"fmi2SetReal: .*found NaN"):
         drop["floor.displacement.z"] = float("nan")
     assert drop["floor.displacement.z"] == 0.0
     drop.step(1e-3)

@@ -15,47 +15,22 @@
 //! A new kind of body needs an implementation of [`Bodies`]; its pass fills [`Batches`] and calls [`Batches::run`] on pieces
 //! of the list. Pieces that run at the same time must not write to the same body.
 
-mod along;
-mod buffer;
-mod gathered;
 mod law;
-mod losses;
 mod lost;
 mod parting;
 mod phases;
-mod sphere_geometry;
-mod stage;
-mod sub_models;
-mod suppressed;
 mod whole_laws;
 
 use crate::coefficients::CoefficientTable;
-use crate::contact::{Contact, Needs};
-use crate::lanes::{self, Lane, Shared, Width};
+use crate::contact::Needs;
+pub(crate) use crate::contact::batch::{Buffer, ContactGeometry, Entries, FOUND, SpherePair, Touching};
+use crate::contact::batch::{Manner, Stage};
+use crate::lanes::{self, Lane, Width};
 use crate::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
-use crate::state::{History, Row};
-pub(crate) use along::{Along, Batch, Left};
-pub(crate) use buffer::Buffer;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{Meet, Spread, Touch};
-pub(crate) use sphere_geometry::SpherePair;
-use stage::Stage;
 use std::ops::Range;
-
-/// A contact and the arms of its bodies.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactGeometry<N = f64> {
-    /// The contact.
-    pub contact: Contact<N>,
-    /// Arm at the first body \[m\].
-    pub first_arm: N,
-    /// Arm at the second body; 0 where it has none \[m\].
-    pub second_arm: N,
-}
-
-/// The most numbers that phase 1 hands to phase 2 for a touching entry.
-pub(crate) const FOUND: usize = 5;
 
 /// Which bodies an entry of a list brings together.
 pub(crate) trait Bodies: Copy {
@@ -114,91 +89,6 @@ pub(crate) trait Bodies: Copy {
     fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
 }
 
-/// Touching entries of a batch with what they do to their bodies, in the order of the list.
-#[derive(Clone, Copy)]
-pub(crate) struct Touching<'a> {
-    /// First body.
-    pub first: &'a [u32],
-    /// Second body.
-    pub second: &'a [u32],
-    /// Force on the first body \[N\].
-    pub force: &'a [Row],
-    /// What friction turns both bodies by, over its arm \[N\]; anything where there is no torque.
-    pub couple: &'a [Row],
-    /// Rolling torque from the first body to the second \[N m\]; anything where there is none.
-    pub rolling: &'a [Row],
-    /// Arm at the first body \[m\].
-    pub first_arm: &'a [f64],
-    /// Arm at the second body \[m\].
-    pub second_arm: &'a [f64],
-}
-
-impl Touching<'_> {
-    /// Torque of friction on the two bodies of an entry \[N m\].
-    #[inline(always)]
-    pub(crate) fn torques(&self, place: usize) -> [Row; 2] {
-        let [x, y, z, rest] = self.couple[place];
-        let turned = |arm: f64| [-(x * arm), -(y * arm), -(z * arm), -(rest * arm)];
-        [turned(self.first_arm[place]), turned(self.second_arm[place])]
-    }
-}
-
-/// What a list stores for each entry.
-#[derive(Clone, Copy)]
-pub(crate) struct Entries {
-    /// Its bits.
-    pub flags: Shared<u8>,
-    /// What is stored: the rows of one entry after the other.
-    history: Shared<Row>,
-    /// How many rows are stored of each.
-    kept: usize,
-    /// Its pair constant; empty where the law has none.
-    pub pair_constant: Shared<f64>,
-}
-
-impl Entries {
-    /// What a list stores.
-    pub(crate) fn of(flags: &mut [u8], history: &mut History, pair_constant: &mut [f64]) -> Self {
-        let (kept, history) = (history.rows(), Shared::new(history.all_mut()));
-        Self { flags: Shared::new(flags), history, kept, pair_constant: Shared::new(pair_constant) }
-    }
-
-    /// Those from an entry on, with pair constants that are kept elsewhere.
-    pub(crate) fn from(&self, first: usize, pair_constant: &mut [f64]) -> Self {
-        let (flags, pair_constant) = (self.flags.from(first), Shared::new(pair_constant));
-        Self { flags, history: self.history.from(first * self.kept), kept: self.kept, pair_constant }
-    }
-
-    /// How many rows are stored for each.
-    pub(crate) fn rows(&self) -> usize {
-        self.kept
-    }
-
-    /// The rows of an entry.
-    ///
-    /// # Safety
-    /// There is such an entry, and it belongs to the piece that asks, which holds no other reference to its rows.
-    #[inline(always)]
-    #[allow(clippy::mut_from_ref, reason = "disjoint use is the caller's promise")]
-    pub(crate) unsafe fn history(&self, entry: usize) -> &mut [Row] {
-        // SAFETY: the caller's promise.
-        unsafe { self.history.part(entry * self.kept, (entry + 1) * self.kept) }
-    }
-
-    /// Where a row of the first entry stands: that of another one stands as many rows further as [`Buffer::history`] says.
-    #[inline(always)]
-    fn row(&self, row: usize) -> *mut Row {
-        debug_assert!(row < self.kept, "row {row} of {}", self.kept);
-        self.history.pointer().wrapping_add(row)
-    }
-
-    /// The bits that any of these entries has.
-    fn present(&self, entries: Range<usize>) -> u8 {
-        // SAFETY: the entries belong to the piece that asks.
-        unsafe { self.flags.part(entries.start, entries.end) }.iter().fold(0, |all, flags| all | flags)
-    }
-}
-
 /// Which entries of a list are evaluated: those whose flags, among some bits, have exactly these.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chosen {
@@ -208,23 +98,7 @@ pub(crate) struct Chosen {
     pub value: u8,
 }
 
-/// What the law does at an entry, depending on a bond that may suppress its contact.
-#[derive(Clone, Copy, Debug)]
-enum Manner {
-    /// The whole law acts.
-    Open,
-    /// A bond suppresses the normal force.
-    Bonded,
-    /// The normal force is taken from an offset.
-    Released,
-    /// Nothing acts, but the offset is followed.
-    Followed,
-}
-
 impl Manner {
-    /// All, in the order in which they are done.
-    const ALL: [Self; 4] = [Self::Open, Self::Bonded, Self::Released, Self::Followed];
-
     /// The entries that are evaluated in this manner.
     fn chosen(self) -> Chosen {
         let silent = BONDED | SILENT | LASTING;
@@ -254,8 +128,6 @@ pub(crate) struct Batches<'a, B> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
-    /// What goes along, where something does.
-    pub along: Option<&'a dyn Along>,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -270,7 +142,7 @@ impl<B: Bodies> Batches<'_, B> {
         Buffer::with(|buffer| {
             buffer.losses.begin();
             let sum = self.run_in(buffer, from..to, ahead);
-            (sum, buffer.losses.end())
+            (sum, Lost::of(buffer.losses.end()))
         })
     }
 
@@ -318,20 +190,16 @@ impl<B: Bodies> Batches<'_, B> {
             } else {
                 lanes::run(width, Touch::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
-            buffer.complete::<B>(next == to);
-            let entries = &self.entries;
-            let left = self.along.map_or(Left::All, |along| along.follow(&mut Batch { entries, buffer }));
-            if left == Left::All {
-                self.meet(needs, buffer);
-                let stage = &mut self.stage(buffer);
-                for run in runs {
-                    run(width, stage);
-                }
+            buffer.complete(next == to, B::FOUND);
+            self.meet(needs, buffer);
+            let stage = &mut self.stage(buffer);
+            for run in runs {
+                run(width, stage);
             }
-            if left != Left::Nothing && !matches!(manner, Some(Manner::Followed)) {
+            if !matches!(manner, Some(Manner::Followed)) {
                 lanes::run(width, Spread { bodies, needs, buffer, sum });
             }
-            buffer.proceed::<B>();
+            buffer.proceed(B::FOUND);
         }
     }
 
@@ -339,7 +207,7 @@ impl<B: Bodies> Batches<'_, B> {
     fn stage<'b>(&'b self, buffer: &'b mut Buffer) -> Stage<'b> {
         let Self { entries, table, uniform, step, law: BatchLaw { law, booked, .. }, .. } = self;
         let (places, history, offset) = (law.places(), law.history_places(), law.history().len());
-        let (touches, onset) = (!law.holds_beyond_touch(), law.onset());
+        let (touches, onset, table) = (!law.pulls_beyond_touch(), law.onset(), table.rows());
         let weights = self.bodies.weights();
         Stage {
             entries,

@@ -1,7 +1,7 @@
 //! What is lost with a contact whose bodies have parted.
 
-use super::lost::Sums;
 use super::{Batches, Bodies, FOUND};
+use crate::contact::batch::Sums;
 use crate::contact::{Contact, parting};
 use crate::state::Row;
 
@@ -11,8 +11,6 @@ pub(super) struct Parting<'a, 'b, B> {
     pub(super) work: &'a Batches<'b, B>,
     /// The book of what is lost with their contacts.
     pub(super) losses: &'a mut Sums,
-    /// Their entries, where something goes along.
-    pub(super) parted: &'a mut Vec<u32>,
 }
 
 impl<B: Bodies> Parting<'_, '_, B> {
@@ -24,9 +22,6 @@ impl<B: Bodies> Parting<'_, '_, B> {
     #[cold]
     #[inline(never)]
     pub(super) unsafe fn tell(&mut self, entry: usize) {
-        if self.work.along.is_some() {
-            self.parted.push(entry as u32);
-        }
         if self.work.law.law.is_booked() {
             // SAFETY: the caller's promise.
             let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };

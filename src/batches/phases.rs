@@ -1,9 +1,9 @@
 //! The phases of a batch.
 
-use super::buffer::{BATCH, Buffer};
 use super::parting::Parting;
 use super::{Batches, Bodies, Chosen, Entries};
 use crate::contact::Needs;
+use crate::contact::batch::{BATCH, Buffer};
 use crate::lanes::{Kernel, Lane};
 use crate::memory::prefetch;
 use crate::state::contacts::{LASTING, RELEASED, SLIDING, TOUCHING};
@@ -69,7 +69,7 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for Touch<'_, '_,
                 let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
                 let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
                 let bits = touching & wanted & ((1 << here) - 1);
-                let parting = Parting { work, losses: &mut buffer.losses, parted: &mut buffer.parted };
+                let parting = Parting { work, losses: &mut buffer.losses };
                 if CHOSEN {
                     end_chosen(parting, entry, here, [wanted, bits]);
                 } else if here == N::WIDTH {
@@ -237,13 +237,13 @@ impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for Meet<'_, B, TOR
         }
         let mut done = 0;
         // SAFETY: there is room for a register behind the batch.
-        let mut roots = B::roots(&unsafe { buffer.found::<N, B>(0) });
+        let mut roots = B::roots(&unsafe { buffer.found::<N>(0, B::FOUND) });
         while done < buffer.ready {
             // SAFETY: the slots are filled up to a whole register, for which there is room.
             unsafe {
                 let (first, second) = (buffer.first.as_ptr().add(done), buffer.second.as_ptr().add(done));
-                let found = buffer.found::<N, B>(done);
-                let next = B::roots(&buffer.found::<N, B>(done + N::WIDTH));
+                let found = buffer.found::<N>(done, B::FOUND);
+                let next = B::roots(&buffer.found::<N>(done + N::WIDTH, B::FOUND));
                 let geometry = bodies.meet::<N, TORQUE>(first, second, found, roots);
                 buffer.put::<N, TORQUE>(done, &geometry, needs);
                 roots = next;

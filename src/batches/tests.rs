@@ -1,12 +1,10 @@
 //! Batches against one contact at a time: the same bits in every lane width, whether sub-models work one after another
 //! or as one.
 
-use super::buffer::Buffer;
 use super::law::BatchLaw;
-use super::stage::Stage;
 use super::{ContactGeometry, Entries, Manner};
-use crate::batches::sphere_geometry::SpherePair;
 use crate::coefficients::CoefficientTable;
+use crate::contact::batch::{Buffer, SpherePair, Stage};
 use crate::contact::fixtures::{corners, every_law, properties, with_pair};
 use crate::contact::{Contact, Law, LawChoice, Needs, Offset};
 use crate::lanes::Width;
@@ -23,13 +21,23 @@ fn before(entry: usize, row: usize) -> Row {
     [0.125, 0.5 * entry as f64, 0.25 * row as f64, 0.0625]
 }
 
+/// Contacts to try a law on; of one whose cohesion model acts beyond touch, two are apart.
+fn contacts(law: &BatchLaw) -> Vec<Contact> {
+    let mut contacts = corners();
+    if law.law.parts() {
+        contacts[1].overlap = -1.0 / 32768.0;
+        contacts[3].overlap = -1.0 / 65536.0;
+    }
+    contacts
+}
+
 /// Forces, couples, torques, flags and history of a batch, and behind them what it lost.
 fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Option<Manner>) -> Vec<(Vec<Row>, u8)> {
     let table = CoefficientTable::of_rows([rows, rows].concat().repeat(2), 2);
     let mut buffer = Buffer::new();
     let all = Needs { torque: true, spin: true, section: true, bodies: true, spin_sum: true, carry: true };
     for entry in 0..COUNT {
-        let geometry = ContactGeometry { contact: corners()[entry % 5], first_arm: 0.5, second_arm: 0.25 };
+        let geometry = ContactGeometry { contact: contacts(law)[entry % 5], first_arm: 0.5, second_arm: 0.25 };
         // SAFETY: the buffer has room for more.
         unsafe { buffer.put::<f64, true>(entry, &geometry, all) };
         // Entries stand in the list in another order.
@@ -37,7 +45,7 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
         buffer.row[entry] = (entry % 4) as u32;
     }
     for place in COUNT..COUNT + 8 {
-        let geometry = ContactGeometry { contact: corners()[(COUNT - 1) % 5], first_arm: 0.5, second_arm: 0.25 };
+        let geometry = ContactGeometry { contact: contacts(law)[(COUNT - 1) % 5], first_arm: 0.5, second_arm: 0.25 };
         // SAFETY: as above.
         unsafe { buffer.put::<f64, true>(place, &geometry, all) };
         buffer.entry[place] = buffer.entry[COUNT - 1];
@@ -46,23 +54,23 @@ fn batch(law: &BatchLaw, rows: &[f64], uniform: bool, width: Width, manner: Opti
     let kept = law.law.history().len() + usize::from(manner.is_some());
     buffer.history = buffer.entry.map(|entry| entry * kept as u32);
     buffer.ready = COUNT;
-    let mut constants = (0..COUNT).map(|entry| corners()[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
+    let mut constants = (0..COUNT).map(|entry| contacts(law)[place_of(entry) % 5].pair_constant).collect::<Vec<f64>>();
     let mut flags = vec![TOUCHING; COUNT];
     let mut history = History::of(kept, 0);
     (0..COUNT).for_each(|entry| history.push((0..kept).map(|row| before(entry, row))));
-    let entries = Entries::of(&mut flags, &mut history, &mut constants);
+    let entries = Entries::of(&mut flags, kept, history.all_mut(), &mut constants);
     let (places, own) = (law.law.places(), law.law.history_places());
     let uniform = uniform.then_some(rows);
     let offset = law.law.history().len();
     let mut stage = Stage {
         entries: &entries,
-        table: &table,
+        table: table.rows(),
         uniform,
         places,
         history: own,
         offset,
         step: 0.5,
-        touches: !law.law.holds_beyond_touch(),
+        touches: !law.law.pulls_beyond_touch(),
         onset: law.law.onset(),
         weights: None,
         booked: &law.booked,
@@ -100,7 +108,7 @@ fn one_by_one(law: &BatchLaw, rows: &[f64]) -> Vec<(Vec<Row>, u8)> {
     let one = |place: usize| {
         let entry = (place * 3) % COUNT;
         let mut history: Vec<Row> = (0..law.law.history().len()).map(|row| before(entry, row)).collect();
-        let reaction = law.law.react(rows, &mut corners()[place % 5], &mut history, 0.5);
+        let reaction = law.law.react(rows, &mut contacts(law)[place % 5], &mut history, 0.5);
         let mut found = vec![of(reaction.force)];
         if law.needs.torque {
             found.push(of(reaction.couple));

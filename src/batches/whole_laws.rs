@@ -1,17 +1,11 @@
 //! Laws that are met most, compiled whole beside their sub-models: the same functions in the same order. They keep in
 //! registers what the others write and read, and their bits are the same.
 
-use super::gathered::Gathered;
-use super::losses;
-use super::stage::{Rubbed, Stage};
-use super::sub_models::Run;
-use crate::contact::cohesion::{self, TakeCohesion, attraction::Attraction};
-use crate::contact::normal::{TakeNormal, hertzian::Hertzian, hooke_stiffness::HookeStiffness};
-use crate::contact::rolling::{self, TakeRolling, cdt::Cdt};
-use crate::contact::tangential::{self, TakeTangential, history::History};
-use crate::contact::{
-    Booked, Coefficients, Cohesion, CohesionForm, LawChoice, Normal, NormalForm, Rolling, Seen, Switches, Tangential,
-};
+use crate::contact::batch::{Gathered, Rubbed, Run, Stage, book};
+use crate::contact::normal::{hertzian::Hertzian, hooke_stiffness::HookeStiffness};
+use crate::contact::rolling::{self, cdt::Cdt};
+use crate::contact::tangential::history::History;
+use crate::contact::{Booked, Coefficients, LawChoice, NormalForm, Rolling, Seen, Switches, Tangential};
 use crate::lanes::{self, Kernel, Lane};
 use crate::number::Vector;
 use std::any::TypeId;
@@ -19,97 +13,50 @@ use std::marker::PhantomData;
 
 /// The law that a scene composed, if it is compiled whole; with what it loses, if that is booked.
 pub(super) fn find(choice: &LawChoice, is_booked: bool) -> Option<Run> {
-    if choice.scheme.carries() {
+    if choice.scheme.carries() || choice.cohesion.row().is_active() {
         return None;
     }
-    let forms = [
-        choice.normal.visit(FormOf),
-        choice.tangential.visit(FormOf),
-        choice.rolling.visit(FormOf),
-        choice.cohesion.visit(FormOf),
-    ];
-    FUSED
-        .iter()
-        .map(|fused| fused())
-        .find(|fused| fused.forms == forms)
-        .map(|fused| if is_booked { fused.booked } else { fused.run })
-}
-
-/// Goes from the name of a sub-model to the type of what it computes.
-struct FormOf;
-
-impl TakeNormal for FormOf {
-    type Output = TypeId;
-    fn take<M: Normal>(self, _keys: &M::Keys) -> TypeId {
-        TypeId::of::<M::Form>()
-    }
-}
-
-impl TakeTangential for FormOf {
-    type Output = TypeId;
-    fn take<M: Tangential>(self, _keys: &M::Keys) -> TypeId {
-        TypeId::of::<M>()
-    }
-}
-
-impl TakeRolling for FormOf {
-    type Output = TypeId;
-    fn take<M: Rolling>(self, _keys: &M::Keys) -> TypeId {
-        TypeId::of::<M>()
-    }
-}
-
-impl TakeCohesion for FormOf {
-    type Output = TypeId;
-    fn take<M: Cohesion>(self, _keys: &M::Keys) -> TypeId {
-        TypeId::of::<M::Form>()
-    }
+    let forms = [choice.normal.row().form(), choice.tangential.row().form(), choice.rolling.row().form()];
+    let mut all = FUSED.iter().map(|fused| fused());
+    all.find(|fused| fused.forms == forms).map(|fused| if is_booked { fused.booked } else { fused.run })
 }
 
 /// A law that is compiled whole.
 struct Fused {
-    /// What its normal, tangential, rolling and cohesion models compute.
-    forms: [TypeId; 4],
+    /// What its normal, tangential and rolling models compute.
+    forms: [TypeId; 3],
     /// The law on a batch.
     run: Run,
     /// The same, and what is lost.
     booked: Run,
 }
 
-/// The law of these four.
-fn fused<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm>() -> Fused {
+/// The law of these three.
+fn fused<A: NormalForm, B: Tangential, C: Rolling>() -> Fused {
     Fused {
-        forms: [TypeId::of::<A>(), TypeId::of::<B>(), TypeId::of::<C>(), TypeId::of::<D>()],
-        run: |width, stage| lanes::run(width, WholeRun::<A, B, C, D, false>(stage, PhantomData)),
-        booked: |width, stage| lanes::run(width, WholeRun::<A, B, C, D, true>(stage, PhantomData)),
+        forms: [TypeId::of::<A>(), TypeId::of::<B>(), TypeId::of::<C>()],
+        run: |width, stage| lanes::run(width, WholeRun::<A, B, C, false>(stage, PhantomData)),
+        booked: |width, stage| lanes::run(width, WholeRun::<A, B, C, true>(stage, PhantomData)),
     }
 }
 
-/// Laws that are compiled whole: those that scenes use most, where that saves 0.3 to 1.6 ns a contact of the 1 to 12 ns that
-/// sub-models take one after another (this phase alone, 64 contacts in the cache, least of nine runs in each lane width).
-/// `hooke` with `history` is not among them: it saves nothing. Nor are laws whose springs are carried: a time step of s1_20k
-/// would take 4 to 6 % less with `midway`, and no less with `predicted`.
+/// Laws that are compiled whole: those of which that saves 5 % of a time step or more (`docs/decisions/010`).
 const FUSED: &[fn() -> Fused] = &[
-    fused::<Hertzian, History, rolling::none::None, cohesion::none::None>,
-    fused::<Hertzian, History, Cdt, cohesion::none::None>,
-    fused::<Hertzian, History, Cdt, Attraction>,
-    fused::<Hertzian, tangential::none::None, rolling::none::None, cohesion::none::None>,
-    fused::<HookeStiffness, History, rolling::none::None, cohesion::none::None>,
-    fused::<HookeStiffness, tangential::none::None, rolling::none::None, cohesion::none::None>,
+    fused::<Hertzian, History, rolling::none::None>,
+    fused::<Hertzian, History, Cdt>,
+    fused::<HookeStiffness, History, rolling::none::None>,
 ];
 
 /// A whole law over a batch. Roots, for which what follows would wait, are found a register ahead. BOOKED: what contacts lose is
 /// booked with what is in the registers.
-struct WholeRun<'a, 'b, A, B, C, D, const BOOKED: bool>(&'a mut Stage<'b>, PhantomData<(A, B, C, D)>);
+struct WholeRun<'a, 'b, A, B, C, const BOOKED: bool>(&'a mut Stage<'b>, PhantomData<(A, B, C)>);
 
-impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bool> Kernel
-    for WholeRun<'_, '_, A, B, C, D, BOOKED>
-{
+impl<A: NormalForm, B: Tangential, C: Rolling, const BOOKED: bool> Kernel for WholeRun<'_, '_, A, B, C, BOOKED> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let stage = self.0;
         let after_normal = A::COUNT + Switches::COUNT;
-        let count = after_normal + B::COUNT + C::COUNT + D::COUNT;
+        let count = after_normal + B::COUNT + C::COUNT;
         let mut coefficients = Gathered::<N>::of(stage, 0, count);
         let shares_row = stage.history.normal_velocity == stage.history.tangential;
         let booked = Booked {
@@ -120,7 +67,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
             projects: B::PROJECTS,
             rolling: C::ACTIVE,
             presses: true,
-            other: D::ACTIVE,
+            other: false,
             carries: false,
             ..*stage.booked
         };
@@ -145,10 +92,6 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
                 }
                 let mut normal = stage.press::<N, A>(done, row, &contact, roots);
                 normal.response.tangential_damping = normal.response.tangential_damping * weight;
-                if D::ACTIVE {
-                    let law = D::lanes(&row[after_normal + B::COUNT + C::COUNT..]);
-                    D::add(law, D::force(law, &contact), &mut normal);
-                }
                 let rubbed = stage.rub::<N, B, false>(done, &row[after_normal..], &contact, &normal, history);
                 if C::ACTIVE && !B::ACTIVE {
                     stage.leave_couple::<N>(done);
@@ -177,7 +120,7 @@ impl<A: NormalForm, B: Tangential, C: Rolling, D: CohesionForm, const BOOKED: bo
                         before: before.map(|row| stage.remembered(true, row, done)),
                         contact,
                     };
-                    losses::book(stage, done, &seen, &booked);
+                    book(stage, done, &seen, &booked);
                 }
             }
             done += N::WIDTH;

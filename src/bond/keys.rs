@@ -91,12 +91,7 @@ impl Keys {
         add(
             self.formulation.is_engine() && self.damping.is_some_and(|damping| !damping.is_the_engines()),
             "damping",
-            "engine_exact has only the engine's damping; sign, smooth or none is right",
-        );
-        add(
-            self.damping.is_some_and(|damping| damping.split().is_some()) && !(self.tension && self.compression),
-            "damping.viscous.integration",
-            "\"split\" needs a bond that both pulls and pushes; \"scheme\", or tension and compression true, is right",
+            "expected sign, smooth or none in engine_exact, which has only the engine's damping, found another one",
         );
         if let Some(breakage) = &self.breakage {
             breakage.check(self.formulation, &mut wrong);

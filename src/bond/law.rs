@@ -1,7 +1,6 @@
 //! A bond law, whole, and what it does to one bond.
 
 use super::breakage::{Breakage, Loaded, Rule, TakeRule};
-use super::damping::viscous::Viscous;
 use super::damping::{Damping, DampingChoice, DampingLoad, LastDamping, TakeDamping};
 use super::elasticity::Parts;
 use super::formulation::{Asked, Formulation, FormulationChoice, TakeFormulation};
@@ -20,10 +19,8 @@ pub struct Law {
     pub formulation: FormulationChoice,
     /// Section, stiffnesses, relaxation.
     pub elasticity: Elasticity,
-    /// Damping that acts as a force, if there is any.
+    /// Damping, if there is any.
     pub damping: Option<DampingChoice>,
-    /// Dashpots that are integrated by themselves, if there are any; there is then no damping that acts as a force.
-    pub split: Option<Viscous>,
     /// Whether dashpots see the rates at the end of the step, extrapolated from those of the middle of this step and of the one before.
     pub foresees: bool,
     /// Rules of breakage, in the order of their list.
@@ -115,12 +112,13 @@ impl TakeFormulation for TakeRemembered {
 
 /// How many rows of state a bond of this formulation has.
 pub fn rows(formulation: FormulationChoice) -> usize {
-    formulation.visit_whole(TakeFunctions).rows
+    formulation.visit(Asked::ALL, TakeFunctions).rows
 }
 
 /// What each formulation of the program remembers of a bond, as text.
 pub fn remembered() -> String {
-    let line = |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit_whole(TakeRemembered));
+    let line =
+        |choice: &FormulationChoice| format!("{}: {}\n", choice.name(), choice.visit(Asked::ALL, TakeRemembered));
     FormulationChoice::ALL.iter().map(line).collect()
 }
 
@@ -134,8 +132,6 @@ impl Keys {
         }
         let part = |bears: bool, stiffness: f64| if bears { stiffness } else { 0.0 };
         let (normal, tangential) = (self.normal_stiffness.get(), self.tangential_stiffness.get());
-        let split = self.damping.and_then(|damping| damping.split());
-        let damping = self.damping.filter(|_| split.is_none());
         Ok(Law {
             formulation: self.formulation,
             elasticity: Elasticity {
@@ -148,9 +144,8 @@ impl Keys {
                 dead_band: if self.formulation.is_engine() { ENGINE_DEAD_BAND } else { 0.0 },
                 relaxation_rate: self.relaxation.map_or([0.0; 4], |keys| keys.parts(|time| 1.0 / time.get())),
             },
-            damping,
-            split,
-            foresees: predicts && damping.is_some_and(|damping| damping.is_dashpots()),
+            damping: self.damping,
+            foresees: predicts && self.damping.is_some_and(|damping| damping.is_dashpots()),
             breakage: self.breakage.map_or_else(Vec::new, |keys| keys.rules(self.formulation)),
             compression_share: self.breakage.unwrap_or_default().stress.compression_share(self.formulation),
         })
@@ -187,15 +182,7 @@ impl Law {
     /// A conservative bond that does not break.
     pub fn elastic(formulation: FormulationChoice, elasticity: Elasticity) -> Self {
         let compression_share = if formulation.is_engine() { 1.0 } else { -1.0 };
-        Self {
-            formulation,
-            elasticity,
-            damping: None,
-            split: None,
-            foresees: false,
-            breakage: Vec::new(),
-            compression_share,
-        }
+        Self { formulation, elasticity, damping: None, foresees: false, breakage: Vec::new(), compression_share }
     }
 
     /// What it asks of its formulation.
@@ -205,7 +192,7 @@ impl Law {
 
     /// Whether a living bond loses energy.
     pub fn dissipates(&self) -> bool {
-        self.damping.is_some() || self.split.is_some() || self.asked().relaxation
+        self.damping.is_some() || self.asked().relaxation
     }
 
     /// Its formulation for one bond.

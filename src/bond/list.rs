@@ -7,11 +7,12 @@ use std::collections::BTreeSet;
 pub enum ListError {
     /// No form that is known.
     #[error(
-        "no list of bonds found; right is CSV with columns id1 and id2, a LAMMPS data file with a section Bonds, or a dump of ENTRIES with columns id1 and id2 (or batom1 and batom2)"
+        "expected a list of bonds (CSV with columns id1 and id2, a LAMMPS data file with a section Bonds, or a dump \
+         of ENTRIES with columns id1 and id2 or batom1 and batom2), found none"
     )]
     Unknown,
     /// A row without two ids.
-    #[error("line {line}: {found:?} found; the ids of two particles are right")]
+    #[error("line {line}: expected the ids of two particles, found {found:?}")]
     Row {
         /// Line in the text, from 1.
         line: usize,
@@ -19,7 +20,7 @@ pub enum ListError {
         found: String,
     },
     /// A particle bonded to itself.
-    #[error("line {line}: particle {id} is bonded to itself; two different particles are right")]
+    #[error("line {line}: expected two different particles, found particle {id} twice")]
     Itself {
         /// Line in the text, from 1.
         line: usize,

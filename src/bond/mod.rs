@@ -35,7 +35,6 @@ pub mod list;
 pub mod motion;
 mod pair;
 mod part_keys;
-mod slopes;
 
 pub use crate::geometry::Quaternion;
 pub use carried::Carried;
@@ -44,7 +43,6 @@ pub use formulation::Formulation;
 pub use law::{Law, OneBond, Reaction, remembered, rows};
 pub use motion::{Lengths, Motion, Opening, RateRows, Rates};
 pub use pair::{Body, Pair, Section};
-pub use slopes::{Answer, Remembered, Sloped};
 
 use crate::number::{Number, Vector};
 

@@ -20,11 +20,10 @@ use crate::bond::formulation::{Formulation, TakeFormulation};
 use crate::bond::{
     Body, Coefficients, Elastic, Elasticity, Lengths, MOST_ROWS, Motion, Opening, Pair, Quaternion, Rates, Rows,
 };
-use crate::interactions::plane_velocities;
 use crate::lanes::{self, Kernel, Lane, Shared, Width, vector};
 use crate::memory::prefetch;
 use crate::number::{add, subtract};
-use crate::state::{Row, plane_rows};
+use crate::state::Row;
 use std::marker::PhantomData;
 
 /// Energies of the bonds of a slab, summed in eight places in turn: the sum does not depend on the lane width, and no
@@ -59,8 +58,6 @@ pub(super) struct Work<'a> {
     pub(crate) force: Shared<Row>,
     /// Torques.
     pub(crate) torque: Shared<Row>,
-    /// Whether velocities and loads stand in plane rows (`state::plane_rows`).
-    pub(crate) plane_rows: bool,
     /// Time since bonds were last advanced.
     pub(crate) step: f64,
 }
@@ -209,9 +206,6 @@ impl<F: Formulation> Slab<'_, '_, F> {
             }
             let mut pair = Pair::of_spheres(&load_body::<F, N>(work, first), &load_body::<F, N>(work, second));
             pair.velocity = vector(N::load_difference(work.velocity.as_ptr(), first, second));
-            if work.plane_rows {
-                pair.velocity.y = N::zero();
-            }
             if work.after.needs_masses {
                 self.buffer.put_masses(turn, [pair.mass_i, pair.mass_j, pair.inertia_i, pair.inertia_j]);
             }
@@ -424,17 +418,10 @@ impl<F: Formulation> Slab<'_, '_, F> {
                     held.put(work);
                     *held = Held::at(work, low as usize);
                 }
-                if work.plane_rows {
-                    add(&mut held.force, &plane_rows::load(push, *of_low));
-                    add(work.force.at(high as usize), &plane_rows::load(push.map(|part| -part), *of_high));
-                    plane_rows::mark_any(&mut held.torque, &push, of_low);
-                    plane_rows::mark_any(work.torque.at(high as usize), &push, of_high);
-                } else {
-                    add(&mut held.force, &push);
-                    add(&mut held.torque, of_low);
-                    subtract(work.force.at(high as usize), &push);
-                    add(work.torque.at(high as usize), of_high);
-                }
+                add(&mut held.force, &push);
+                add(&mut held.torque, of_low);
+                subtract(work.force.at(high as usize), &push);
+                add(work.torque.at(high as usize), of_high);
             }
             lane += 1;
         }
@@ -488,12 +475,6 @@ unsafe fn load_body<F: Formulation, N: Lane>(work: &Work, slots: *const u32) -> 
         let position = N::load_rows(work.position.as_ptr(), slots);
         let velocity = N::load_rows(work.velocity.as_ptr(), slots);
         let spin = N::load_rows(work.angular_velocity.as_ptr(), slots);
-        let (velocity, spin) = if work.plane_rows {
-            let [moving, turning] = plane_velocities(velocity);
-            (moving, [turning[0], turning[1], turning[2], spin[3]])
-        } else {
-            (velocity, spin)
-        };
         let orientation = if F::NEEDS_ORIENTATIONS {
             Quaternion::from_row(N::load_rows(work.orientation.as_ptr(), slots))
         } else {

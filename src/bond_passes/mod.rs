@@ -8,10 +8,6 @@ mod after;
 mod batch;
 mod book;
 mod pipeline_buffer;
-mod plane_sweeps;
-mod slopes;
-mod sweep_slabs;
-mod sweeps;
 pub(crate) mod walls;
 
 pub(crate) use book::{Done, book};
@@ -19,10 +15,9 @@ pub(crate) use book::{Done, book};
 use crate::bond::creation::{Creation, Moment, near_pair};
 use crate::bond::damping::LastDamping;
 use crate::bond::{Body, Carried, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
-use crate::boundaries::felt::Swept;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
-use crate::interactions::{Ahead, Kind, Link, Sweep};
+use crate::interactions::{Ahead, Kind, Link};
 use crate::lanes::Shared;
 use crate::neighbours::PairCache;
 use crate::neighbours::bonds::is_bonded;
@@ -37,7 +32,6 @@ use crate::threads::Context;
 use after::After;
 use batch::{SlabOf, TakeSlabs, Work};
 use std::sync::{Mutex, PoisonError};
-use sweeps::Sweeps;
 
 /// The pass of one bond law between particles.
 pub(crate) struct BondPass {
@@ -65,8 +59,6 @@ pub(crate) struct BondPass {
     near: Mutex<PairCache>,
     /// Working space for the results of each slab.
     results: Mutex<Vec<Done>>,
-    /// Its dashpots, where they are integrated by themselves.
-    sweeps: Sweeps,
 }
 
 impl BondPass {
@@ -86,7 +78,6 @@ impl BondPass {
             pairs: bond.pairs.clone(),
             near: Mutex::default(),
             results: Mutex::default(),
-            sweeps: Sweeps::of(scene.held_by(bond).next().is_some()),
         }
     }
 
@@ -183,7 +174,6 @@ impl Pass for BondPass {
             orientation: &particles.orientation,
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
-            plane_rows: particles.plane_rows,
             step: context.step,
         };
         let ends = &list.slabs;
@@ -226,18 +216,6 @@ impl Pass for BondPass {
     fn check(&self, state: &State) -> Result<(), StateFault> {
         state.bonds[self.index].check_columns(self.one_bond.rows, self.law.dissipates(), false)?;
         state.bonds[self.index].check_damping(self.law.damping_rows())
-    }
-
-    fn sweeps(&self) -> bool {
-        self.law.split.is_some()
-    }
-
-    fn sweep(&self, state: &mut State, sweep: Sweep, felt: &mut [Swept], context: &Context) -> f64 {
-        self.sweeps.run((&self.law, self.index), state, sweep, felt, context)
-    }
-
-    fn add_swept_loads(&self, state: &State, felt: &mut [Swept]) {
-        self.sweeps.add_loads((&self.law, self.index), state, felt);
     }
 
     fn has_torque(&self) -> bool {
@@ -289,8 +267,7 @@ impl Pass for BondPass {
             let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
             let other = Vector::from(particles.position[j as usize]).to_array();
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
-            let pair = pair_of(particles, i as usize, j as usize);
-            let force = whole_force(list, bond, &carried, &self.law, &pair);
+            let force = whole_force(list, bond, &carried);
             let (law, second) = (self.index as u32, Some(second));
             tell(BondRecord { law, first, second, other, force, carried, dissipated });
         }
@@ -303,15 +280,10 @@ pub(crate) fn shared_damping(columns: &mut [Vec<Row>]) -> [Shared<Row>; LastDamp
     [(); LastDamping::MOST_ROWS].map(|()| columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column)))
 }
 
-/// Force on body i of a bond that carries this, with that of damping in the last evaluation, or of dashpots that are integrated by
-/// themselves at present \[N\].
-pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &Carried, law: &Law, pair: &Pair) -> [f64; 3] {
-    let elastic = Vector::from(carried.force);
-    let damping = match law.split {
-        Some(dashpots) => dashpots.loads(&law.elasticity.at_step(0.0), pair).push,
-        None => Vector::from(list.damping.first().map_or([0.0; 4], |rows| rows[bond])),
-    };
-    (elastic + damping).to_array()
+/// Force on body i of a bond that carries this, with that of damping in the last evaluation \[N\].
+pub(crate) fn whole_force(list: &BondList, bond: usize, carried: &Carried) -> [f64; 3] {
+    let damping = list.damping.first().map_or([0.0; 4], |rows| rows[bond]);
+    (Vector::from(carried.force) + Vector::from(damping)).to_array()
 }
 
 /// Rates at which a bond gives elastic energy to its bodies, and at which its damping takes energy from them, by its loads in the last
@@ -377,7 +349,7 @@ pub(crate) fn pair_of(particles: &Particles, i: usize, j: usize) -> Pair {
 /// A particle as a body of a bond.
 pub(crate) fn body_of(particles: &Particles, slot: usize) -> Body {
     let orientation = particles.orientation.get(slot).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
-    let [velocity, spin] = particles.velocities(slot);
+    let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
     Body {
         position: particles.position[slot].into(),
         velocity: velocity.into(),

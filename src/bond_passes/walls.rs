@@ -3,22 +3,20 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::plane_sweeps::AtPlane;
 use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, stretched, sum, whole_force};
 use crate::bond::creation::{Creation, Moment, near_plane};
 use crate::bond::damping::LastDamping;
 use crate::bond::{Body, Carried, Coefficients, Law, MOST_ROWS, OneBond, Pair, Quaternion, Rows};
-use crate::boundaries::felt::Swept;
 use crate::interactions::BondRecord;
 use crate::interactions::Pass;
-use crate::interactions::{Ahead, Kind, Link, Sweep};
+use crate::interactions::{Ahead, Kind, Link};
 use crate::lanes::Shared;
 use crate::number::{Vector, add};
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::run_error::RunError;
 use crate::scene::{Boundary, Scene};
 use crate::state::ledger::Source;
-use crate::state::{BoundaryState, Particles, Row, State, StateFault, plane_rows};
+use crate::state::{BoundaryState, Particles, Row, State, StateFault};
 use crate::threads::{CHUNK, Context};
 use std::sync::{Mutex, PoisonError};
 
@@ -117,11 +115,6 @@ impl WallBondPass {
         self.law.carried(&self.pair(state, bond), &rows)
     }
 
-    /// What sweeps over its bonds work with.
-    fn at_plane<'a>(&'a self, foot: &'a dyn Fn(Row) -> Body) -> AtPlane<'a> {
-        AtPlane { law: &self.law, foot, reference: self.reference, boundary: self.boundary.index() }
-    }
-
     /// Particles to be bonded at this moment, with the feet of their bonds where the plane stood at time 0.
     fn wanted(&self, state: &State, moment: &Moment) -> Vec<(u32, Row)> {
         if !self.creation.bonds_near_pairs(moment) {
@@ -211,13 +204,8 @@ impl Work<'_> {
             // SAFETY: a particle stands once in a list.
             let (force, torque) = unsafe { (self.force.at(slot), self.torque.at(slot)) };
             let (push, turn) = (reaction.force.row_with(0.0), reaction.torque_i.row_with(0.0));
-            if self.particles.plane_rows {
-                add(force, &plane_rows::load(push, turn));
-                plane_rows::mark_any(torque, &push, &turn);
-            } else {
-                add(force, &push);
-                add(torque, &turn);
-            }
+            add(force, &push);
+            add(torque, &turn);
             let arm = Vector::from(self.foot[bond]) - *reference;
             piece.force += -reaction.force;
             piece.moment += reaction.torque_j - arm.cross(reaction.force);
@@ -303,22 +291,6 @@ impl Pass for WallBondPass {
         state.bonds[self.index].check_damping(self.law.damping_rows())
     }
 
-    fn sweeps(&self) -> bool {
-        self.law.split.is_some()
-    }
-
-    fn sweep(&self, state: &mut State, sweep: Sweep, felt: &mut [Swept], _context: &Context) -> f64 {
-        let State { bonds, particles, boundaries, .. } = state;
-        let plane = &boundaries[self.boundary.index()];
-        self.at_plane(&|foot| self.foot(foot, plane)).run(&mut bonds[self.index], particles, boundaries, sweep, felt)
-    }
-
-    fn add_swept_loads(&self, state: &State, felt: &mut [Swept]) {
-        let State { bonds, particles, boundaries, .. } = state;
-        let plane = &boundaries[self.boundary.index()];
-        self.at_plane(&|foot| self.foot(foot, plane)).add_loads(&bonds[self.index], particles, boundaries, felt);
-    }
-
     fn has_torque(&self) -> bool {
         true
     }
@@ -366,7 +338,7 @@ impl Pass for WallBondPass {
             let (first, other) = (state.particles.id[slot as usize], foot.position.to_array());
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
             let law = self.index as u32;
-            let force = whole_force(list, bond, &carried, &self.law, &self.pair(state, bond));
+            let force = whole_force(list, bond, &carried);
             tell(BondRecord { law, first, second: None, other, force, carried, dissipated });
         }
     }

@@ -34,16 +34,16 @@ pub(crate) fn book_second(
     step: f64,
     context: &Context,
 ) {
-    book_particles(state, between, (fields, gravity), (step, 1.0), context);
+    book_particles(state, between, (fields, gravity), step, context);
     book_bodies(state, fields, bodies, step);
 }
 
-/// Books a second half kick of the particles, from the velocities before it (`towards` is 1) or after it (−1).
+/// Books the second half kick of the particles.
 fn book_particles(
     state: &mut State,
     between: &mut Between,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
-    (step, towards): (f64, f64),
+    step: f64,
     context: &Context,
 ) {
     let State { particles, walls, ledger: Some(ledger), .. } = state else { return };
@@ -56,11 +56,9 @@ fn book_particles(
         lanes::run(context.width, OnPiece { particles, between, fields, gravity, piece, sums: &mut sums });
         sums.powers(between, fields)
     };
-    // From the present velocities to those after the kick.
-    let left = if towards > 0.0 { half } else { 0.0 };
     let add = |(mut sum, turned_over): (Powers, f64), part: Powers| {
         sum.add(&part);
-        (sum, turned_over + part.magnitude(left))
+        (sum, turned_over + part.magnitude(half))
     };
     let pieces = particles.len().div_ceil(CHUNK);
     let (mut powers, turned_over) = context.fold(pieces, on_piece, (Powers::default(), 0.0), add);
@@ -69,30 +67,11 @@ fn book_particles(
     }
     for source in 0..Source::COUNT {
         let (now, growth) = (powers.now[source], powers.growth[source]);
-        ledger.work[source] += half * (now + towards * 0.5 * half * growth);
-        (ledger.power[source], ledger.growth[source]) = (now + left * growth, growth);
+        ledger.work[source] += half * (now + 0.5 * half * growth);
+        (ledger.power[source], ledger.growth[source]) = (now + half * growth, growth);
     }
     ledger.power_turned_over = turned_over;
     ledger.turnover += half * turned_over;
-}
-
-/// The same on particles where that half kick has been made, and a sweep over dashpots of bonds after it: each kind of force is booked
-/// with the velocities after the sweep.
-pub(crate) fn book_kicked(state: &mut State, between: &mut Between, fields: &Fields, step: f64, context: &Context) {
-    book_particles(state, between, (fields, None), (step, -1.0), context);
-}
-
-/// Power of all forces on the particles that move by them \[W\].
-pub(crate) fn power(particles: &Particles, context: &Context) -> f64 {
-    let of_piece = |piece: usize| {
-        let slots = piece * CHUNK..((piece + 1) * CHUNK).min(particles.len());
-        let of = |slot: usize| {
-            let turned = dot(&particles.torque[slot], &particles.angular_velocity[slot]);
-            dot(&particles.force[slot], &particles.velocity[slot]) + turned
-        };
-        slots.filter(|&slot| particles.owner[slot] == 0).map(of).sum::<f64>()
-    };
-    context.fold(particles.len().div_ceil(CHUNK), of_piece, 0.0, |sum, part| sum + part)
 }
 
 /// Books what forces do to bodies in the half kick that is about to be made.

@@ -132,9 +132,9 @@ pub(crate) fn end(state: &mut State, elapsed: f64) {
     }
 }
 
-/// The way of a boundary in a time step.
+/// How far a boundary moved in a time step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Way {
+pub(crate) struct BoundaryTravel {
     /// Along the axes that the outside or the scene moves, then about them \[m, rad\].
     pub(super) led: [f64; 6],
     /// No particle of it went further \[m\]; 0 where it carries none.
@@ -143,7 +143,7 @@ pub(crate) struct Way {
     pub(super) bent: f64,
 }
 
-impl Way {
+impl BoundaryTravel {
     /// How far the boundary went, or what it carries, or a surface at the distance `extent` from its point of reference
     /// \[m\].
     pub(crate) fn farthest(&self, extent: f64) -> f64 {
@@ -176,18 +176,18 @@ pub(crate) fn speeds<'a>(
     })
 }
 
-/// Moves every boundary to where it stands at the end of the present time step, and notes its way.
+/// Moves every boundary to where it stands at the end of the present time step, and notes how far it moved.
 pub(crate) fn advance(
     scene: &Scene,
     bodies: &[Option<RigidBody>],
     state: &mut State,
     progress: Progress,
-    ways: &mut Vec<Way>,
+    travels: &mut Vec<BoundaryTravel>,
 ) {
-    ways.clear();
+    travels.clear();
     for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&mut state.boundaries) {
         let before = moved.displacement;
-        let mut way = Way::default();
+        let mut travel = BoundaryTravel::default();
         if let Some(body) = body {
             body.kick(moved, progress.step);
             follow_inputs(boundary, moved, &progress);
@@ -198,29 +198,29 @@ pub(crate) fn advance(
                 continue;
             }
             if let Some(gone) = serve(boundary, moved, axis, &progress) {
-                way.led[axis] = gone;
+                travel.led[axis] = gone;
                 continue;
             }
             let (start, target, course) = (moved.start[axis], moved.end[axis], boundary.input);
             let acceleration = moved.acceleration[axis];
-            let whole = motion::Way { start, target, before: before[axis], course, acceleration };
+            let whole = motion::AxisPath { start, target, before: before[axis], course, acceleration };
             if let Some([displacement, velocity]) = boundary.axes[axis].lead(&whole, &progress) {
                 (moved.displacement[axis], moved.velocity[axis]) = (displacement, velocity);
             }
-            way.led[axis] = moved.displacement[axis] - before[axis];
+            travel.led[axis] = moved.displacement[axis] - before[axis];
         }
         let shift = Vector::from(moved.displacement) - before.into();
         if let Some(body) = body {
             let turned = turn(boundary, body, moved, progress);
             if !body.spins() {
-                way.led[3..].copy_from_slice(&turned.to_array());
+                travel.led[3..].copy_from_slice(&turned.to_array());
             }
-            way.carried = turned.length() * body.farthest;
+            travel.carried = turned.length() * body.farthest;
         }
         if !boundary.shape.members().is_empty() {
-            way.carried += shift.length();
+            travel.carried += shift.length();
         }
-        ways.push(way);
+        travels.push(travel);
     }
 }
 

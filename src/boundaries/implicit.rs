@@ -16,101 +16,60 @@
 //! vanishes with the step.
 
 use crate::number::Vector;
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-/// Lower triangle of a symmetric 6 × 6 matrix over three translations and three rotations, row by row.
-pub(crate) type Triangle = [f64; 21];
-
-/// Where an entry stands in a triangle.
-const fn place(row: usize, column: usize) -> usize {
-    if row >= column { row * (row + 1) / 2 + column } else { column * (column + 1) / 2 + row }
-}
-
-/// Adds what a spring or dashpot offers to a body: along the normal, across it, against twisting and bending; it acts at
-/// this arm from the point of reference \[m\].
-pub(crate) fn add(block: &mut Triangle, normal: Vector, arm: Vector, [along, across, twisting, bending]: [f64; 4]) {
-    let n = normal.to_array();
-    let unit = |axis: usize| Vector::from([0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 }));
-    // How a unit of each freedom moves the point of action, and turns the body there.
-    let freedoms: [[Vector; 2]; 6] = std::array::from_fn(|k| match k {
-        0..3 => [unit(k), Vector::zero()],
-        _ => [unit(k - 3).cross(arm), unit(k - 3)],
-    });
-    for row in 0..6 {
-        for column in 0..=row {
-            let ([p, u], [q, w]) = (freedoms[row], freedoms[column]);
-            let n = Vector::from(n);
-            block[place(row, column)] += across * p.dot(q)
-                + (along - across) * p.dot(n) * q.dot(n)
-                + bending * u.dot(w)
-                + (twisting - bending) * u.dot(n) * w.dot(n);
-        }
-    }
-}
-
-/// Adds to the diagonal.
-pub(crate) fn add_diagonal(block: &mut Triangle, parts: [f64; 6]) {
-    for (row, part) in parts.into_iter().enumerate() {
-        block[place(row, row)] += part;
-    }
+/// Adds what a spring or dashpot offers to the six freedoms of a body, three translations and three rotations: along the normal, across
+/// it, against twisting and bending; it acts at this arm from the point of reference \[m\].
+pub(crate) fn add(block: &mut Matrix6<f64>, normal: Vector, arm: Vector, [along, across, twisting, bending]: [f64; 4]) {
+    let normal = Vector3::from(normal.to_array());
+    let of = |along: f64, across: f64| {
+        Matrix3::from_diagonal_element(across) + normal * normal.transpose() * (along - across)
+    };
+    let (shift, turn) = (of(along, across), of(twisting, bending));
+    // The point of action moves with v + ω × arm.
+    let lever = -Vector3::from(arm.to_array()).cross_matrix();
+    let mixed = shift * lever;
+    let mut add = |row: usize, column: usize, part: Matrix3<f64>| {
+        let mut view = block.fixed_view_mut::<3, 3>(row, column);
+        view += part;
+    };
+    add(0, 0, shift);
+    add(0, 3, mixed);
+    add(3, 0, mixed.transpose());
+    add(3, 3, lever.transpose() * mixed + turn);
 }
 
 /// A of a time step \[s\] between freedoms that are free; zeros elsewhere.
-pub(super) fn added(stiffness: &Triangle, damping: &Triangle, free: [bool; 6], step: f64) -> Triangle {
-    let mut sum = [0.0; 21];
-    for row in (0..6).filter(|&row| free[row]) {
-        for column in (0..=row).filter(|&column| free[column]) {
-            let at = place(row, column);
-            sum[at] = 0.5 * step * step * stiffness[at] + step * damping[at];
-        }
-    }
-    sum
+pub(super) fn added(stiffness: &Matrix6<f64>, damping: &Matrix6<f64>, free: [bool; 6], step: f64) -> Matrix6<f64> {
+    let all = stiffness * (0.5 * step * step) + damping * step;
+    all.map_with_location(|row, column, part| if free[row] && free[column] { part } else { 0.0 })
 }
 
-/// The solution of a symmetric, positive definite system (L D Lᵀ).
-pub(super) fn solve(mut matrix: Triangle, mut vector: [f64; 6]) -> [f64; 6] {
-    for k in 0..6 {
-        for row in k + 1..6 {
-            let factor = matrix[place(row, k)] / matrix[place(k, k)];
-            for column in k + 1..=row {
-                matrix[place(row, column)] -= factor * matrix[place(column, k)];
-            }
-            vector[row] -= factor * vector[k];
-        }
-    }
-    for row in (0..6).rev() {
-        let known: f64 = (row + 1..6).map(|column| matrix[place(column, row)] * vector[column]).sum();
-        vector[row] = (vector[row] - known) / matrix[place(row, row)];
-    }
-    vector
+/// The solution of a symmetric, positive definite system; not numbers where it is none.
+pub(super) fn solve(matrix: Matrix6<f64>, load: &Vector6<f64>) -> Vector6<f64> {
+    matrix.cholesky().map_or(Vector6::repeat(f64::NAN), |factors| factors.solve(load))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The product of a matrix with a vector.
-    fn times(triangle: &Triangle, vector: [f64; 6]) -> [f64; 6] {
-        std::array::from_fn(|row| (0..6).map(|column| triangle[place(row, column)] * vector[column]).sum())
-    }
-
     #[test]
     fn the_solution_times_the_matrix_is_the_load() {
-        let mut matrix = [0.0; 21];
-        add_diagonal(&mut matrix, [2.0, 2.0, 2.0, 0.1, 0.3, 0.2]);
+        let mut matrix = Matrix6::from_diagonal(&Vector6::new(2.0, 2.0, 2.0, 0.1, 0.3, 0.2));
         add(&mut matrix, Vector::new(0.6, 0.0, 0.8), Vector::new(0.3, -0.2, 0.5), [7.0, 3.0, 0.1, 0.4]);
-        let load = [1.0, -2.0, 3.0, 0.5, -0.7, 0.2];
-        let found = times(&matrix, solve(matrix, load));
-        for (found, load) in found.into_iter().zip(load) {
-            assert!((found - load).abs() < 1e-13, "{found}, not {load}");
-        }
+        let load = Vector6::new(1.0, -2.0, 3.0, 0.5, -0.7, 0.2);
+        let found = matrix * solve(matrix, &load);
+        assert!((found - load).amax() < 1e-13, "{found}, not {load}");
     }
 
     #[test]
     fn a_spring_at_an_arm_resists_shift_and_turn_as_by_hand() {
         // 5 N/m along z at x = 2 m: f_z = −5 (u − 2 θ_y), m_y = −2 f_z.
-        let mut block = [0.0; 21];
+        let mut block = Matrix6::zeros();
         add(&mut block, Vector::new(0.0, 0.0, 1.0), Vector::new(2.0, 0.0, 0.0), [5.0, 0.0, 0.0, 0.0]);
-        assert_eq!(times(&block, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), [0.0, 0.0, 5.0, 0.0, -10.0, 0.0]);
-        assert_eq!(times(&block, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]), [0.0, 0.0, -10.0, 0.0, 20.0, 0.0]);
+        assert_eq!(block.column(2), Vector6::new(0.0, 0.0, 5.0, 0.0, -10.0, 0.0));
+        assert_eq!(block.column(4), Vector6::new(0.0, 0.0, -10.0, 0.0, 20.0, 0.0));
+        assert_eq!(block, block.transpose());
     }
 }

@@ -2,60 +2,26 @@
 
 use crate::geometry::Quaternion;
 use crate::number::Vector;
+use nalgebra::{Matrix3, Vector3};
 
-/// A symmetric 3 × 3 matrix.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Matrix(pub(super) [[f64; 3]; 3]);
+/// Adds that of a particle with this mass \[kg\] and moment of inertia \[kg m²\] at an arm \[m\].
+pub(super) fn add_particle(sum: &mut Matrix3<f64>, mass: f64, inertia: f64, arm: Vector) {
+    *sum += Matrix3::from_diagonal_element(inertia + mass * arm.dot(arm));
+    let arm = Vector3::from(arm.to_array());
+    *sum -= arm * mass * arm.transpose();
+}
 
-impl Matrix {
-    /// Adds that of a particle with this mass \[kg\] and moment of inertia \[kg m²\] at an arm \[m\].
-    pub(super) fn add_particle(&mut self, mass: f64, inertia: f64, arm: Vector) {
-        let square = arm.dot(arm);
-        for axis in 0..3 {
-            self.0[axis][axis] += inertia + mass * square;
-        }
-        self.take_products(mass, arm);
-    }
+/// The product with a vector.
+pub(super) fn times(matrix: &Matrix3<f64>, vector: Vector) -> Vector {
+    let product: [f64; 3] = (matrix * Vector3::from(vector.to_array())).into();
+    product.into()
+}
 
-    /// Adds that of a mass \[kg\] at an arm \[m\].
-    pub(super) fn add_point(&mut self, mass: f64, arm: Vector) {
-        for axis in 0..3 {
-            self.0[axis][axis] += mass * arm.dot(arm);
-        }
-        self.take_products(mass, arm);
-    }
-
-    /// Takes away m a aᵀ.
-    fn take_products(&mut self, mass: f64, arm: Vector) {
-        let parts = arm.to_array();
-        for a in 0..3 {
-            for b in 0..3 {
-                self.0[a][b] -= mass * parts[a] * parts[b];
-            }
-        }
-    }
-
-    /// Its product with a vector.
-    pub(super) fn times(&self, vector: Vector) -> Vector {
-        Vector::from(self.0.map(|row| Vector::from(row).dot(vector)))
-    }
-
-    /// What it is to a body of this orientation, in global axes.
-    pub(super) fn turned(&self, orientation: Quaternion) -> Self {
-        let column = |axis: usize| {
-            let unit = Vector::from([0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 }));
-            orientation.turn(self.times(orientation.conjugate().turn(unit))).to_array()
-        };
-        // Symmetric: its columns are its rows.
-        Self([0, 1, 2].map(column))
-    }
-
-    /// The inverse of a positive definite one.
-    pub(super) fn inverse(&self) -> Self {
-        let rows = self.0.map(Vector::from);
-        // Each row of the inverse is normal to two rows of the matrix.
-        let across = [rows[1].cross(rows[2]), rows[2].cross(rows[0]), rows[0].cross(rows[1])];
-        let determinant = rows[0].dot(across[0]);
-        Self(across.map(|row| (row * (1.0 / determinant)).to_array()))
-    }
+/// What a matrix of a body is in global axes, where the body has this orientation.
+pub(super) fn turned(matrix: &Matrix3<f64>, orientation: Quaternion) -> Matrix3<f64> {
+    let turn = Matrix3::from_columns(&[0, 1, 2].map(|axis| {
+        let unit = Vector::from([0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 }));
+        Vector3::from(orientation.turn(unit).to_array())
+    }));
+    turn * matrix * turn.transpose()
 }

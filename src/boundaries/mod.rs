@@ -1,12 +1,11 @@
 //! Boundaries during a time step: their motion, prescribed or as rigid bodies that forces move; and the loads on them.
 
 pub(crate) mod course;
-pub(crate) mod felt;
 pub(crate) mod implicit;
 mod inertia;
+pub(crate) mod loads;
 pub(crate) mod nodes;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
-pub(crate) mod slopes;
 
 pub(crate) use rigid_body::{RigidBody, Turning};

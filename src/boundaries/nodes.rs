@@ -1,6 +1,6 @@
 //! How the nodes of meshes move, and what they feel: as driven axes of boundaries do, node by node.
 
-use super::course::Way;
+use super::course::BoundaryTravel;
 use crate::motion::{InputCourse, Progress};
 use crate::scene::Scene;
 use crate::state::nodes::farthest;
@@ -41,13 +41,19 @@ pub(crate) fn end(state: &mut State, elapsed: f64) {
 }
 
 /// Moves all nodes to where they stand at the end of the present time step, and notes how far their boundaries bend.
-pub(crate) fn advance(scene: &Scene, state: &mut State, progress: &Progress, before: &mut Before, ways: &mut [Way]) {
+pub(crate) fn advance(
+    scene: &Scene,
+    state: &mut State,
+    progress: &Progress,
+    before: &mut Before,
+    travels: &mut [BoundaryTravel],
+) {
     before.place.resize_with(state.nodes.len(), Vec::new);
     for (nodes, place) in state.nodes.iter_mut().zip(&mut before.place) {
         let course = scene.boundaries[nodes.boundary as usize].input;
         place.clone_from(&nodes.displacement);
         lead(nodes, place, course, progress);
-        ways[nodes.boundary as usize].bent = farthest(&nodes.displacement, place);
+        travels[nodes.boundary as usize].bent = farthest(&nodes.displacement, place);
     }
 }
 

@@ -17,28 +17,29 @@ pub trait Coefficients: Copy + Send + Sync + 'static {
 }
 
 /// Declares the coefficients of a sub-model: a struct of [`Number`]s that implements [`Coefficients`].
+#[macro_export]
 macro_rules! coefficients {
-    ($(#[$doc:meta])* pub struct $name:ident { $($(#[$field_doc:meta])* $field:ident,)* }) => {
+    ($(#[$doc:meta])* $visibility:vis struct $name:ident { $($(#[$field_doc:meta])* $field:ident,)* }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $name<N = f64> {
-            $($(#[$field_doc])* pub $field: N,)*
+        $visibility struct $name<N = f64> {
+            $($(#[$field_doc])* $visibility $field: N,)*
             /// Makes a struct without coefficients generic all the same.
             #[doc(hidden)]
-            pub marker: std::marker::PhantomData<N>,
+            $visibility marker: std::marker::PhantomData<N>,
         }
 
         impl $name {
             /// The coefficients with these values, in the order of the fields.
             #[allow(clippy::new_without_default, reason = "a sub-model without coefficients has no default meaning")]
             #[allow(clippy::too_many_arguments, reason = "one for each coefficient")]
-            pub fn new($($field: f64),*) -> Self {
+            $visibility fn new($($field: f64),*) -> Self {
                 Self { $($field,)* marker: std::marker::PhantomData }
             }
         }
 
-        impl crate::contact::Coefficients for $name {
-            type Lanes<N: crate::number::Number> = $name<N>;
+        impl $crate::contact::Coefficients for $name {
+            type Lanes<N: $crate::number::Number> = $name<N>;
             const COUNT: usize = <[&str]>::len(&[$(stringify!($field)),*]);
             fn write(&self, _row: &mut Vec<f64>) {
                 $(_row.push(self.$field);)*
@@ -47,7 +48,7 @@ macro_rules! coefficients {
                 Self::lanes(row)
             }
             #[inline(always)]
-            fn lanes<N: crate::number::Number>(row: &[N]) -> $name<N> {
+            fn lanes<N: $crate::number::Number>(row: &[N]) -> $name<N> {
                 let mut _row = row.iter();
                 $(let $field = *_row.next().expect("a row has as many numbers as the sub-model");)*
                 $name { $($field,)* marker: std::marker::PhantomData }

@@ -1,14 +1,15 @@
 //! A contact and a pair of materials to try laws on.
 
-use super::cohesion::{self, CohesionChoice};
-use super::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
-use super::rolling::{RollingChoice, rocking};
-use super::tangential::{TangentialChoice, turned_history};
+use super::cohesion;
+use super::normal::{eepa, hooke, hooke_stiffness, sticky};
+use super::rolling::rocking;
+use super::tangential::turned_history;
 use super::{
-    Contact, FrictionNeeds, LawChoice, Material, MaterialPair, NoKeys, NormalForce, PairProperties, Response, Scheme,
-    Switches,
+    Cohesion, CohesionForm, CohesionModel, Contact, FrictionNeeds, HistoryRow, LawChoice, Material, MaterialPair,
+    Missing, Needs, NoKeys, NormalForce, NormalModel, PairProperties, Response, RollingModel, Scheme, Switches,
+    TangentialModel, coefficients, normal, rolling, tangential,
 };
-use crate::number::Vector;
+use crate::number::{Number, Vector};
 use crate::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
 
 /// Friction that takes all there is.
@@ -54,38 +55,49 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
     let reduce = cohesion::sjkr::Keys { tangential_reduce: true };
     let mut all = Vec::new();
     for normal in [
-        NormalChoice::Hertz(NoKeys {}),
-        NormalChoice::HertzStiffness(NoKeys {}),
-        NormalChoice::Hooke(speed),
-        NormalChoice::HookeStiffness(hooke_stiffness::Keys::default()),
-        NormalChoice::HookeViscous(speed),
-        NormalChoice::Jkr(sticky::Keys::default()),
-        NormalChoice::Jkr(sticky::Keys { engine_exact: true, ..sticky::Keys::default() }),
-        NormalChoice::Dmt(sticky::Keys { damping: sticky::DampingKind::Velocity, ..sticky::Keys::default() }),
+        NormalModel::of::<normal::hertz::Hertz>(NoKeys {}),
+        NormalModel::of::<normal::hertz_stiffness::HertzStiffness>(NoKeys {}),
+        NormalModel::of::<normal::hooke::Hooke>(speed),
+        NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys::default()),
+        NormalModel::of::<normal::hooke_viscous::HookeViscous>(speed),
+        NormalModel::of::<normal::jkr::Jkr>(sticky::Keys::default()),
+        NormalModel::of::<normal::jkr::Jkr>(sticky::Keys { engine_exact: true, ..sticky::Keys::default() }),
+        NormalModel::of::<normal::dmt::Dmt>(sticky::Keys {
+            damping: sticky::DampingKind::Velocity,
+            ..sticky::Keys::default()
+        }),
         dented(1.5, 5.0, eepa::AdhesionKind::Patch),
         dented(1.0, 1.0, eepa::AdhesionKind::Fixed),
     ] {
         for tangential in [
-            TangentialChoice::None(NoKeys {}),
-            TangentialChoice::History(NoKeys {}),
-            TangentialChoice::NoHistory(NoKeys {}),
-            TangentialChoice::Rescaled(NoKeys {}),
-            TangentialChoice::TurnedHistory(turned_history::Keys { rescale: true, ..Default::default() }),
-            TangentialChoice::TurnedHistory(turned_history::Keys {
+            TangentialModel::of::<tangential::none::None>(NoKeys {}),
+            TangentialModel::of::<tangential::history::History>(NoKeys {}),
+            TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {}),
+            TangentialModel::of::<tangential::rescaled::Rescaled>(NoKeys {}),
+            TangentialModel::of::<tangential::turned_history::TurnedHistory>(turned_history::Keys {
+                rescale: true,
+                ..Default::default()
+            }),
+            TangentialModel::of::<tangential::turned_history::TurnedHistory>(turned_history::Keys {
                 backward_spring: Some(false),
                 ..Default::default()
             }),
         ] {
             for rolling in [
-                RollingChoice::None(NoKeys {}),
-                RollingChoice::Cdt(NoKeys {}),
-                RollingChoice::Epsd(rocking::Keys::default()),
-                RollingChoice::Epsd2(rocking::Keys { torsion: true, engine_exact: true, set_up_step: None }),
+                RollingModel::of::<rolling::none::None>(NoKeys {}),
+                RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
+                RollingModel::of::<rolling::epsd::Epsd>(rocking::Keys::default()),
+                RollingModel::of::<rolling::epsd2::Epsd2>(rocking::Keys {
+                    torsion: true,
+                    engine_exact: true,
+                    set_up_step: None,
+                }),
             ] {
                 for cohesion in [
-                    CohesionChoice::None(NoKeys {}),
-                    CohesionChoice::Sjkr(reduce),
-                    CohesionChoice::Sjkr2(cohesion::sjkr::Keys::default()),
+                    CohesionModel::of::<cohesion::none::None>(NoKeys {}),
+                    CohesionModel::of::<cohesion::sjkr::Sjkr>(reduce),
+                    CohesionModel::of::<cohesion::sjkr2::Sjkr2>(cohesion::sjkr::Keys::default()),
+                    CohesionModel::of::<Holding>(NoKeys {}),
                 ] {
                     let switches = Switches::of(false, true);
                     for scheme in Scheme::ALL {
@@ -101,9 +113,54 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
     all
 }
 
+coefficients! {
+    /// Holds bodies beyond touch with a force that grows as it is remembered, for tests.
+    pub(crate) struct Holding {
+        /// How far \[m\].
+        reach,
+    }
+}
+
+impl Cohesion for Holding {
+    const NAME: &'static str = "holding";
+    type Keys = NoKeys;
+    type Form = Self;
+
+    fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
+        Ok(Self::new(0.25))
+    }
+}
+
+impl CohesionForm for Holding {
+    const NEEDS: Needs = Needs::NONE;
+    const BEYOND_TOUCH: bool = true;
+    const HISTORY: Option<HistoryRow> =
+        Some(HistoryRow { name: "pull before", odd: [false; 4], fourth_is_free: false });
+
+    fn reach(&self, _radius: f64) -> f64 {
+        self.reach
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(law: Holding<N>, contact: &Contact<N>) -> N {
+        -(law.reach + contact.overlap)
+    }
+
+    #[inline(always)]
+    fn pull<N: Number>(law: Holding<N>, contact: &Contact<N>, [before, ..]: [N; 4], step: N) -> (N, [N; 4]) {
+        let pull = Self::force(law, contact) + before * step;
+        (pull, [pull, N::zero(), N::zero(), N::zero()])
+    }
+}
+
 /// An elasto-plastic model.
-fn dented(overlap_exponent: f64, adhesion_exponent: f64, adhesion: eepa::AdhesionKind) -> NormalChoice {
-    NormalChoice::Eepa(eepa::Keys { overlap_exponent, adhesion_exponent, adhesion, engine_exact: false })
+fn dented(overlap_exponent: f64, adhesion_exponent: f64, adhesion: eepa::AdhesionKind) -> NormalModel {
+    NormalModel::of::<normal::eepa::Eepa>(eepa::Keys {
+        overlap_exponent,
+        adhesion_exponent,
+        adhesion,
+        engine_exact: false,
+    })
 }
 
 /// Contacts at the corners of what can be: no motion, no spin, no overlap, receding.

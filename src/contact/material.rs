@@ -62,6 +62,47 @@ pub struct PairProperties {
     pub adhesion_stiffness_ratio: Option<NonNegative>,
 }
 
+/// For each property that is given: its key, and the properties without it and with another value of it.
+macro_rules! variants {
+    ($properties:expr, $($key:ident: $kind:ident $other:literal,)*) => {
+        [$($properties.$key.map(|_| {
+            let other = |value| PairProperties { $key: value, ..*$properties };
+            (stringify!($key), [other(None), other($kind::new($other))])
+        })),*]
+    };
+}
+
+impl PairProperties {
+    /// For each property that is given: its key, and these properties without it and with another value of it. What reads it can
+    /// tell them apart.
+    pub(crate) fn variants(&self) -> impl Iterator<Item = (&'static str, [Self; 2])> {
+        let variants = variants! {
+            self,
+            restitution: Restitution 0.37,
+            friction: NonNegative 0.37,
+            rolling_friction: NonNegative 0.37,
+            cohesion_energy_density: NonNegative 0.37,
+            normal_stiffness: NonNegative 0.37,
+            tangential_stiffness: NonNegative 0.37,
+            normal_damping: NonNegative 0.37,
+            tangential_damping: NonNegative 0.37,
+            absolute_normal_damping: NonNegative 0.37,
+            absolute_tangential_damping: NonNegative 0.37,
+            fluid_viscosity: Positive 0.37,
+            critical_stokes_number: Positive 0.37,
+            maximum_restitution: Restitution 0.37,
+            rolling_viscous_damping: NonNegative 0.37,
+            surface_energy: NonNegative 0.37,
+            damping_coefficient: NonNegative 0.37,
+            tangential_damping_ratio: NonNegative 0.37,
+            unloading_stiffness_ratio: AtLeastOne 1.37,
+            pull_off_force: NonNegative 0.37,
+            adhesion_stiffness_ratio: NonNegative 0.37,
+        };
+        variants.into_iter().flatten()
+    }
+}
+
 /// A property that the chosen law needs and the scene does not give.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing {

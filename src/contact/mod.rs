@@ -8,29 +8,39 @@
 //! Signs: the normal points from body j to body i; a positive normal force pushes i along it. The
 //! relative velocity is that of i seen from j; the normal velocity is negative while they approach.
 
+pub(crate) mod batch;
 mod choice;
 mod coefficients;
 pub mod cohesion;
 #[cfg(test)]
 pub(crate) mod fixtures;
+mod functions;
 mod law;
 mod losses;
 mod material;
+mod model;
 pub mod normal;
+mod places;
 pub mod rolling;
 mod scheme;
 mod sub_model;
 pub mod tangential;
 
+pub use batch::SLIDING;
 pub use choice::{LawChoice, remembered};
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficients;
 #[cfg(test)]
 pub use law::Offset;
-pub use law::{Acting, CoefficientPlaces, Evaluated, HistoryPlaces, Law, LawNumber, OFFSET};
+pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
+pub use model::{
+    CohesionFunctions, CohesionModel, CohesionRow, Model, ModelKeys, ModelRow, NormalFunctions, NormalModel, NormalRow,
+    RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel, TangentialRow,
+};
+pub use places::{CoefficientPlaces, HistoryPlaces};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
@@ -41,7 +51,7 @@ use serde::Deserialize;
 /// Geometry and relative motion of one contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<N = f64> {
-    /// Overlap δ; below 0 only where a normal model holds bodies together beyond touch \[m\].
+    /// Overlap δ; below 0 only where a normal or cohesion model holds bodies together beyond touch \[m\].
     pub overlap: N,
     /// Effective radius R*: R_i R_j/(R_i + R_j) of two spheres, R_i at a wall \[m\].
     pub radius: N,
@@ -69,15 +79,14 @@ pub struct Contact<N = f64> {
     pub per_reach: N,
     /// p q/(p + q), p = m_i R_i², q = m_j R_j², of two spheres; m_i R_i² at a wall \[kg m²\].
     pub rolling_inertia: N,
-    /// Constant that the normal model computed from effective radius and mass when the pair was found
-    /// ([`NormalForm::pair_constant`]).
+    /// Constant of effective radius and mass, computed when the pair was found: how far the law holds it together beyond touch, or
+    /// [`NormalForm::pair_constant`].
     pub pair_constant: N,
 }
 
 impl<N: Number> Contact<N> {
-    /// One of nothing.
-    #[inline(always)]
-    pub(crate) fn zero() -> Self {
+    /// One of nothing: tests of a law say what it looks at.
+    pub fn zero() -> Self {
         let (zero, none) = (N::zero(), Vector::zero());
         Self {
             overlap: zero,
@@ -193,6 +202,12 @@ pub struct Response<N = f64> {
     pub tangential_damping: N,
 }
 
+impl Response {
+    /// Of nothing.
+    pub(crate) const NONE: Self =
+        Self { normal_stiffness: 0.0, normal_damping: 0.0, tangential_stiffness: 0.0, tangential_damping: 0.0 };
+}
+
 /// Results of the normal model, and of cohesion after it, for the other sub-models.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalForce<N = f64> {
@@ -202,6 +217,25 @@ pub struct NormalForce<N = f64> {
     pub force: N,
     /// The part of it from which friction and rolling take their limits \[N\].
     pub seen: N,
+}
+
+impl<N: Number> NormalForce<N> {
+    /// What is left of it at this overlap \[m\] where it acts in touch alone: below 0, nothing.
+    #[inline(always)]
+    pub(crate) fn in_touch(&self, overlap: N) -> Self {
+        let (apart, zero) = (N::zero().greater(overlap), N::zero());
+        let Self { response, force, seen } = *self;
+        Self {
+            response: Response {
+                normal_stiffness: N::select(apart, zero, response.normal_stiffness),
+                normal_damping: N::select(apart, zero, response.normal_damping),
+                tangential_stiffness: N::select(apart, zero, response.tangential_stiffness),
+                tangential_damping: N::select(apart, zero, response.tangential_damping),
+            },
+            force: N::select(apart, zero, force),
+            seen: N::select(apart, zero, seen),
+        }
+    }
 }
 
 /// Friction of one contact.
@@ -215,9 +249,9 @@ pub struct Friction<N: Number = f64> {
     pub sliding: N::Mask,
 }
 
-/// Rows that a law remembers of a contact at most: one each of the normal, the tangential and the rolling model and of the
-/// scheme, one of records, and two of a book of losses.
-pub const MOST_HISTORY: usize = 7;
+/// Rows that a law remembers of a contact at most: one each of its four sub-models and of the scheme, one of records, and two of a
+/// book of losses.
+pub const MOST_HISTORY: usize = 8;
 
 /// The history that a sub-model stores of a contact from one evaluation to the next: a row of four numbers, zero at first
 /// touch and removed with the contact.
@@ -268,7 +302,7 @@ impl Switches {
 }
 
 /// A sub-model without keys of its own: `[contact.<law>.<kind>.<model>]` stays empty.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NoKeys {}
 

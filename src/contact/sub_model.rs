@@ -1,11 +1,10 @@
 //! What a sub-model of each kind has to say.
 
 use super::{
-    Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Objection, Onset,
-    Response, Roots, Switches,
+    Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, ModelKeys, Needs, NormalForce,
+    Objection, Onset, Response, Roots, Switches,
 };
 use crate::number::{Number, Row, Vector};
-use serde::Deserialize;
 
 /// What friction takes from the normal model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,12 +17,12 @@ pub struct FrictionNeeds {
 
 /// A normal model: from what the scene says of two materials to what the loop computes.
 pub trait Normal: Copy + Send + Sync + 'static {
+    /// Its name in a scene.
+    const NAME: &'static str;
     /// What the scene writes under the model's name.
-    type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
+    type Keys: ModelKeys;
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: NormalForm;
-    /// What it remembers, if anything.
-    const HISTORY: Option<HistoryRow> = <Self::Form as NormalForm>::HISTORY;
     /// The coefficients for two materials; what friction has no use for is not asked of the scene.
     fn between(pair: &MaterialPair, keys: &Self::Keys, friction: FrictionNeeds) -> Result<Self::Form, Missing>;
     /// What speaks against these keys, if anything.
@@ -108,7 +107,7 @@ pub(crate) fn pressing_force<N: Number>(
     overlap: N,
     normal_velocity: N,
 ) -> NormalForce<N> {
-    response.tangential_damping = response.tangential_damping.scaled(switches.tangential_damping_factor);
+    response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
     let elastic = response.normal_stiffness * overlap;
     let force = (elastic - response.normal_damping * normal_velocity).max(switches.least_force);
     NormalForce { response, force, seen: force }
@@ -116,8 +115,10 @@ pub(crate) fn pressing_force<N: Number>(
 
 /// Friction: force in the tangent plane.
 pub trait Tangential: Coefficients {
+    /// Its name in a scene.
+    const NAME: &'static str;
     /// What the scene writes under the model's name.
-    type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
+    type Keys: ModelKeys;
     /// Whether there is a force at all; without one nothing tangential is evaluated.
     const ACTIVE: bool;
     /// What it remembers, if anything.
@@ -164,8 +165,10 @@ pub struct RollingStiffness {
 
 /// Resistance against rolling.
 pub trait Rolling: Coefficients {
+    /// Its name in a scene.
+    const NAME: &'static str;
     /// What the scene writes under the model's name.
-    type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
+    type Keys: ModelKeys;
     /// Whether there is a torque at all.
     const ACTIVE: bool;
     /// The coefficients for two materials.
@@ -203,28 +206,49 @@ pub trait Rolling: Coefficients {
 
 /// A cohesion model: from what the scene says of two materials to what the loop computes.
 pub trait Cohesion: Copy + Send + Sync + 'static {
+    /// Its name in a scene.
+    const NAME: &'static str;
     /// What the scene writes under the model's name.
-    type Keys: Copy + std::fmt::Debug + Send + Sync + 'static + for<'de> Deserialize<'de>;
+    type Keys: ModelKeys;
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: CohesionForm;
-    /// What it remembers: nothing.
-    const HISTORY: Option<HistoryRow> = None;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self::Form, Missing>;
     /// Whether these keys let friction see the attraction (`tangential_reduce`).
-    fn reduces_friction(keys: &Self::Keys) -> bool;
+    fn reduces_friction(_keys: &Self::Keys) -> bool {
+        false
+    }
 }
 
-/// Attraction of touching bodies.
+/// Attraction of bodies that touch or, beyond touch, have touched.
 pub trait CohesionForm: Coefficients {
     /// Whether there is a force at all.
-    const ACTIVE: bool;
+    const ACTIVE: bool = true;
+    /// What it remembers, if anything.
+    const HISTORY: Option<HistoryRow> = None;
+    /// Whether it also pulls beyond touch, once the bodies have touched: up to [`CohesionForm::reach`]. It then acts alone, and the
+    /// overlap is below 0; what other sub-models remember ends at touch.
+    const BEYOND_TOUCH: bool = false;
+    /// How far beyond touch it holds bodies of this effective radius \[m\] together, where it does \[m\]. The pair
+    /// constant is that.
+    fn reach(&self, _radius: f64) -> f64 {
+        0.0
+    }
     /// What of a contact it looks at.
     const NEEDS: Needs = Needs { section: true, ..Needs::NONE };
     /// Force along the normal, negative for a pull \[N\].
     fn force<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>) -> N;
+    /// The same of a model that remembers, and what is to be remembered. `step` is the time since the history was last advanced
+    /// \[s\] (0 in the evaluation before the first step).
+    #[inline(always)]
+    fn pull<N: Number>(law: Self::Lanes<N>, contact: &Contact<N>, history: [N; 4], _step: N) -> (N, [N; 4]) {
+        (Self::force(law, contact), history)
+    }
     /// The part of that force which the friction limit sees \[N\].
-    fn seen_by_friction<N: Number>(law: Self::Lanes<N>, force: N) -> N;
+    #[inline(always)]
+    fn seen_by_friction<N: Number>(_law: Self::Lanes<N>, _force: N) -> N {
+        N::zero()
+    }
     /// Adds an attraction to the force of the normal model.
     #[inline(always)]
     fn add<N: Number>(law: Self::Lanes<N>, pull: N, normal: &mut NormalForce<N>) {

@@ -8,16 +8,16 @@ const ABSENT: [(&[&str], &str, &str); 5] = [
     (
         &["periodic", "periodicity", "periodic_cell", "cell"],
         "periodic cells",
-        "a [domain] box that particles may not leave is",
+        "a [domain] box that particles may not leave",
     ),
-    (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii are"),
+    (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii"),
     (
         &["shape", "clump", "clumps", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],
         "non-spherical bodies",
-        "spheres are",
+        "spheres",
     ),
-    (&["nodes"], "deforming meshes", "rigid ones are"),
-    (&["region", "regions"], "averaging regions", "outputs of boundaries are"),
+    (&["nodes"], "deforming meshes", "rigid ones"),
+    (&["region", "regions"], "averaging regions", "outputs of boundaries"),
 ];
 
 /// The refusal of something that this program does not have.
@@ -53,20 +53,20 @@ pub(crate) fn mistake(error: &Error, key: &str) -> Mistake {
     }
     if message.ends_with("number overflowed") {
         let found = "a number that 64 bits do not hold".to_owned();
-        let right = "a whole number up to 9223372036854775807, or one with a decimal point up to 1.79e308,".to_owned();
+        let right = "a whole number up to 9223372036854775807, or one with a decimal point up to 1.79e308".to_owned();
         return Mistake::Wrong { found, right };
     }
     if let Some(number) = message.strip_prefix("wanted exactly 1 element, ") {
-        let found = if number.starts_with("more") { "several tables" } else { "no table" }.to_owned();
-        return Mistake::Wrong { found, right: "one, named as the model,".to_owned() };
+        let found = if number.starts_with("more") { "several" } else { "none" }.to_owned();
+        return Mistake::Wrong { found, right: "one table, named as the model".to_owned() };
+    }
+    if message.starts_with("expected ") {
+        return Mistake::Refused { message: message.to_owned() };
     }
     if let Some((found, right)) = message.split_once(", expected ") {
         return Mistake::Wrong { found: found_in(found), right: expected_in(right) };
     }
-    match message.strip_suffix(" is right").and_then(|message| message.split_once(" found; ")) {
-        Some((found, right)) => Mistake::Wrong { found: found.to_owned(), right: right.to_owned() },
-        None => Mistake::Refused { message: message.to_owned() },
-    }
+    Mistake::Refused { message: message.to_owned() }
 }
 
 /// What was found, from serde's "invalid type: integer `1`".

@@ -1,8 +1,8 @@
 //! Kinds of mistakes and their words.
 
-use super::phrases::{alternatives, and_more, listed, nearest_centres, proposal, short};
+use super::phrases::{alternatives, and_more, and_nearest, bonding_distance, listed, proposal, short};
 
-/// What is wrong: what was found, and what would be right.
+/// What is wrong: what was expected, and what was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Mistake {
     /// The text is not TOML.
@@ -46,7 +46,7 @@ pub enum Mistake {
         known: Vec<String>,
     },
     /// A name that the scene does not define.
-    #[error("{found:?} is not a {kind} of this scene; {}", proposal(.found, .known, "it has"))]
+    #[error("expected a {kind} of this scene, found {found:?}; {}", proposal(.found, .known, "it has"))]
     UnknownName {
         /// The name.
         found: String,
@@ -56,7 +56,7 @@ pub enum Mistake {
         known: Vec<String>,
     },
     /// A choice that is not offered.
-    #[error("{found:?} found; {} is right", alternatives(.known))]
+    #[error("expected {}, found {found:?}{}", alternatives(.known), and_nearest(.found, .known))]
     Choice {
         /// What was chosen.
         found: String,
@@ -64,7 +64,7 @@ pub enum Mistake {
         known: Vec<String>,
     },
     /// Something the program does not have.
-    #[error("{what} are not there; {instead}")]
+    #[error("expected {instead}, found {what}, which this program does not have")]
     NotThere {
         /// What, in the plural.
         what: &'static str,
@@ -72,7 +72,7 @@ pub enum Mistake {
         instead: &'static str,
     },
     /// A name with characters that names may not have.
-    #[error("{found:?} is not a name; a letter or _ followed by letters, digits or _ is right")]
+    #[error("expected a name (a letter or _ followed by letters, digits or _), found {found:?}")]
     Name {
         /// The name.
         found: String,
@@ -84,7 +84,7 @@ pub enum Mistake {
         right: String,
     },
     /// A value that is not permitted.
-    #[error("{found} found; {right} is right")]
+    #[error("expected {right}, found {found}")]
     Wrong {
         /// The value.
         found: String,
@@ -106,7 +106,7 @@ pub enum Mistake {
         message: String,
     },
     /// The two tables of a pair of materials differ.
-    #[error("{found} found, but {other} in [{table}]; a pair of materials has one value")]
+    #[error("expected one value of a pair of materials, found {found} here and {other} in [{table}]")]
     Asymmetric {
         /// The value here.
         found: String,
@@ -116,7 +116,7 @@ pub enum Mistake {
         table: String,
     },
     /// Two laws for one pair of materials.
-    #[error("{a} and {b} have a law already, [contact.{other}]; each two materials have one at most")]
+    #[error("expected at most one law for {a} and {b}, found [contact.{other}], too")]
     TwoLaws {
         /// A material.
         a: String,
@@ -126,7 +126,7 @@ pub enum Mistake {
         other: String,
     },
     /// No law for two materials that can touch.
-    #[error("no law for {a} and {b}, which can touch; a [contact] table whose between names them is right")]
+    #[error("expected a [contact] table whose between names {a} and {b}, which can touch, found none")]
     NoLaw {
         /// A material.
         a: String,
@@ -134,7 +134,7 @@ pub enum Mistake {
         b: String,
     },
     /// Columns that a data file does not have.
-    #[error("column {column} is missing; found {}", listed(.found))]
+    #[error("expected a column {column}, found {}", listed(.found))]
     Column {
         /// The column.
         column: String,
@@ -142,16 +142,18 @@ pub enum Mistake {
         found: Vec<String>,
     },
     /// A file whose units are not known.
-    #[error("its units are not stated; units = \"si\", \"cgs\", \"micro\" or \"nano\" in the scene is right")]
+    #[error("expected units = \"si\", \"cgs\", \"micro\" or \"nano\" in the scene, found none, and none in the file")]
     NoUnits,
     /// A file in units that have no size, or that the program does not convert.
-    #[error("{found} units found; si, cgs, micro or nano units are right")]
+    #[error("expected si, cgs, micro or nano units, found {found} units")]
     Units {
         /// What the file says.
         found: String,
     },
     /// A number used twice.
-    #[error("{id} is the number of another particle, of [particles.{other}]; each particle has its own")]
+    #[error(
+        "expected a number of its own for each particle, found {id}, the number of another one of [particles.{other}]"
+    )]
     DuplicateId {
         /// The number.
         id: u32,
@@ -159,7 +161,7 @@ pub enum Mistake {
         other: String,
     },
     /// A bond law without bonds.
-    #[error("{} bonds no pair; {}", short(*.distance), nearest_centres(*.closest))]
+    #[error("expected {}, found {}", bonding_distance(*.closest), short(*.distance))]
     BondsNobody {
         /// Centres nearer than this are bonded \[m\].
         distance: f64,
@@ -173,7 +175,7 @@ pub enum Mistake {
         right: String,
     },
     /// A particle that already belongs elsewhere.
-    #[error("particle {id} is in {other} already; a particle is in one at most")]
+    #[error("expected particles that no other one has, found particle {id} of {other}")]
     Taken {
         /// The particle.
         id: u32,
@@ -182,8 +184,8 @@ pub enum Mistake {
     },
     /// Two particles inside one another.
     #[error(
-        "particles {a} and {b} overlap by {overlap:.3} of the smaller radius{}; \
-         at most {permitted} is right ([run] max_overlap)", and_more(*.more, "pair")
+        "expected overlaps of at most {permitted} of the smaller radius ([run] max_overlap), found {overlap:.3} \
+         between particles {a} and {b}{}", and_more(*.more, "pair")
     )]
     Overlap {
         /// A particle.
@@ -199,8 +201,8 @@ pub enum Mistake {
     },
     /// A particle inside a plane.
     #[error(
-        "particle {id} overlaps [boundary.{boundary}] by {overlap:.3} of its radius{}; \
-         at most {permitted} is right ([run] max_overlap)", and_more(*.more, "particle")
+        "expected overlaps of at most {permitted} of the radius ([run] max_overlap), found {overlap:.3} between \
+         particle {id} and [boundary.{boundary}]{}", and_more(*.more, "particle")
     )]
     WallOverlap {
         /// The particle.
@@ -231,7 +233,7 @@ pub enum Mistake {
     },
     /// A particle outside the domain.
     #[error(
-        "particle {id} at {position:?} m is outside{}; a box that holds every centre is right",
+        "expected a box that holds every centre, found particle {id} outside at {position:?} m{}",
         and_more(*.more, "particle")
     )]
     Outside {
@@ -244,8 +246,8 @@ pub enum Mistake {
     },
     /// A packing that does not fit its region.
     #[error(
-        "{reached} of {count} particles found room ({fraction:.3} of the region is filled); \
-         fewer or smaller ones, a larger region, or solid_fraction instead of count are right"
+        "expected room for {count} particles, found room for {reached} ({fraction:.3} of the region is filled); \
+         take fewer or smaller ones, a larger region, or solid_fraction instead of count"
     )]
     Full {
         /// How many found room.

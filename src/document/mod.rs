@@ -15,6 +15,7 @@ mod value;
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
 pub use mistake::Mistake;
+pub(crate) use phrases::proposal;
 pub(crate) use setting::apply;
 pub use setting::{Setting, SettingError};
 

@@ -7,7 +7,7 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     candidates
         .into_iter()
         .map(|candidate| (likeness(&lower, candidate, permitted), candidate))
-        .filter(|(distance, _)| *distance <= permitted)
+        .filter(|(distance, _)| *distance <= permitted && *distance < lower.chars().count())
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }
@@ -57,5 +57,6 @@ mod tests {
     #[test]
     fn proposes_nothing_for_a_word_like_no_other() {
         assert_eq!(nearest("colour", ["position", "radius", "density"]), None);
+        assert_eq!(nearest("lj", ["si", "cgs"]), None);
     }
 }

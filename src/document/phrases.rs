@@ -15,11 +15,11 @@ pub(super) fn short(length: f64) -> String {
     }
 }
 
-/// How near the centres are that could be bonded.
-pub(super) fn nearest_centres(closest: Option<f64>) -> String {
+/// The distances that bond a pair.
+pub(super) fn bonding_distance(closest: Option<f64>) -> String {
     match closest {
-        Some(distance) => format!("the closest centres are {} apart", short(distance)),
-        None => "no two centres are near".to_owned(),
+        Some(distance) => format!("a distance above {} (the closest centres)", short(distance)),
+        None => "centres near enough to be bonded".to_owned(),
     }
 }
 
@@ -33,12 +33,18 @@ pub(super) fn and_more(more: usize, what: &str) -> String {
 }
 
 /// Names the nearest known word, or all of them.
-pub(super) fn proposal(found: &str, known: &[String], all: &str) -> String {
+pub(crate) fn proposal(found: &str, known: &[String], all: &str) -> String {
     match nearest(found, known.iter().map(String::as_str)) {
         Some(near) => format!("the nearest is {near}"),
         None if known.is_empty() => "none is known here".to_owned(),
         None => format!("{all} {}", listed(known)),
     }
+}
+
+/// `; the nearest is "near"`, or nothing where no known word is near, or only one is known.
+pub(super) fn and_nearest(found: &str, known: &[String]) -> String {
+    let near = nearest(found, known.iter().map(String::as_str)).filter(|_| known.len() > 1);
+    near.map_or_else(String::new, |near| format!("; the nearest is {near:?}"))
 }
 
 /// `a, b, c`

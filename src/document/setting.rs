@@ -22,13 +22,13 @@ pub struct Setting {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SettingError {
     /// There is no `=`.
-    #[error("{0:?} has no =; KEY=VALUE is right")]
+    #[error("expected KEY=VALUE, found {0:?}")]
     NoValue(String),
     /// The text before `=` is not a key.
-    #[error("{0:?} is not a key; names with dots between them are right, as pair.glass.glass.friction")]
+    #[error("expected names with dots between them, as pair.glass.glass.friction, found {0:?}")]
     Key(String),
     /// The text after `=` is not a value.
-    #[error("{0:?} is not a value; a number, a word, true, false or a list in brackets is right")]
+    #[error("expected a number, a word, true, false or a list in brackets, found {0:?}")]
     Value(String),
 }
 
@@ -212,10 +212,10 @@ mod tests {
     #[test]
     fn what_is_no_setting_is_refused() {
         let told = |text: &str| text.parse::<Setting>().unwrap_err().to_string();
-        assert!(told("run.end").contains("KEY=VALUE is right"));
-        assert!(told("run..end=1").contains("is not a key"));
-        assert!(told("run.end=[1").contains("is not a value"));
-        assert!(told("run.end=1\n[x]").contains("is not a value"));
+        assert!(told("run.end").contains("expected KEY=VALUE"));
+        assert!(told("run..end=1").contains("expected names with dots between them"));
+        assert!(told("run.end=[1").contains("expected a number"));
+        assert!(told("run.end=1\n[x]").contains("expected a number"));
     }
 
     #[test]

@@ -73,9 +73,9 @@ impl InsertionKeys {
                 return Err(("", Mistake::Missing { right }));
             }
             _ => {
-                let what = "more than one amount".to_owned();
-                let right = "one of mass_rate, count_rate, mass is right".to_owned();
-                return Err(("", Mistake::Senseless { what, right }));
+                let found = "several".to_owned();
+                let right = "one of mass_rate, count_rate and mass".to_owned();
+                return Err(("", Mistake::Wrong { found, right }));
             }
         };
         let velocity = self.velocity.map_or([0.0; 3], |velocity| velocity.0);
@@ -136,7 +136,7 @@ impl PlaneKeys {
     /// Point \[m\] and unit normal; otherwise the key that is wrong.
     pub(crate) fn plane(&self) -> Result<[[f64; 3]; 2], Wrong> {
         let normal = direction(self.normal.0).ok_or_else(|| {
-            let (found, right) = ("a normal of length 0".to_owned(), "one that points towards what stays".to_owned());
+            let (found, right) = ("one of length 0".to_owned(), "a normal that points towards what stays".to_owned());
             ("beyond.normal", Mistake::Wrong { found, right })
         });
         Ok([self.point.0, normal?])
@@ -155,7 +155,7 @@ impl MeterKeys {
     /// The polygon; otherwise the key that is wrong.
     pub(crate) fn polygon(&self) -> Result<Polygon, Wrong> {
         let corners = self.polygon.iter().map(|corner| corner.0).collect();
-        let right = "at least three corners, in one plane and not on one line,".to_owned();
+        let right = "at least three corners, in one plane and not on one line".to_owned();
         Polygon::new(corners).map_err(|found| ("polygon", Mistake::Wrong { found, right }))
     }
 }

@@ -54,7 +54,7 @@ impl<'de> Deserialize<'de> for Radii {
                 f.write_str(RIGHT)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("{value:?} found; {RIGHT} is right"));
+                let refused = || E::custom(format!("expected {RIGHT}, found {value:?}"));
                 Positive::new(value).map(|radius| Radii(vec![radius.get()])).ok_or_else(refused)
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
@@ -63,7 +63,7 @@ impl<'de> Deserialize<'de> for Radii {
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
                 let radii: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|radius| radius.get()).collect();
                 if radii.is_empty() || radii.iter().any(|radius| *radius <= 0.0) {
-                    return Err(A::Error::custom(format!("{radii:?} found; {RIGHT} is right")));
+                    return Err(A::Error::custom(format!("expected {RIGHT}, found {radii:?}")));
                 }
                 Ok(Radii(radii))
             }
@@ -83,7 +83,7 @@ impl<'de> Deserialize<'de> for Shares {
         if shares.iter().all(|share| *share >= 0.0) && sum.is_normal() {
             return Ok(Self(shares));
         }
-        Err(D::Error::custom(format!("{shares:?} found; shares of 0 or above, not all of them 0, are right")))
+        Err(D::Error::custom(format!("expected shares of 0 or above, not all of them 0, found {shares:?}")))
     }
 }
 
@@ -96,7 +96,7 @@ impl<'de> Deserialize<'de> for Bounds {
         let bounds: Vec<f64> = deserializer.deserialize_seq(Numbers)?.iter().map(|radius| radius.get()).collect();
         match bounds[..] {
             [least, most] if least > 0.0 && least <= most => Ok(Self([least, most])),
-            _ => Err(D::Error::custom(format!("{bounds:?} found; [least, largest] above 0 is right"))),
+            _ => Err(D::Error::custom(format!("expected [least, largest] above 0, found {bounds:?}"))),
         }
     }
 }
@@ -110,14 +110,14 @@ impl SizesKeys {
             1 => {}
             0 => return Err(("sizes", Mistake::Missing { right: format!("one of {one}") })),
             _ => {
-                let what = "more than one distribution".to_owned();
-                return Err(("sizes", Mistake::Senseless { what, right: format!("one of {one} is right") }));
+                let found = "several".to_owned();
+                return Err(("sizes", Mistake::Wrong { found, right: format!("one of {one}") }));
             }
         }
         if self.radius.is_none() && (self.by_number.is_some() || self.by_mass.is_some()) {
-            let what = "shares without classes".to_owned();
-            let right = "radius = [..] beside by_number or by_mass is right".to_owned();
-            return Err(("sizes", Mistake::Senseless { what, right }));
+            let found = "shares without classes".to_owned();
+            let right = "radius = [..] beside by_number or by_mass".to_owned();
+            return Err(("sizes", Mistake::Wrong { found, right }));
         }
         match (&self.radius, self.uniform, self.normal) {
             (Some(Radii(radii)), ..) => self.classes(radii),
@@ -162,8 +162,14 @@ impl NormalKeys {
         let below = |radius: f64| 0.5 * libm::erfc((mean - radius) / (deviation * std::f64::consts::SQRT_2));
         let share = below(between[1]) - below(between[0]);
         if share < LEAST_SHARE {
-            let found = format!("{:.1} % of a normal distribution between {between:?}", 100.0 * share);
-            return Err(("sizes.normal", Mistake::Wrong { found, right: "5 % at least".to_owned() }));
+            let found = format!("{:.1} % between {between:?}", 100.0 * share);
+            return Err((
+                "sizes.normal",
+                Mistake::Wrong {
+                    found,
+                    right: "at least 5 % of the normal distribution between the bounds".to_owned(),
+                },
+            ));
         }
         Ok(Sizes::Normal { mean, deviation, between })
     }

@@ -45,8 +45,6 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let about = about(model.scene);
-    let derivatives = model.interface.check_derivatives(model.scene).is_ok();
-    let rates = model.interface.check_rates(model.scene).is_ok();
     xml.create_element("fmiModelDescription")
         .with_attributes([
             ("fmiVersion", "2.0"),
@@ -60,8 +58,11 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
             xml.create_element("CoSimulation")
                 .with_attribute(("modelIdentifier", model.identifier))
                 .with_attributes(CAPABILITIES)
-                .with_attribute(("maxOutputDerivativeOrder", if rates { "1" } else { "0" }))
-                .with_attribute(("providesDirectionalDerivative", if derivatives { "true" } else { "false" }))
+                .with_attribute(("maxOutputDerivativeOrder", if model.interface.has_rates() { "1" } else { "0" }))
+                .with_attribute((
+                    "providesDirectionalDerivative",
+                    if model.interface.has_derivatives() { "true" } else { "false" },
+                ))
                 .write_empty()?;
             units(xml, model.interface)?;
             xml.create_element("LogCategories").write_inner_content(|xml| {
@@ -169,22 +170,21 @@ fn places<'a>(variables: impl Iterator<Item = (usize, &'a Variable)>) -> String 
     variables.map(|(index, _)| (index + 1).to_string()).collect::<Vec<_>>().join(" ")
 }
 
-/// `ModelStructure`. An output depends on the inputs that it has derivatives by: those that were set for the communication step
-/// whose end it is of. Setting an input changes none before the next step; at the start it moves the boundary. What the unit is
+/// `ModelStructure`. A continuous output depends on the inputs that were set for the communication step whose end it is of: it has
+/// derivatives by them. Setting an input changes none before the next step; at the start it moves the boundary. What the unit is
 /// made of, the parameters, decides all that is calculated at the start.
 fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
     let interface = model.interface;
-    let followed: Vec<usize> = interface.followed(model.scene);
-    let followed = followed.iter().map(|index| (index + 1).to_string()).collect::<Vec<_>>().join(" ");
-    let dependencies = |index: usize| if interface.has_slopes(index) { followed.as_str() } else { "" };
     // Texts say what the unit does beside the simulation.
     let deciding = || interface.of_causality(Causality::Parameter).filter(|(_, it)| it.start_text().is_none());
     let parameters = places(deciding());
-    let given = places(interface.inputs().chain(deciding()));
-    let outputs: Vec<Unknown> =
-        interface.outputs().map(|(index, _)| ((index + 1).to_string(), Some(dependencies(index)))).collect();
     // Without a list an unknown depends on all: the nodes of a mesh would make it as long as the square of their number.
-    let given = (!interface.inputs().any(|(_, variable)| variable.node().is_some())).then_some(given.as_str());
+    let has_nodes = interface.inputs().any(|(_, variable)| variable.node().is_some());
+    let (inputs, given) = (places(interface.inputs()), places(interface.inputs().chain(deciding())));
+    let [inputs, given] = [&inputs, &given].map(|list| (!has_nodes).then_some(list.as_str()));
+    let dependencies = |index: usize| if interface.is_continuous_output(index) { inputs } else { Some("") };
+    let outputs: Vec<Unknown> =
+        interface.outputs().map(|(index, _)| ((index + 1).to_string(), dependencies(index))).collect();
     let initial: Vec<Unknown> = interface
         .outputs()
         .filter(|(_, variable)| variable.start.is_none())

@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 /// Names the library's file where no path is given.
 pub const ENVIRONMENT_VARIABLE: &str = "COGRAIN_FMU_LIBRARY";
 
+/// Name of the library with the sub-models of the program.
+pub const STANDARD_LIBRARY: &str = "cograin_fmu";
+
 /// Text that stands in the library of this version and in no other.
 pub const LIBRARY_MARK: &str = concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ";");
 
@@ -16,8 +19,7 @@ pub const LIBRARY_MARK: &str = concat!("cograin FMI 2.0 library, version ", env!
 pub enum LibraryError {
     /// It was found nowhere.
     #[error(
-        "the unit's library was not found; looked at {}; build it with `cargo build --release -p cograin-fmu`, \
-             or name it (--library, or the environment variable {ENVIRONMENT_VARIABLE})",
+        "the unit's library was not found; looked at {}; build it with `cargo build --release`, or name it (--library, or the environment variable {ENVIRONMENT_VARIABLE})",
         list(looked_at)
     )]
     NotFound {
@@ -25,7 +27,7 @@ pub enum LibraryError {
         looked_at: Vec<PathBuf>,
     },
     /// It cannot be read.
-    #[error("{}: {cause}; the unit's library is right", path.display())]
+    #[error("{}: {cause}; name the unit's library", path.display())]
     Read {
         /// Its path.
         path: PathBuf,
@@ -39,7 +41,7 @@ pub enum LibraryError {
         path: PathBuf,
     },
     /// FMI 2.0 has no name for this system.
-    #[error("FMI 2.0 knows no units for {system} on {processor}; linux, windows and macos on x86_64 are right")]
+    #[error("expected linux, windows or macos on x86_64, which FMI 2.0 knows, found {system} on {processor}")]
     Platform {
         /// The operating system.
         system: &'static str,
@@ -77,19 +79,19 @@ impl Platform {
 }
 
 /// Finds the library: at the path given, else where [`ENVIRONMENT_VARIABLE`] says, else beside the running
-/// program, in the folder above it, or in `../lib/cograin`.
-pub fn find_library(given: Option<&Path>) -> Result<PathBuf, LibraryError> {
+/// program, in the folder above it, or in `../lib/cograin`; there it has the name that the crate has which makes it.
+pub fn find_library(name: &str, given: Option<&Path>) -> Result<PathBuf, LibraryError> {
     let named = given.map(Path::to_owned).or_else(|| env::var_os(ENVIRONMENT_VARIABLE).map(PathBuf::from));
-    let looked_at = named.map_or_else(|| beside(env::current_exe().ok()), |path| vec![path]);
+    let looked_at = named.map_or_else(|| beside(name, env::current_exe().ok()), |path| vec![path]);
     match looked_at.iter().find(|path| path.is_file()) {
         Some(path) => Ok(path.clone()),
         None => Err(LibraryError::NotFound { looked_at }),
     }
 }
 
-/// Where the library may stand when the program stands at `program`.
-fn beside(program: Option<PathBuf>) -> Vec<PathBuf> {
-    let name = format!("{}cograin_fmu{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+/// Where the library of this name may stand when the program stands at `program`.
+fn beside(name: &str, program: Option<PathBuf>) -> Vec<PathBuf> {
+    let name = format!("{}{name}{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     // programs of tests stand one folder below the library
     let folders = program.into_iter().flat_map(|program| {
         let folder = program.parent().map(Path::to_owned);
@@ -118,16 +120,16 @@ mod tests {
     #[test]
     fn a_library_that_is_nowhere_is_reported_with_every_place() {
         let missing = Path::new("no/such/library.so");
-        let message = find_library(Some(missing)).unwrap_err().to_string();
+        let message = find_library(STANDARD_LIBRARY, Some(missing)).unwrap_err().to_string();
         assert!(message.contains("no/such/library.so"), "{message}");
-        assert!(message.contains("cargo build --release -p cograin-fmu"), "{message}");
+        assert!(message.contains("cargo build --release"), "{message}");
     }
 
     #[test]
     fn the_library_is_looked_for_beside_above_and_in_lib() {
         let name = format!("{}cograin_fmu{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
         let expected = ["/usr/bin", "/usr", "/usr/lib/cograin"].map(|folder| Path::new(folder).join(&name));
-        assert_eq!(beside(Some("/usr/bin/cograin".into())), expected);
+        assert_eq!(beside(STANDARD_LIBRARY, Some("/usr/bin/cograin".into())), expected);
     }
 
     #[test]

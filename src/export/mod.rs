@@ -8,7 +8,7 @@ mod page;
 mod resources;
 
 pub use description::LOG_CATEGORIES;
-pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, find_library};
+pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_library};
 pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
 use crate::interface::Interface;
@@ -24,7 +24,7 @@ pub enum PackageError {
     #[error(transparent)]
     Library(#[from] LibraryError),
     /// The file was not written.
-    #[error("{}: {cause}; a path that can be written is right", path.display())]
+    #[error("{}: {cause}; take a path that can be written", path.display())]
     Write {
         /// The unit's file.
         path: PathBuf,

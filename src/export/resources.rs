@@ -86,7 +86,7 @@ pub struct Contents {
 #[derive(Debug, thiserror::Error)]
 pub enum ResourceError {
     /// A file is missing or cannot be read.
-    #[error("{}: {cause}; the resources folder of the unpacked unit is right", path.display())]
+    #[error("{}: {cause}; take the resources folder of the unpacked unit", path.display())]
     Read {
         /// Its path.
         path: PathBuf,
@@ -94,7 +94,7 @@ pub enum ResourceError {
         cause: io::Error,
     },
     /// The list of files is not readable.
-    #[error("{}: {cause}; a list of names is right", path.display())]
+    #[error("{}: expected a list of names, found {cause}", path.display())]
     Index {
         /// Its path.
         path: PathBuf,
@@ -102,7 +102,7 @@ pub enum ResourceError {
         cause: serde_json::Error,
     },
     /// The scene is not a text.
-    #[error("{}: not UTF-8; text is right", path.display())]
+    #[error("{}: expected text in UTF-8, found other bytes", path.display())]
     Text {
         /// Its path.
         path: PathBuf,

@@ -15,7 +15,7 @@ use crate::exchange::{Amount, Outside};
 use crate::integration::Fields;
 use crate::number::Vector;
 use crate::run_error::RunError;
-use crate::scene::{Scene, Way};
+use crate::scene::{OutletPlace, Scene};
 use crate::state::State;
 use crate::state::exchange::{Exchange, Feed, Net};
 pub(crate) use check::{check, is_made};
@@ -47,7 +47,7 @@ impl Flow {
     pub(crate) fn of(scene: &Scene, turning: bool) -> Option<Self> {
         let smallest = scene.radii().fold(f64::INFINITY, f64::min);
         let any = scene.changes_number() || !scene.meters.is_empty();
-        let looks_always = scene.outlets.iter().any(|outlet| matches!(outlet.place, Way::Behind(_)));
+        let looks_always = scene.outlets.iter().any(|outlet| matches!(outlet.place, OutletPlace::Behind(_)));
         any.then(|| Self { smallest, turning, removes: scene.removes(), looks_always })
     }
 

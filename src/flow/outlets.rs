@@ -3,7 +3,7 @@
 use super::removes_outside;
 use crate::number::Vector;
 use crate::run_error::RunError;
-use crate::scene::{Scene, Way};
+use crate::scene::{OutletPlace, Scene};
 use crate::state::State;
 use crate::state::exchange::{Exchange, Tally};
 
@@ -55,21 +55,21 @@ pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<Leaving>, RunE
 }
 
 /// How far an outlet has moved with its boundary, or with the one that its region follows \[m\].
-fn shift(scene: &Scene, state: &State, place: Way) -> Vector {
+fn shift(scene: &Scene, state: &State, place: OutletPlace) -> Vector {
     let follows = match place {
-        Way::Region(region) => scene.regions[region].follows,
-        Way::Beyond(_) => None,
-        Way::Behind(boundary) => Some(boundary),
+        OutletPlace::Region(region) => scene.regions[region].follows,
+        OutletPlace::Beyond(_) => None,
+        OutletPlace::Behind(boundary) => Some(boundary),
     };
     follows.map_or(Vector::zero(), |boundary| state.boundaries[boundary.index()].displacement.into())
 }
 
 /// Whether an outlet takes away what has its centre there \[m\].
-fn takes(scene: &Scene, place: Way, centre: Vector) -> bool {
+fn takes(scene: &Scene, place: OutletPlace, centre: Vector) -> bool {
     match place {
-        Way::Region(region) => scene.regions[region].shape.holds(centre),
-        Way::Beyond([point, normal]) => is_behind(centre, point, normal),
-        Way::Behind(boundary) => scene.boundaries[boundary.index()]
+        OutletPlace::Region(region) => scene.regions[region].shape.holds(centre),
+        OutletPlace::Beyond([point, normal]) => is_behind(centre, point, normal),
+        OutletPlace::Behind(boundary) => scene.boundaries[boundary.index()]
             .shifting_plane()
             .is_some_and(|plane| is_behind(centre, plane.point, plane.normal)),
     }

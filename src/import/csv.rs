@@ -1,6 +1,6 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
-use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed};
+use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed, twice};
 use crate::document::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
@@ -64,15 +64,14 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
     let mut labelled = false;
     for (place, header) in headers.iter().enumerate() {
         if headers[..place].contains(header) {
-            let mistake = Mistake::Senseless {
-                what: format!("column {header} stands twice"),
-                right: "one column of each name is right".to_owned(),
-            };
+            let mistake =
+                Mistake::Wrong { found: format!("column {header} twice"), right: "one column of each name".to_owned() };
             return Err(vec![FileFault::at(1, "", mistake)]);
         }
         let wanted = [&NEEDED[..], &POSSIBLE].concat().contains(&header.as_str()) || extra.contains(header);
         uses.push(match header.as_str() {
-            "material" | "type" if !labelled => {
+            "material" | "type" if labelled => return Err(twice(["material", "type"], Some(1))),
+            "material" | "type" => {
                 labelled = true;
                 Use::Label
             }
@@ -90,10 +89,9 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
 fn unreadable(error: &csv::Error) -> FileFault {
     let line = error.position().map(|position| position.line() as usize);
     let mistake = match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => Mistake::Wrong {
-            found: format!("{len} columns"),
-            right: format!("{expected_len}, as in the line of names,"),
-        },
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            Mistake::Wrong { found: len.to_string(), right: format!("{expected_len} columns, as in the line of names") }
+        }
         csv::ErrorKind::Utf8 { .. } => {
             Mistake::Wrong { found: "bytes that are not UTF-8".to_owned(), right: "a line of column names".to_owned() }
         }

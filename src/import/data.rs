@@ -24,10 +24,6 @@ struct Reader {
     rows: Rows,
     /// Numbers by column.
     columns: BTreeMap<&'static str, Vec<f64>>,
-    /// Row of each number.
-    row_of: BTreeMap<u64, usize>,
-    /// Whether there are velocities.
-    moving: bool,
     /// Mistakes.
     faults: Vec<FileFault>,
     /// How many atoms the head announces, and where.
@@ -40,6 +36,8 @@ pub(crate) fn read(text: &str, _request: &Request) -> Result<(Rows, Option<Strin
     let title = text.lines().next().unwrap_or_default();
     let units = title.split_once("units = ").map(|(_, units)| units.trim().to_owned());
     let mut section = ("", "");
+    // Velocities may stand before the atoms.
+    let mut velocities = Vec::new();
     for (number, line) in (1..).zip(text.lines()).skip(1) {
         let (content, comment) = line.split_once('#').unwrap_or((line, ""));
         let content = content.trim();
@@ -56,13 +54,14 @@ pub(crate) fn read(text: &str, _request: &Request) -> Result<(Rows, Option<Strin
         match section.0 {
             "" => reader.head(number, content)?,
             "Atoms" => reader.atom(number, content, section.1)?,
-            "Velocities" => reader.velocity(number, content),
+            "Velocities" => velocities.push((number, content)),
             _ => {}
         }
         if reader.faults.len() >= REPORTED {
             break;
         }
     }
+    reader.velocities(&velocities);
     reader.finish().map(|rows| (rows, units))
 }
 
@@ -81,7 +80,6 @@ impl Reader {
             [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
                 return Err(non_spherical(number));
             }
-            [.., "xy", "xz", "yz"] => return Err(periodic(number)),
             _ => {}
         }
         Ok(())
@@ -125,31 +123,36 @@ impl Reader {
         }
     }
 
-    /// A line of the section Velocities.
-    fn velocity(&mut self, number: usize, content: &str) {
-        let count = self.rows.lines.len();
-        if !self.moving {
-            self.moving = true;
-            let ids = self.columns.get("id").map_or(&[][..], Vec::as_slice);
-            self.row_of = ids.iter().map(|id| *id as u64).zip(0..).collect();
-            for column in &VELOCITIES[1..] {
-                self.columns.insert(column, vec![0.0; count]);
-            }
-        }
-        let words: Vec<&str> = content.split_whitespace().collect();
-        let row = words.first().and_then(|id| id.parse().ok()).and_then(|id: u64| self.row_of.get(&id).copied());
-        let Some(row) = row.filter(|_| words.len() == 4 || words.len() == VELOCITIES.len()) else {
-            let found = format!("{content:?}");
-            let right = "the number of an atom above, and vx vy vz wx wy wz,".to_owned();
-            self.faults.push(FileFault::at(number, "", Mistake::Wrong { found, right }));
+    /// The lines of the section Velocities.
+    fn velocities(&mut self, lines: &[(usize, &str)]) {
+        if lines.is_empty() || !self.faults.is_empty() {
             return;
-        };
-        for (word, column) in words.iter().zip(VELOCITIES).skip(1) {
-            match (word.parse::<f64>(), self.columns.get_mut(column).and_then(|column| column.get_mut(row))) {
-                (Ok(value), Some(place)) if value.is_finite() => *place = value,
-                _ => self.faults.push(FileFault::number(number, column, word)),
+        }
+        let count = self.rows.lines.len();
+        let ids = self.columns.get("id").map_or(&[][..], Vec::as_slice);
+        let row_of: BTreeMap<u64, usize> = ids.iter().map(|id| *id as u64).zip(0..).collect();
+        let mut columns = [const { Vec::new() }; 6];
+        columns.iter_mut().for_each(|column| column.resize(count, 0.0));
+        for (number, content) in lines {
+            let words: Vec<&str> = content.split_whitespace().collect();
+            let row = words.first().and_then(|id| id.parse().ok()).and_then(|id: u64| row_of.get(&id).copied());
+            let Some(row) = row.filter(|_| words.len() == 4 || words.len() == VELOCITIES.len()) else {
+                let found = format!("{content:?}");
+                let right = "the number of an atom of this file, and vx vy vz wx wy wz".to_owned();
+                self.faults.push(FileFault::at(*number, "", Mistake::Wrong { found, right }));
+                continue;
+            };
+            for ((word, name), column) in words[1..].iter().zip(&VELOCITIES[1..]).zip(&mut columns) {
+                match word.parse::<f64>() {
+                    Ok(value) if value.is_finite() => column[row] = value,
+                    _ => self.faults.push(FileFault::number(*number, name, word)),
+                }
+            }
+            if self.faults.len() >= REPORTED {
+                return;
             }
         }
+        self.columns.extend(VELOCITIES[1..].iter().copied().zip(columns));
     }
 
     /// All rows.
@@ -157,8 +160,7 @@ impl Reader {
         let count = self.rows.lines.len();
         match self.announced {
             Some((announced, line)) if announced != count && self.faults.is_empty() => {
-                let (found, right) =
-                    (format!("{announced} atoms announced and {count}"), "as many as announced".to_owned());
+                let (found, right) = (count.to_string(), format!("{announced} atoms, as announced"));
                 self.faults.push(FileFault::at(line, "", Mistake::Wrong { found, right }));
             }
             None if count == 0 => {

@@ -61,6 +61,34 @@ impl Rows {
         self.columns.insert(name.to_owned(), column);
     }
 
+    /// Takes what a column of a file says; if another one has said it before, they must agree.
+    /// `tolerance`: by how much they may differ, beside the rounding of their own digits.
+    fn insert_again(
+        &mut self,
+        name: &str,
+        column: &str,
+        numbers: Vec<f64>,
+        tolerance: f64,
+    ) -> Result<(), Vec<FileFault>> {
+        let quantity = if name == "diameter" { "radius" } else { name };
+        let first = self.columns.remove(quantity);
+        self.insert(name, numbers);
+        let (Some(first), Some(again)) = (first, self.columns.get(quantity)) else { return Ok(()) };
+        agree(&first, again, tolerance + DIGITS * largest(&first), [quantity, column], &self.lines)?;
+        self.columns.insert(quantity.to_owned(), first);
+        Ok(())
+    }
+
+    /// Refuses labels of some particles only.
+    fn expect_labels(&self) -> Result<(), Vec<FileFault>> {
+        if self.label.is_empty() || self.label.len() == self.count {
+            return Ok(());
+        }
+        let found = format!("{} materials for {} particles", self.label.len(), self.count);
+        let mistake = Mistake::Wrong { found, right: "one for each".to_owned() };
+        Err(vec![FileFault { line: None, column: self.label_column.clone(), mistake }])
+    }
+
     /// Adds numbers to a column.
     fn extend(&mut self, name: &str, numbers: impl Iterator<Item = f64>) {
         self.columns.entry(name.to_owned()).or_default().extend(numbers);
@@ -77,6 +105,32 @@ impl Rows {
         });
         self.label.push(index);
     }
+}
+
+/// How far two columns that say the same may be apart: texts with six digits, as a part of the largest number.
+const DIGITS: f64 = 1e-5;
+
+/// The largest size of a number of a column.
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |largest: f64, number| largest.max(number.abs()))
+}
+
+/// Refuses two columns that say the same and differ by more than a tolerance.
+fn agree(first: &[f64], again: &[f64], tolerance: f64, names: [&str; 2], lines: &[u32]) -> Result<(), Vec<FileFault>> {
+    let apart = first.iter().zip(again).position(|(first, again)| (first - again).abs() > tolerance);
+    apart.map_or(Ok(()), |row| {
+        let found = format!("{:?} of {} and {:?} of {}", first[row], names[0], again[row], names[1]);
+        let mistake = Mistake::Wrong { found, right: "the same of both columns".to_owned() };
+        let line = lines.get(row).map(|line| *line as usize);
+        Err(vec![FileFault { line, column: names[1].to_owned(), mistake }])
+    })
+}
+
+/// Refuses two columns of which each may say the same, in other words.
+fn twice(names: [&str; 2], line: Option<usize>) -> Vec<FileFault> {
+    let found = format!("both columns {} and {}", names[0], names[1]);
+    let mistake = Mistake::Wrong { found, right: "one of them".to_owned() };
+    vec![FileFault { line, column: names[1].to_owned(), mistake }]
 }
 
 /// A mistake in a file.
@@ -103,7 +157,17 @@ impl FileFault {
 
     /// A column that is not there.
     fn missing(line: Option<usize>, column: &str, found: &[String]) -> Self {
-        let mistake = Mistake::Column { column: column.to_owned(), found: found.to_vec() };
+        // The first line of a file that is no table is nobody's business.
+        let is_name = |name: &String| {
+            let word = |letter: char| letter.is_alphanumeric() || "_.-[]()/ ^²³".contains(letter);
+            name.len() <= 32 && name.starts_with(char::is_alphabetic) && name.chars().all(word)
+        };
+        let mistake = if found.len() > 1 && found.iter().all(is_name) {
+            Mistake::Column { column: column.to_owned(), found: found.to_vec() }
+        } else {
+            let right = format!("a line of column names with {column}");
+            Mistake::Wrong { found: "a first line without names of columns".to_owned(), right }
+        };
         Self { line, column: String::new(), mistake }
     }
 
@@ -159,7 +223,7 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
 fn has_room(count: usize, each: u64) -> Result<(), Vec<FileFault>> {
     let needed = each.saturating_mul(count as u64);
     memory::lacking(needed).map_or(Ok(()), |right| {
-        let found = format!("{count} particles, which need about {:.2} GB of memory,", needed as f64 / 1e9);
+        let found = format!("{count} particles, which need about {:.2} GB of memory", needed as f64 / 1e9);
         Err(vec![FileFault::whole(Mistake::Wrong { found, right })])
     })
 }
@@ -194,7 +258,7 @@ fn format(request: &Request, bytes: &[u8]) -> Result<Format, Vec<FileFault>> {
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     match name.rsplit('.').next() {
         Some("csv") => Ok(Format::Csv),
-        Some("vtu") => Ok(Format::Vtu),
+        Some("vtu" | "vtp" | "vtk") => Ok(Format::Vtu),
         Some("data" | "lmpdat") => Ok(Format::Data),
         Some("dump" | "lammpstrj" | "liggghts") => Ok(Format::Dump),
         _ if bytes.starts_with(b"ITEM:") => Ok(Format::Dump),
@@ -264,15 +328,113 @@ fn needed(found: &[String], line: Option<usize>) -> Result<(), Vec<FileFault>> {
 
 /// Refuses particles that crossed the face of a periodic cell, or the cell itself.
 fn periodic(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::NotThere {
-        what: "periodic cells",
-        instead: "positions in a box with fixed or shrink-wrapped faces are",
-    };
+    let mistake =
+        Mistake::NotThere { what: "periodic cells", instead: "positions in a box with fixed or shrink-wrapped faces" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 
 /// Refuses bodies that are not spheres.
 fn non_spherical(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres are" };
+    let mistake = Mistake::NotThere { what: "non-spherical bodies", instead: "spheres" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// Reads a text as a file of this name.
+    fn read_as(file: &str, bytes: &[u8]) -> Result<Rows, String> {
+        let request = Request { file, extra: &[], format: None, units: None, timestep: None };
+        let units = (file.ends_with("dump") || file.ends_with("data")).then_some(Units::Si);
+        read(bytes, &Request { units, ..request }).map_err(|faults| format!("{faults:?}"))
+    }
+
+    /// The dump file of these columns and lines.
+    fn dump(faces: &str, columns: &str, lines: &[&str]) -> Result<Rows, String> {
+        let text = format!(
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {faces}\n0 2\n0 2\n0 2\nITEM: ATOMS {columns}\n{}\n",
+            lines.len(),
+            lines.join("\n")
+        );
+        read_as("a.dump", text.as_bytes())
+    }
+
+    #[test]
+    fn files_that_other_programs_wrote_give_the_same_grains() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/foreign/clouds");
+        let mut read = 0;
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if name == "readme" {
+                continue;
+            }
+            read += 1;
+            let rows =
+                read_as(name, &std::fs::read(&path).unwrap()).unwrap_or_else(|faults| panic!("{name}: {faults}"));
+            let expected =
+                [[0.0, 0.0, 0.05, 0.005, 2500.0], [0.03, 0.01, 0.06, 0.01, 7800.0], [0.1, 0.05, 0.09, 0.005, 2500.0]];
+            assert_eq!(rows.count, 3, "{name}");
+            for (axis, column) in ["x", "y", "z", "radius", "density"].into_iter().enumerate() {
+                let Some(found) = rows.columns.get(column) else {
+                    assert!(column == "density", "{name}: no {column}");
+                    continue;
+                };
+                // Texts have six digits.
+                let right = found
+                    .iter()
+                    .zip(expected)
+                    .all(|(found, right)| (found - right[axis]).abs() <= 1e-6 * right[axis].max(1.0));
+                let right = right
+                    || (axis == 4
+                        && found.iter().zip(expected).all(|(found, it)| (found / it[axis] - 1.0).abs() < 1e-5));
+                assert!(right, "{name}: {column} {found:?}");
+            }
+            let labels: Vec<&str> = rows.label.iter().map(|label| rows.labels[*label as usize].as_str()).collect();
+            assert!(labels == ["1", "2", "1"] || labels == ["glass", "steel", "glass"], "{name}: {labels:?}");
+        }
+        assert!(read > 15, "{read}");
+    }
+
+    #[test]
+    fn velocities_that_stand_before_the_atoms_are_read() {
+        let rows = read_as(
+            "a.data",
+            b"t, units = si\n\n1 atoms\n\nVelocities\n\n4 1 2 3 0 0 5\n\nAtoms # sphere\n\n4 1 0.1 2500 0 0 0\n",
+        );
+        let rows = rows.unwrap();
+        assert_eq!((rows.columns["vx"][0], rows.columns["vz"][0], rows.columns["wz"][0]), (1.0, 3.0, 5.0));
+    }
+
+    #[test]
+    fn columns_that_say_the_same_twice_must_agree() {
+        let right = dump(
+            "ff ff ff",
+            "id id type type xs ys zs x y z radius diameter",
+            &["1 1 1 1 0.25 0 0 0.5 0 0 0.1 0.2", "2 2 2 2 0.5 0 0 1 0 0 0.1 0.2"],
+        );
+        let right = right.unwrap();
+        assert_eq!((right.columns["x"][0], right.columns["x"][1], right.label), (0.5, 1.0, vec![0, 1]));
+        let wrong = |columns: &str, line: &str, part: &str| {
+            let found = dump("ff ff ff", columns, &[line]).unwrap_err();
+            assert!(found.contains(part), "{found}");
+        };
+        wrong("id type type x y z radius", "1 1 2 0 0 0 0.1", "1 and 2 in two columns of this name");
+        wrong("id id type x y z radius", "1 2 1 0 0 0 0.1", "1.0 of id and 2.0 of id");
+        wrong("id type x x y z radius", "1 1 0.5 0.6 0 0 0.1", "0.5 of x and 0.6 of x");
+        wrong("id type xs ys zs x y z radius", "1 1 0.25 0 0 0.75 0 0 0.1", "0.75 of x and 0.5 of xs");
+        wrong("id type x y z radius diameter", "1 1 0 0 0 0.1 0.1", "0.1 of radius and 0.05 of diameter");
+        wrong("id type x y z radius density mass", "1 1 0 0 0 0.1 2500 1", "2500.0 of density");
+        wrong("id type x y z radius", "1 1 0 0 0 0.1 7", "7 numbers");
+        let labels = read_as("a.csv", b"x,y,z,radius,type,material\n0,0,0,1,1,glass\n").unwrap_err();
+        assert!(labels.contains("both columns material and type"), "{labels}");
+    }
+
+    #[test]
+    fn a_tilted_box_with_fixed_faces_is_read_and_a_periodic_one_is_named() {
+        let line = ["1 1 0.5 0.5 0.5 0.1"];
+        assert!(dump("xy xz yz ff ff ff", "id type x y z radius", &line).is_ok());
+        assert!(dump("xy xz yz pp ff ff", "id type x y z radius", &line).unwrap_err().contains("periodic cells"));
+    }
 }

@@ -1,32 +1,26 @@
-//! Particles from VTK's XML unstructured grids, read by vtkio: points, and arrays of point data.
+//! Particles from VTK files: points of an unstructured grid or of polygonal data, and arrays of point data.
 
-use super::{FileFault, POSSIBLE, Request, Rows, needed};
+use super::{FileFault, POSSIBLE, Request, Rows, needed, twice};
 use crate::document::Mistake;
-use crate::vtk_reader;
-use cograin_vtk::IOBuffer;
-use cograin_vtk::model::{Attribute, DataArray, DataSet, Piece, Vtk};
+use crate::vtk_reader::{self, Array, Wanted};
 
-/// Reads a `.vtu` file.
+/// Reads a `.vtu`, `.vtp` or `.vtk` file.
 pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {
-    let pieces = match vtk_reader::read(bytes) {
-        Ok(Vtk { data: DataSet::UnstructuredGrid { pieces, .. }, .. }) => pieces,
-        Ok(_) => return Err(refused("VTK data of another kind".to_owned())),
-        Err(found) => return Err(refused(found)),
+    let wanted = |name: &str| {
+        ["velocity", "angular_velocity", "material", "type", "radius"].contains(&name)
+            || POSSIBLE.contains(&name)
+            || request.extra.iter().any(|extra| extra == name)
     };
+    let pieces = vtk_reader::read(bytes, &Wanted::Arrays(&wanted)).map_err(refused)?;
     let mut rows = Rows::default();
     for piece in pieces {
-        let Piece::Inline(piece) = piece else {
-            return Err(refused("a reference to another file".to_owned()));
-        };
-        let points = numbers(&piece.points, "points")?;
-        rows.count += points.len() / 3;
+        rows.count += piece.points.len();
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-            rows.extend(name, points.iter().skip(axis).step_by(3).copied());
+            let values: Vec<f64> = piece.points.iter().map(|point| point[axis]).collect();
+            rows.extend(name, finite(values, "points")?.into_iter());
         }
-        for attribute in &piece.data.point {
-            if let Attribute::DataArray(array) = attribute {
-                array_of_points(array, request, &mut rows)?;
-            }
+        for array in piece.arrays {
+            array_of_points(array, &mut rows)?;
         }
     }
     let found: Vec<String> = rows.columns.keys().cloned().collect();
@@ -38,46 +32,45 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
     if let Some((name, length)) = odd {
         return Err(refused(format!("{length} numbers of {name} for {} points", rows.count)));
     }
-    if !rows.label.is_empty() && rows.label.len() != rows.count {
-        return Err(refused(format!("{} materials for {} points", rows.label.len(), rows.count)));
-    }
+    rows.expect_labels()?;
     Ok(rows)
 }
 
-/// One array of point data, if anything is wanted of it.
-fn array_of_points(array: &DataArray, request: &Request, rows: &mut Rows) -> Result<(), Vec<FileFault>> {
-    let name = array.name.as_str();
-    let parts = match (name, array.elem.num_comp()) {
+/// One array of point data.
+fn array_of_points(array: Array, rows: &mut Rows) -> Result<(), Vec<FileFault>> {
+    let Array { name, components, values } = array;
+    let parts = match (name.as_str(), components) {
         ("velocity", 3) => Some(["vx", "vy", "vz"]),
         ("angular_velocity", 3) => Some(["wx", "wy", "wz"]),
         _ => None,
     };
     if let Some(parts) = parts {
-        let values = numbers(&array.data, name)?;
+        let values = finite(values, &name)?;
         for (axis, part) in parts.into_iter().enumerate() {
             rows.extend(part, values.iter().skip(axis).step_by(3).copied());
         }
         return Ok(());
     }
-    if array.elem.num_comp() != 1 {
+    if components != 1 {
         return Ok(());
     }
+    let values = finite(values, &name)?;
     if name == "material" || name == "type" {
-        rows.label_column = name.to_owned();
-        for value in numbers(&array.data, name)? {
+        if !rows.label_column.is_empty() && rows.label_column != name {
+            return Err(twice(["material", "type"], None));
+        }
+        for value in values {
             rows.push_label(&value.to_string());
         }
-    } else if name == "radius" || POSSIBLE.contains(&name) || request.extra.iter().any(|extra| extra == name) {
-        let values = numbers(&array.data, name)?;
-        rows.extend(name, values.into_iter());
+        rows.label_column = name;
+    } else {
+        rows.extend(&name, values.into_iter());
     }
     Ok(())
 }
 
-/// The numbers of a buffer, all finite.
-fn numbers(buffer: &IOBuffer, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
-    let values: Option<Vec<f64>> = buffer.cast_into();
-    let Some(values) = values else { return Err(refused(format!("no numbers in {name}"))) };
+/// The numbers, all finite.
+fn finite(values: Vec<f64>, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(values),
         Some(place) => {
@@ -92,6 +85,6 @@ fn numbers(buffer: &IOBuffer, name: &str) -> Result<Vec<f64>, Vec<FileFault>> {
 
 /// What was found instead of a readable grid.
 fn refused(found: String) -> Vec<FileFault> {
-    let right = "an unstructured grid (.vtu) with ascii or base64 data, plain or packed by zlib or lz4,".to_owned();
+    let right = "points of a VTK file (.vtu, .vtp, .vtk), plain or packed by zlib or lz4".to_owned();
     vec![FileFault::whole(Mistake::Wrong { found, right })]
 }

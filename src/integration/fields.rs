@@ -7,7 +7,6 @@ use crate::geometry::Quaternion;
 use crate::lanes::Shared;
 use crate::number::Vector;
 use crate::scene::Scene;
-use crate::state::plane_rows::ParticleMotion;
 use crate::state::{BoundaryState, Loss, Particles, Row, State};
 use crate::threads::{CHUNK, Context};
 
@@ -121,7 +120,7 @@ impl Fields {
         let (rows, books) = (Rows::of(&mut state.particles), state.losses.is_some());
         let of_piece = |piece| {
             let mut sum = [0.0; 6];
-            rows.each_free(piece, |mut body| {
+            rows.each_free(piece, |body| {
                 let id = ids[body.slot];
                 if !self.damps {
                     add(body.force, self.loads(body.velocity[3], id));
@@ -129,7 +128,7 @@ impl Fields {
                 }
                 let damped = self.damped(id);
                 let (before, after) = self.split(body.velocity[3], id, damped);
-                let ParticleMotion { velocity, spin, mut force, mut torque } = rows.motion(&body);
+                let (velocity, spin, mut force, mut torque) = (*body.velocity, *body.spin, *body.force, *body.torque);
                 add(&mut force, before);
                 let (mut losses, mut turns) = ([0.0; 3], [0.0; 3]);
                 for axis in 0..3 {
@@ -140,7 +139,7 @@ impl Fields {
                     torque[axis] -= turns[axis];
                 }
                 add(&mut force, after);
-                rows.put_loads(&mut body, force, torque);
+                (*body.force, *body.torque) = (force, torque);
                 if books {
                     let moved = taken(losses, &velocity, &force, context.step);
                     let turned = taken(turns, &spin, &torque, context.step);

@@ -3,14 +3,11 @@
 mod braking;
 mod damped;
 mod fields;
-pub(crate) mod plane;
-mod slopes;
 
 pub(crate) use fields::Fields;
 
 use crate::geometry::Quaternion;
 use crate::lanes::{self, Kernel, Lane, Shared};
-use crate::state::plane_rows::{self, ParticleMotion};
 use crate::state::{Particles, Row};
 use crate::threads::{CHUNK, Context};
 
@@ -74,13 +71,11 @@ impl Kernel for First<'_, '_> {
 pub(crate) fn turn(particles: &mut Particles, step: f64, context: &Context) {
     let orientation = Shared::new(&mut particles.orientation);
     let (count, spin) = (orientation.length(), &particles.angular_velocity);
-    let (velocity, plane_rows) = (&particles.velocity, particles.plane_rows);
     context.each(count.div_ceil(CHUNK), |piece| {
         for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
             // SAFETY: pieces do not overlap.
             let row = unsafe { orientation.at(slot) };
-            let spin = if plane_rows { plane_rows::motion(velocity[slot], spin[slot])[1] } else { spin[slot] };
-            *row = Quaternion::from_row(*row).turned(spin.into(), step).to_row();
+            *row = Quaternion::from_row(*row).turned(spin[slot].into(), step).to_row();
         }
     });
 }
@@ -191,8 +186,6 @@ pub(crate) struct Rows<'a> {
     torque: Shared<Row>,
     /// What moves each particle.
     owner: &'a [u32],
-    /// Whether these are plane rows.
-    plane_rows: bool,
 }
 
 /// One particle's rows.
@@ -221,7 +214,6 @@ impl<'a> Rows<'a> {
             force: Shared::new(&mut particles.force),
             torque: Shared::new(&mut particles.torque),
             owner: &particles.owner,
-            plane_rows: particles.plane_rows,
         }
     }
 
@@ -252,24 +244,6 @@ impl<'a> Rows<'a> {
                 torque: self.torque.at(slot),
                 slot,
             }
-        }
-    }
-
-    /// Motion and loads of a particle, whatever its rows are.
-    #[inline(always)]
-    pub(crate) fn motion(&self, body: &ParticleRows) -> ParticleMotion {
-        let ParticleRows { velocity, spin, force, torque, .. } = body;
-        ParticleMotion { velocity: **velocity, spin: **spin, force: **force, torque: **torque }.of_rows(self.plane_rows)
-    }
-
-    /// Puts a force and a torque in the place of those of a particle.
-    #[inline(always)]
-    pub(crate) fn put_loads(&self, body: &mut ParticleRows, force: Row, torque: Row) {
-        if self.plane_rows {
-            *body.force = [force[0], torque[1], force[2], body.force[3]];
-            *body.torque = [torque[0], force[1], torque[2], 0.0];
-        } else {
-            (*body.force, *body.torque) = (force, torque);
         }
     }
 

@@ -4,22 +4,18 @@
 //! done. The order in which a particle gets its loads is thus always the same.
 
 use super::ahead::{Ahead, Link};
-use super::followed::Followed;
 use super::listed::{self, Kept, Listed, Met};
-use super::pair_slopes::PairSlopes;
 use super::pairs::Pairs;
 use super::pass::Pass;
 use super::records::{ContactRecord, Motion};
 use crate::batches::SpherePair;
-use crate::batches::{Along, BatchLaw, Batches, ContactGeometry, Entries, Lost};
+use crate::batches::{BatchLaw, Batches, ContactGeometry, Entries, Lost};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::{Contact, Law, Response};
-use crate::dual::Dual;
 use crate::lanes::Shared;
 use crate::run_error::RunError;
 use crate::state::ledger::Source;
 use crate::state::{ContactList, Particles, State, StateFault};
-use crate::tangent::{FollowPass, Moving, Tangent};
 use crate::threads::Context;
 use std::sync::{Mutex, PoisonError};
 
@@ -39,20 +35,7 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        match state.particles.plane_rows {
-            false => self.evaluate::<false>(state, context, &mut []),
-            true => self.evaluate::<true>(state, context, &mut []),
-        }
-        Ok(())
-    }
-
-    fn apply_with_slopes(
-        &self,
-        state: &mut State,
-        followed: &mut [Tangent],
-        context: &Context,
-    ) -> Result<(), RunError> {
-        self.evaluate::<false>(state, context, followed);
+        self.evaluate(state, context);
         Ok(())
     }
 
@@ -112,36 +95,12 @@ impl Pass for ContactPass {
 }
 
 impl ContactPass {
-    /// What is followed, made ready for its list.
-    fn tangents<'a>(&self, followed: &'a mut [Tangent]) -> Mutex<&'a mut [Tangent]> {
-        for tangent in &mut *followed {
-            tangent.contacts[self.index].set_odd(self.law.law.history().iter().map(|row| row.odd));
-        }
-        Mutex::new(followed)
-    }
-
-    /// How slopes go along with its contacts, between particles that move like this and have these materials.
-    fn followed<'a, 'b>(
-        &'a self,
-        (moving, material): (Moving<'a>, &'a [u32]),
-        tangents: &'a Mutex<&'b mut [Tangent]>,
-        step: Dual,
-    ) -> Followed<'a, 'b, PairSlopes<'a>> {
-        let (sides, uniform) = (PairSlopes { index: self.index, moving, material }, self.table.uniform());
-        Followed { sides, law: &self.law, table: &self.table, uniform, tangents, step, looks: false }
-    }
-
-    /// Evaluates the law on all contacts, with their slopes; with PLANE, of particles in plane rows, without any.
-    fn evaluate<const PLANE: bool>(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) {
+    /// Evaluates the law on all contacts.
+    fn evaluate(&self, state: &mut State, context: &Context) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
-        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-        let along = !followed.is_empty();
-        let tangents = self.tangents(followed);
-        let followed = self.followed((moving, &particles.material), &tangents, Dual::constant(context.step));
-        let along = along.then_some(&followed as &dyn Along);
         let batches = Batches {
-            bodies: Pairs::<PLANE> {
+            bodies: Pairs {
                 first: &list.first,
                 second: &list.second,
                 position: &particles.position,
@@ -151,13 +110,12 @@ impl ContactPass {
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
             },
-            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
+            entries: Entries::of(&mut list.flags, list.history.rows(), list.history.all_mut(), &mut list.pair_constant),
             law: &self.law,
             table: &self.table,
             uniform: self.table.uniform(),
             step: context.step,
             width: context.width,
-            along,
         };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
         let slabs = ends.len().saturating_sub(1);
@@ -230,36 +188,5 @@ impl Listed for ContactPass {
         let list = &state.contacts[self.index];
         let slots = [list.first[entry], list.second[entry]];
         ahead.between(self.law(), met.row, &met.contact, &state.particles, slots)
-    }
-}
-
-impl FollowPass for ContactPass {
-    /// Looks at the contacts alone, in a copy of the list.
-    fn add_slopes(&self, state: &State, tangent: &mut Tangent, step: Dual) {
-        let (particles, mut list, width) = (&state.particles, state.contacts[self.index].clone(), tangent.width);
-        let moving = Moving::of(&particles.position, &particles.velocity, &particles.angular_velocity);
-        let tangents = self.tangents(std::slice::from_mut(tangent));
-        let followed = self.followed((moving, &particles.material), &tangents, step);
-        let followed = Followed { looks: true, ..followed };
-        let batches = Batches {
-            bodies: Pairs::<false> {
-                first: &list.first,
-                second: &list.second,
-                position: &particles.position,
-                velocity: &particles.velocity,
-                angular_velocity: &particles.angular_velocity,
-                material: &particles.material,
-                force: Shared::new(&mut []),
-                torque: Shared::new(&mut []),
-            },
-            entries: Entries::of(&mut list.flags, &mut list.history, &mut list.pair_constant),
-            law: &self.law,
-            table: &self.table,
-            uniform: self.table.uniform(),
-            step: 0.0,
-            width,
-            along: Some(&followed),
-        };
-        batches.run(0, list.first.len(), 0..0);
     }
 }

@@ -139,7 +139,7 @@ pub(crate) fn held_energy(list: &impl Listed, state: &State) -> [f64; 3] {
     if law.has_rolling() {
         held[0] = energy(list, state, |law, row, contact, _, history| law.rolling_energy(row, contact, history));
     }
-    if !law.takes_offset() {
+    if !law.presses() {
         held[if law.is_plastic() { 2 } else { 1 }] = energy(list, state, Law::normal_energy);
     }
     held

@@ -2,9 +2,7 @@
 
 mod ahead;
 pub(crate) mod contacts;
-mod followed;
 mod listed;
-mod pair_slopes;
 mod pairs;
 mod pass;
 mod records;
@@ -13,6 +11,5 @@ pub(crate) mod surfaces;
 
 pub(crate) use ahead::{Ahead, FASTER, Kind, Link};
 pub(crate) use listed::SLIGHT;
-pub(crate) use pairs::plane_velocities;
-pub(crate) use pass::{Pass, Sweep};
+pub(crate) use pass::Pass;
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

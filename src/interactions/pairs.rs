@@ -6,12 +6,12 @@ use crate::contact::Needs;
 use crate::lanes::{Lane, Shared};
 use crate::memory::prefetch;
 use crate::number::{add, subtract};
-use crate::state::{Row, plane_rows};
+use crate::state::Row;
 use std::ops::Range;
 
-/// Pairs of particles. PLANE: in plane rows (`state::plane_rows`).
+/// Pairs of particles.
 #[derive(Clone, Copy)]
-pub(super) struct Pairs<'a, const PLANE: bool> {
+pub(super) struct Pairs<'a> {
     /// First particle of each pair.
     pub first: &'a [u32],
     /// Second particle of each pair.
@@ -30,7 +30,7 @@ pub(super) struct Pairs<'a, const PLANE: bool> {
     pub torque: Shared<Row>,
 }
 
-impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
+impl Bodies for Pairs<'_> {
     type Sum = ();
     const FOUND: usize = FOUND;
 
@@ -71,16 +71,10 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
     ) -> ContactGeometry<N> {
         let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
         // SAFETY: a list holds slots of particles, below their number.
-        let (mut velocities, mut spins) = unsafe {
-            let read = TORQUE && !PLANE;
-            let spins = if read { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+        let (velocities, spins) = unsafe {
+            let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
-        if PLANE {
-            let parted = velocities.map(plane_velocities);
-            velocities = parted.map(|[velocity, _]| velocity);
-            spins = parted.map(|[_, spin]| spin);
-        }
         SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
     }
 
@@ -94,7 +88,7 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
             prefetch(self.position.as_ptr().wrapping_add(slot));
             prefetch(self.velocity.as_ptr().wrapping_add(slot));
             prefetch(self.force.pointer().wrapping_add(slot));
-            if needs.torque && !PLANE {
+            if needs.torque {
                 prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
                 prefetch(self.torque.pointer().wrapping_add(slot));
             }
@@ -103,10 +97,6 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
 
     #[inline(always)]
     fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
-        if PLANE {
-            self.spread_in_plane(touching, needs);
-            return;
-        }
         let Touching { first, second, force, .. } = *touching;
         for place in 0..first.len() {
             let (i, j) = (first[place] as usize, second[place] as usize);
@@ -126,45 +116,4 @@ impl<const PLANE: bool> Bodies for Pairs<'_, PLANE> {
             }
         }
     }
-}
-
-impl<const PLANE: bool> Pairs<'_, PLANE> {
-    /// Adds the loads of touching entries to their bodies, which are in plane rows.
-    #[inline(always)]
-    fn spread_in_plane(&self, touching: &Touching, needs: Needs) {
-        let Touching { first, second, force, couple, rolling, .. } = *touching;
-        let mut leave = plane_rows::Leave::default();
-        for place in 0..first.len() {
-            let (i, j, force) = (first[place] as usize, second[place] as usize, force[place]);
-            let [mut on_i, mut on_j] = [[0.0; 4]; 2];
-            if needs.torque {
-                [on_i, on_j] = touching.torques(place);
-                leave.look(&force, &couple[place]);
-            }
-            if needs.spin {
-                subtract(&mut on_i, &rolling[place]);
-                add(&mut on_j, &rolling[place]);
-                leave.look(&force, &rolling[place]);
-            }
-            // SAFETY: slabs worked on at the same time do not share particles.
-            unsafe {
-                add(self.force.at(i), &plane_rows::load(force, on_i));
-                add(self.force.at(j), &plane_rows::load(force.map(|part| -part), on_j));
-            }
-        }
-        if leave.is_any() {
-            for place in 0..first.len() {
-                let torque = if needs.torque { touching.torques(place)[0] } else { [0.0; 4] };
-                // SAFETY: as above.
-                plane_rows::mark(unsafe { self.torque.at(first[place] as usize) }, force[place], torque);
-            }
-        }
-    }
-}
-
-/// Velocity and angular velocity in lanes, from plane rows of velocity ([`crate::state::plane_rows`]).
-#[inline(always)]
-pub(crate) fn plane_velocities<N: Lane>([u, w, v, mass]: [N; 4]) -> [[N; 4]; 2] {
-    let zero = N::zero();
-    [[u, zero, v, mass], [zero, w, zero, zero]]
 }

@@ -3,63 +3,24 @@
 use super::ahead::{Ahead, Link};
 use super::records::{BondRecord, ContactRecord};
 use crate::bond::creation::Moment;
-use crate::boundaries::felt::Swept;
 use crate::contact::Response;
-use crate::dual::Dual;
 use crate::run_error::RunError;
 use crate::scene::Scene;
 use crate::state::ledger::Source;
 use crate::state::{State, StateFault};
-use crate::tangent::{FollowPass, Tangent};
 use crate::threads::Context;
 
-/// A sweep over dashpots that are integrated by themselves.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sweep {
-    /// Time in which rates decay: half of a time step \[s\].
-    pub time: f64,
-    /// Whether it goes from the last bond to the first: after a time step.
-    pub backwards: bool,
-}
-
 /// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: FollowPass + Send + Sync {
+pub(crate) trait Pass: Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
-
-    /// The same, and adds the slopes of what it does.
-    fn apply_with_slopes(
-        &self,
-        state: &mut State,
-        followed: &mut [Tangent],
-        context: &Context,
-    ) -> Result<(), RunError> {
-        for tangent in followed {
-            self.add_slopes(state, tangent, Dual::constant(context.step));
-        }
-        self.apply(state, context)
-    }
 
     /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
     /// whether anything was made: the lists are then made anew.
     fn create(&self, _state: &mut State, _moment: &Moment, _step: f64) -> bool {
         false
     }
-
-    /// Whether it has dashpots that are integrated by themselves.
-    fn sweeps(&self) -> bool {
-        false
-    }
-
-    /// Lets dashpots that are integrated by themselves change velocities; what boundaries felt is added to `felt`, one each. Returns
-    /// the kinetic energy that particles moved by forces gained \[J\].
-    fn sweep(&self, _state: &mut State, _sweep: Sweep, _felt: &mut [Swept], _context: &Context) -> f64 {
-        0.0
-    }
-
-    /// Adds the present loads of such dashpots on boundaries, in place of impulses.
-    fn add_swept_loads(&self, _state: &State, _felt: &mut [Swept]) {}
 
     /// Whether particles need an orientation for it.
     fn needs_orientations(&self) -> bool {

@@ -1,189 +1,156 @@
 //! How outputs change with inputs and in time.
 
-use super::{Causality, Interface, InterfaceError, Source, rows};
-use crate::quantity::BoundaryIndex;
-use crate::scene::Scene;
-use crate::step::{BoundaryDerivatives, Simulation};
+use super::{Causality, Findings, Interface, InterfaceError, Quantity, Source, Type, Variability, Variable, rows};
+use crate::step::{Input, Simulation};
 
-/// What has been found of the derivatives of the last communication step. As [`super::Findings`] it is part of no state: whoever
-/// changes the simulation forgets it.
+/// What has been found of the derivatives of the last communication step. As [`Findings`] it is part of no state: whoever changes the
+/// simulation forgets it.
 #[derive(Debug, Default)]
 pub struct Derivatives {
-    /// Inputs, by index, and how the boundaries change with each.
-    found: Vec<(usize, Vec<BoundaryDerivatives>)>,
-    /// Inputs that the host has asked for since the last communication step.
-    asked: Vec<usize>,
-    /// Inputs that the host asked for after an earlier communication step, the last one of which it asked for any. It will
-    /// probably ask for them again, so they are followed together with those that it asks for now.
-    before: Vec<usize>,
-    /// Rates of the loads at the present time.
-    rates: Option<Vec<BoundaryDerivatives>>,
+    /// Each direction that was asked for, and what changes along it.
+    found: Vec<Found>,
+}
+
+/// Changes of outputs along a direction.
+#[derive(Debug)]
+struct Found {
+    /// The inputs, by index, each with its share.
+    direction: Vec<(usize, f64)>,
+    /// The outputs, by index, ascending, each with its change.
+    changes: Vec<(usize, f64)>,
+}
+
+impl Found {
+    /// The change of an output, if it is known.
+    fn of(&self, output: usize) -> Option<f64> {
+        self.changes.binary_search_by_key(&output, |(known, _)| *known).ok().map(|place| self.changes[place].1)
+    }
 }
 
 impl Derivatives {
     /// Forgets what has been found, for the simulation is another one now.
     pub fn forget(&mut self) {
-        if !self.asked.is_empty() {
-            self.before = std::mem::take(&mut self.asked);
-        }
         self.found.clear();
-        self.rates = None;
-    }
-
-    /// What was found of an input.
-    fn by(&self, input: usize) -> Option<&[BoundaryDerivatives]> {
-        self.found.iter().find(|(known, _)| *known == input).map(|(_, found)| &**found)
     }
 }
 
 impl Interface {
-    /// Whether the unit of a scene has directional derivatives: otherwise why not.
-    pub fn check_derivatives(&self, scene: &Scene) -> Result<(), InterfaceError> {
-        Ok(Simulation::follows(scene)?)
+    /// Whether a variable is an output that changes continuously: one that has derivatives by inputs.
+    pub fn is_continuous_output(&self, index: usize) -> bool {
+        self.variables.get(index).is_some_and(|variable| is_continuous(variable, Causality::Output))
     }
 
-    /// Whether the unit of a scene has rates of outputs: otherwise why not.
-    pub fn check_rates(&self, scene: &Scene) -> Result<(), InterfaceError> {
-        Ok(Simulation::has_rates(scene)?)
+    /// Whether there are inputs to take derivatives by.
+    pub fn has_derivatives(&self) -> bool {
+        self.variables.iter().any(|variable| is_continuous(variable, Causality::Input))
     }
 
-    /// Whether a variable has derivatives by inputs, in a scene that has them.
-    pub fn has_slopes(&self, index: usize) -> bool {
-        self.slopes_of(index).is_ok()
+    /// Whether any output has a rate.
+    pub fn has_rates(&self) -> bool {
+        self.outputs().any(|(_, variable)| rate_of(variable).is_some())
     }
 
-    /// The inputs of a scene that derivatives are taken by, by index.
-    pub fn followed(&self, scene: &Scene) -> Vec<usize> {
-        let follows = |index: &usize| self.axis_of(*index).is_ok() && Simulation::follows(scene).is_ok();
-        (0..self.variables.len()).filter(follows).collect()
-    }
-
-    /// Finds how the boundaries change with some inputs, all together, as far as that is not known.
-    pub fn find_derivatives(
+    /// By how much outputs change at the end of the last communication step for each unit by which inputs change along a direction at
+    /// that end: inputs by index, each with its share.
+    pub fn derivatives(
         &self,
         simulation: &mut Simulation,
         known: &mut Derivatives,
-        inputs: &[usize],
-    ) -> Result<(), InterfaceError> {
-        for &input in inputs {
-            self.axis_of(input)?;
-            if !known.asked.contains(&input) {
-                known.asked.push(input);
+        (outputs, direction): (&[usize], &[(usize, f64)]),
+    ) -> Result<Vec<f64>, InterfaceError> {
+        for &index in outputs {
+            if !self.is_continuous_output(index) {
+                return Err(InterfaceError::NoDerivative { index, name: self.variable(index)?.name.clone() });
             }
         }
-        if inputs.iter().all(|&input| known.by(input).is_some()) {
-            return Ok(());
+        let mut inputs = Vec::new();
+        for &(index, share) in direction {
+            let input = self.input_of(index)?;
+            if !share.is_finite() {
+                let name = self.variables[index].name.clone();
+                return Err(InterfaceError::NotFinite { index, name, value: share });
+            }
+            inputs.push(input);
         }
-        let mut missing: Vec<usize> = known.asked.iter().chain(&known.before).copied().collect();
-        missing.retain(|&input| known.by(input).is_none());
-        missing.sort_unstable();
-        missing.dedup();
-        let axes = missing.iter().map(|&input| self.axis_of(input)).collect::<Result<Vec<_>, _>>()?;
-        known.found.extend(missing.into_iter().zip(simulation.derivatives(&axes)?));
-        Ok(())
+        // Of one input the unit direction is remembered.
+        let (factor, direction) = match *direction {
+            [(input, share)] if share != 0.0 => (share, vec![(input, 1.0)]),
+            _ => (1.0, direction.to_vec()),
+        };
+        let there =
+            |found: &Found| found.direction == direction && outputs.iter().all(|&output| found.of(output).is_some());
+        let place = match known.found.iter().position(there) {
+            Some(place) => place,
+            None => {
+                let inputs: Vec<(Input, f64)> =
+                    inputs.into_iter().zip(&direction).map(|(input, (_, share))| (input, *share)).collect();
+                let changes = self.changes(simulation, outputs, &inputs)?;
+                known.found.retain(|found| found.direction != direction);
+                known.found.push(Found { direction, changes });
+                known.found.len() - 1
+            }
+        };
+        let change = |&index: &usize| {
+            let value = factor * known.found[place].of(index).unwrap_or(f64::NAN);
+            let name = || self.variables[index].name.clone();
+            if value.is_finite() { Ok(value) } else { Err(InterfaceError::NotKnown { index, name: name() }) }
+        };
+        outputs.iter().map(change).collect()
     }
 
-    /// Change of an output at the end of the last communication step per unit change of an input at that end.
-    pub fn derivative(
+    /// Changes of these outputs along a direction, and of those of boundaries, for which the host may ask next.
+    fn changes(
         &self,
         simulation: &mut Simulation,
-        known: &mut Derivatives,
-        [output, input]: [usize; 2],
-    ) -> Result<f64, InterfaceError> {
-        let (slopes, at) = self.slopes_of(output)?;
-        self.find_derivatives(simulation, known, &[input])?;
-        Ok(known.by(input).map_or(0.0, |found| slopes(found, at)))
+        outputs: &[usize],
+        direction: &[(Input, f64)],
+    ) -> Result<Vec<(usize, f64)>, InterfaceError> {
+        let is_likely = |index: &usize| self.is_continuous_output(*index) && is_read_at_once(&self.variables[*index]);
+        let mut read: Vec<usize> = (0..self.variables.len()).filter(is_likely).chain(outputs.iter().copied()).collect();
+        read.sort_unstable();
+        read.dedup();
+        let changes = simulation.differences(direction, &mut |simulation| {
+            let findings = Findings::default();
+            read.iter().map(|&index| self.value_with(simulation, &findings, index).number()).collect()
+        })?;
+        Ok(read.into_iter().zip(changes).collect())
     }
 
     /// Rate of an output at the present time, per second.
-    pub fn rate(
-        &self,
-        simulation: &mut Simulation,
-        known: &mut Derivatives,
-        output: usize,
-    ) -> Result<f64, InterfaceError> {
-        let (slopes, at) = self.slopes_of(output)?;
-        let has_rate = matches!(&self.variables[output].source, Source::Row(source) if source.row.has_rate);
-        if !has_rate {
-            return Err(InterfaceError::NoSlope { index: output, name: self.variables[output].name.clone() });
-        }
-        let rates = match &mut known.rates {
-            Some(rates) => rates,
-            rates => rates.insert(simulation.rates()?),
-        };
-        Ok(slopes(rates, at))
-    }
-
-    /// How the derivatives of a variable are read.
-    fn slopes_of(&self, index: usize) -> Result<(rows::ReadSlopes, rows::At), InterfaceError> {
-        let variable = self.variable(index)?;
-        match &variable.source {
-            Source::Row(rows::Source { row: rows::Row { slopes: Some(slopes), .. }, at }) => Ok((*slopes, *at)),
-            _ => Err(InterfaceError::NoSlope { index, name: variable.name.clone() }),
+    pub fn rate(&self, simulation: &Simulation, output: usize) -> Result<f64, InterfaceError> {
+        let variable = self.variable(output)?;
+        match rate_of(variable) {
+            Some((rate, at)) => Ok(rate(simulation.state(), at)),
+            None => Err(InterfaceError::NoOutputRate { index: output, name: variable.name.clone() }),
         }
     }
 
-    /// The axis that an input is of.
-    fn axis_of(&self, index: usize) -> Result<(BoundaryIndex, usize), InterfaceError> {
+    /// The input at an index, if it is one that changes continuously.
+    fn input_of(&self, index: usize) -> Result<Input, InterfaceError> {
         let variable = self.variable(index)?;
-        let no_input = || InterfaceError::NoInput { index, name: variable.name.clone() };
         match &variable.source {
-            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at })
-                if variable.causality == Causality::Input =>
-            {
-                (write.axis)(*at).ok_or_else(no_input)
-            }
-            _ => Err(no_input()),
+            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => Ok((write.input)(*at)),
+            _ => Err(InterfaceError::NoInput { index, name: variable.name.clone() }),
         }
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Source as Text;
-    use std::sync::Arc;
+/// Whether a variable of this causality is a real number that changes at any time.
+fn is_continuous(variable: &Variable, causality: Causality) -> bool {
+    let kind = (variable.causality, variable.variability, variable.quantity.of_type());
+    kind == (causality, Variability::Continuous, Type::Real)
+}
 
-    /// A sphere on a plate that is driven along three axes.
-    const SCENE: &str = r#"
-[run]
-step = 1.0e-5
-[material.a]
-density = 2500.0
-[pair.a.a]
-normal_stiffness = 1.0e4
-normal_damping = 1.0
-[contact.touch.normal.hooke_stiffness]
-[particles.all]
-material = "a"
-list = [{ position = [0.0, 0.0, 0.0049], radius = 0.005 }]
-[boundary.plate]
-material = "a"
-plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
-motion = { driven = ["x", "y", "z"] }
-"#;
+/// Whether a variable is one of the few of a boundary that are read without a pass over particles or contacts.
+fn is_read_at_once(variable: &Variable) -> bool {
+    let of_boundary = matches!(&variable.source, Source::Row(source) if source.is_of_boundary());
+    of_boundary && variable.quantity != Quantity::Stiffness
+}
 
-    #[test]
-    fn inputs_that_were_asked_for_before_are_followed_together() {
-        let text = Text { name: "scene.toml".into(), text: SCENE.into(), files: Default::default() };
-        let scene = Scene::from_source(&text).unwrap_or_else(|errors| panic!("{errors}"));
-        let interface = Interface::of(&scene);
-        let inputs = interface.followed(&scene);
-        assert_eq!(inputs.len(), 3);
-        let mut simulation = Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"));
-        let mut known = Derivatives::default();
-        let mut follow = |asked: &[usize], expected: &[usize]| {
-            known.forget();
-            simulation.advance_or_return(1.0e-4).unwrap_or_else(|error| panic!("{error}"));
-            interface
-                .find_derivatives(&mut simulation, &mut known, asked)
-                .unwrap_or_else(|refusal| panic!("{refusal}"));
-            let found: Vec<usize> = known.found.iter().map(|(input, _)| *input).collect();
-            assert_eq!(found, expected);
-        };
-        follow(&inputs[2..], &inputs[2..]);
-        follow(&inputs[..2], &inputs);
-        follow(&inputs[1..2], &inputs[..2]);
-        follow(&inputs[1..2], &inputs[1..2]);
+/// How the rate of a variable is read, if it has one.
+fn rate_of(variable: &Variable) -> Option<(rows::ReadRate, rows::At)> {
+    match &variable.source {
+        Source::Row(rows::Source { row, at }) => row.rate.map(|rate| (rate, *at)),
+        Source::Parameter(_) | Source::Text(_) => None,
     }
 }

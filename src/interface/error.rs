@@ -41,8 +41,8 @@ pub enum InterfaceError {
     },
     /// An input that has no second derivative.
     #[error(
-        "order 2 for {index} ({name}); order 1, or the displacement along an axis of a boundary with input = \"quadratic\", is \
-         right"
+        "{index} ({name}): expected order 1, or the displacement along an axis of a boundary with input = \
+         \"quadratic\", found order 2"
     )]
     NoAcceleration {
         /// Its index.
@@ -58,32 +58,48 @@ pub enum InterfaceError {
         /// Its name.
         name: String,
     },
-    /// An output whose derivatives are not followed.
-    #[error(
-        "{index} ({name}): no derivative; displacement, velocity, force and moment of a boundary, and mean loads, have some by inputs; displacement, force and moment in time"
-    )]
-    NoSlope {
+    /// A derivative of what is not a continuous output.
+    #[error("expected an output that changes continuously, found {index} ({name}), which has no derivative")]
+    NoDerivative {
         /// Its index.
         index: usize,
         /// Its name.
         name: String,
     },
     /// A derivative with respect to what is not an input.
-    #[error("{index} ({name}) is not an input; derivatives are with respect to inputs")]
+    #[error("expected an input to take derivatives by, found {index} ({name})")]
     NoInput {
         /// Its index.
         index: usize,
         /// Its name.
         name: String,
     },
-    /// The scene or the moment has no derivatives.
+    /// A derivative that is no number.
+    #[error("{index} ({name}): expected a number with and without displaced inputs, found none")]
+    NotKnown {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// The rate of an output that has none.
+    #[error(
+        "expected force, moment, mean_force, mean_moment or displacement of a boundary, found {index} ({name}), which has no rate"
+    )]
+    NoOutputRate {
+        /// Its index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// The moment has no derivatives.
     #[error(transparent)]
-    NoDerivative(#[from] NoDerivative),
+    Difference(#[from] NoDerivative),
     /// Values of tunable parameters that contradict each other.
     #[error(transparent)]
     Tune(#[from] TuneError),
     /// The value is not a finite number.
-    #[error("{value} for {index} ({name}); a finite number is right")]
+    #[error("{index} ({name}): expected a finite number, found {value}")]
     NotFinite {
         /// Its index.
         index: usize,

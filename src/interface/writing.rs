@@ -2,8 +2,8 @@
 
 use super::{Causality, Interface, InterfaceError, Source, Value, Variable, rows};
 use crate::quantity::BoundaryIndex;
-use crate::scene::{self, InputCourse, Scene, SceneErrors};
-use crate::step::Simulation;
+use crate::scene::{self, InputCourse, Models, Scene, SceneErrors};
+use crate::step::{Input, Simulation};
 use std::collections::BTreeMap;
 
 impl Interface {
@@ -21,7 +21,7 @@ impl Interface {
         is_finite(variable, index, value)?;
         if variable.minimum.is_some_and(|minimum| value < minimum) {
             let refusal =
-                format!("{value:?} found; a number of {:?} or above is right", variable.minimum.unwrap_or(0.0));
+                format!("expected a number of {:?} or above, found {value:?}", variable.minimum.unwrap_or(0.0));
             return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
         }
         Ok(())
@@ -38,7 +38,8 @@ impl Interface {
         Ok(())
     }
 
-    /// Sets tunable parameters between communication steps, all or none. Parameters that are not tunable are ignored.
+    /// Sets tunable parameters between communication steps, all or none. A parameter that is not tunable is refused; inputs are
+    /// only checked.
     pub fn tune(&self, simulation: &mut Simulation, values: &[(usize, f64)]) -> Result<(), InterfaceError> {
         let mut changes = Vec::new();
         for &(index, value) in values {
@@ -52,10 +53,15 @@ impl Interface {
         if changes.is_empty() { Ok(()) } else { Ok(simulation.tune(&changes)?) }
     }
 
-    /// The scene of this source with these values of parameters, by index.
-    pub fn scene_with(&self, source: &scene::Source, values: &BTreeMap<usize, f64>) -> Result<Scene, SceneErrors> {
+    /// The scene of this source, which may name these sub-models, with these values of parameters, by index.
+    pub fn scene_with(
+        &self,
+        models: &Models,
+        source: &scene::Source,
+        values: &BTreeMap<usize, f64>,
+    ) -> Result<Scene, SceneErrors> {
         let named = values.iter().map(|(&index, &value)| (self.variables[index].name.as_str(), value));
-        Scene::with_parameters(source, named)
+        models.with_parameters(source, named)
     }
 
     /// Whether the variable at an index may be given a rate.
@@ -90,7 +96,10 @@ impl Interface {
         self.check_rate(index, acceleration)?;
         let variable = self.variable(index)?;
         let axis = match &variable.source {
-            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => (write.axis)(*at),
+            Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => match (write.input)(*at) {
+                Input::Axis(boundary, axis) => Some((boundary, axis)),
+                Input::Node(..) | Input::Rate(_) => None,
+            },
             _ => None,
         };
         let quadratic = |&(boundary, axis): &(BoundaryIndex, usize)| {

@@ -23,18 +23,12 @@ pub type Four = f64;
 pub type Eight = f64;
 
 pub use shared::Shared;
-pub use table::{
-    Places, Table, add_at, add_opposite_at, add_pairs_at, columns_at, columns_from, differences_at, lanes_of,
-    numbers_at, put_at, rows_from, rows_of, vectors_of,
-};
+pub use table::{Table, columns_from, rows_from};
 
 /// A [`Number`] that knows how to be read from and written to rows of four.
 pub trait Lane: Number {
     /// Numbers side by side.
     const WIDTH: usize;
-
-    /// Does something with the features of the processor that these registers come from.
-    fn within<W: Work>(work: W) -> W::Output;
 
     /// Reads [`Lane::WIDTH`] rows and transposes them: the first numbers of all rows, the second ones, ...
     ///
@@ -210,30 +204,11 @@ pub trait Kernel {
     fn run<N: Lane>(self);
 }
 
-/// Something that is done with registers of one kind, where a function of its own is called for it.
-pub trait Work {
-    /// What comes of it.
-    type Output;
-
-    /// Does it. Must be `#[inline(always)]` with all it calls, as for [`Kernel`].
-    fn run(self) -> Self::Output;
-}
-
 /// Runs a kernel in this width.
 pub fn run<K: Kernel>(width: Width, kernel: K) {
     match width {
         Width::Least => run_least(kernel),
         wide => run_wide(wide, kernel),
-    }
-}
-
-/// Runs a kernel in this width; in the least one number by number, for work that few scenes ask for: less is compiled. In the
-/// tests inside the library every width does so: `tests/derivatives.rs` compares the widths of the library as users have it.
-pub fn run_seldom<K: Kernel>(width: Width, kernel: K) {
-    if width == Width::Least || cfg!(test) {
-        kernel.run::<f64>();
-    } else {
-        run_wide(width, kernel);
     }
 }
 

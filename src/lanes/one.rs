@@ -1,15 +1,10 @@
 //! One number at a time.
 
-use super::{Lane, Work, compact_one_by_one};
+use super::{Lane, compact_one_by_one};
 use crate::number::Row;
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        work.run()
-    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

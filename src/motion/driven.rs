@@ -1,6 +1,6 @@
 //! `driven`: the axis follows an input, by displacement or by velocity.
 
-use super::{InputCourse, Motion, Progress, Seen, Way};
+use super::{AxisPath, InputCourse, Motion, Progress, Seen};
 
 /// An axis that follows the input `<boundary>.displacement.<axis>` or `<boundary>.rotation.<axis>`.
 pub(super) struct Driven;
@@ -14,12 +14,12 @@ impl Motion for Driven {
         Seen::Input
     }
 
-    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        let Way { start, target, before, course, .. } = *way;
+    fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
+        let AxisPath { start, target, before, course, .. } = *path;
         let share = progress.share(course);
         let bent = match course {
             InputCourse::Quadratic => {
-                0.5 * way.acceleration * progress.length * progress.length * share * (1.0 - share)
+                0.5 * path.acceleration * progress.length * progress.length * share * (1.0 - share)
             }
             InputCourse::Ramp | InputCourse::Smooth | InputCourse::Hold => 0.0,
         };
@@ -46,7 +46,7 @@ impl Motion for Steered {
         Seen::Rate
     }
 
-    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        Driven.lead(way, progress)
+    fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
+        Driven.lead(path, progress)
     }
 }

@@ -69,7 +69,7 @@ impl<'de> Deserialize<'de> for Prescribed {
             fn visit_f64<E: Error>(self, value: f64) -> Result<Prescribed, E> {
                 let velocity =
                     Finite::new(value).map(|velocity| Prescribed::Here(AxisMotion::Prescribed(velocity.get())));
-                velocity.ok_or_else(|| E::custom(format!("{value:?} found; a finite number is right")))
+                velocity.ok_or_else(|| E::custom(format!("expected a finite number, found {value:?}")))
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Prescribed, E> {
                 self.visit_f64(value as f64)
@@ -77,7 +77,7 @@ impl<'de> Deserialize<'de> for Prescribed {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Prescribed, A::Error> {
                 let scheduled = |schedule| Prescribed::Here(AxisMotion::Scheduled(schedule));
                 let Some(law) = map.next_key()? else {
-                    return Err(A::Error::custom(format!("an empty table found; {RIGHT} is right")));
+                    return Err(A::Error::custom(format!("expected {RIGHT}, found an empty table")));
                 };
                 let motion = match law {
                     Law::Sine => scheduled(Schedule::Sine(map.next_value()?)),
@@ -86,7 +86,7 @@ impl<'de> Deserialize<'de> for Prescribed {
                 };
                 match map.next_key::<String>()? {
                     None => Ok(motion),
-                    Some(more) => Err(A::Error::custom(format!("{more} beside another law found; one is right"))),
+                    Some(more) => Err(A::Error::custom(format!("expected one law, found {more} beside another one"))),
                 }
             }
         }
@@ -154,7 +154,7 @@ impl<'de> Deserialize<'de> for Loads {
                 for axis in axes {
                     if loads.insert(axis, Finite::default()).is_some() {
                         let axis = AxisMotion::WORDS[axis as usize];
-                        return Err(A::Error::custom(format!("axis {axis} found twice; once is right")));
+                        return Err(A::Error::custom(format!("expected each axis once, found {axis} twice")));
                     }
                 }
                 Ok(Loads(loads))
@@ -232,7 +232,7 @@ impl<'de> Deserialize<'de> for Keys {
             fn visit_str<E: Error>(self, word: &str) -> Result<Keys, E> {
                 match word {
                     "fixed" => Ok(Keys::default()),
-                    _ => Err(E::custom(format!("{word:?} found; {RIGHT} is right"))),
+                    _ => Err(E::custom(format!("expected {RIGHT}, found {word:?}"))),
                 }
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Keys, A::Error> {

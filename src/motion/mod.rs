@@ -77,21 +77,21 @@ trait Motion {
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
-    fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        self.at(progress.time).map(|[place, rate]| [way.target + place, rate])
+    fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
+        self.at(progress.time).map(|[place, rate]| [path.target + place, rate])
     }
 }
 
-/// The way of a driven axis through a communication step.
+/// The path of a driven axis through a communication step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct AxisPath {
     /// Where it began \[m, rad\].
     pub start: f64,
     /// Where it is to end; for a prescribed axis, where it stood at time 0 \[m, rad\].
     pub target: f64,
     /// Where it stands before the present time step \[m, rad\].
     pub before: f64,
-    /// In which way it moves there.
+    /// How it moves there.
     pub course: InputCourse,
     /// Its acceleration on the way, where its course has one \[m/s²\].
     pub acceleration: f64,
@@ -218,7 +218,7 @@ impl AxisMotion {
     }
 
     /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
-    pub(crate) fn lead(&self, way: &Way, progress: &Progress) -> Option<[f64; 2]> {
-        self.ask(|row| row.lead(way, progress))
+    pub(crate) fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
+        self.ask(|row| row.lead(path, progress))
     }
 }

@@ -81,7 +81,7 @@ impl Table {
             _ => {}
         }
         if places[0] != 0.0 {
-            return Err((0, format!("{:?} at time 0", places[0]), "displacement 0 there"));
+            return Err((0, format!("{:?}", places[0]), "displacement 0 at time 0"));
         }
         if let Some(row) = (1..times.len()).find(|&row| times[row] <= times[row - 1]) {
             let found = format!("time {:?} s after {:?} s", times[row], times[row - 1]);
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(wrong(&[], &[]).1, "no row");
         assert_eq!(wrong(&[0.0], &[0.0]).1, "one row");
         assert_eq!(wrong(&[0.5, 1.0], &[0.0, 1.0]).1, "time 0.5 s");
-        assert_eq!(wrong(&[0.0, 1.0], &[0.25, 1.0]).1, "0.25 at time 0");
+        assert_eq!(wrong(&[0.0, 1.0], &[0.25, 1.0]).1, "0.25");
         assert_eq!(
             wrong(&[0.0, 1.0, 1.0], &[0.0; 3]),
             (2, "time 1.0 s after 1.0 s".to_owned(), "a time after that of the row before")

@@ -51,7 +51,7 @@ pub(super) fn dense(
             "spheres that fill {solid_fraction:?} of this region do not come apart: they still overlap by up to {:.1} radii",
             left.largest
         );
-        let right = "less is right: random packings reach 0.55 to 0.62, and less in a region of few diameters".to_owned();
+        let right = "take less: random packings reach 0.55 to 0.62, and less in a region of few diameters".to_owned();
         ("packing.solid_fraction", Mistake::Senseless { what, right })
     })?;
     Ok(crowd.places().zip(radii).map(|(place, radius)| (region.in_scene(place), radius)).collect())
@@ -83,7 +83,7 @@ fn parted(crowd: &mut Crowd, count: usize, random: &mut ChaCha8Rng) -> Result<()
 fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Result<Vec<f64>, (&'static str, Mistake)> {
     let of = |radius: f64| 4.0 / 3.0 * PI * radius * radius * radius;
     if volume > MOST as f64 * of(least) {
-        let (found, right) = (format!("{least:?}"), format!("radii with which {MOST} spheres at most find room"));
+        let (found, right) = (format!("{least:?}"), format!("radii of which at most {MOST} fit"));
         return Err(("packing.radius", Mistake::Wrong { found, right }));
     }
     let (mut radii, mut sum) = (Vec::new(), 0.0);
@@ -96,7 +96,7 @@ fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Resul
         radii.push(radius);
     }
     if radii.is_empty() {
-        let (found, right) = (format!("{least:?}"), "room for a sphere at least".to_owned());
+        let (found, right) = (format!("{least:?}"), "a radius at which one sphere at least fits".to_owned());
         return Err(("packing.radius", Mistake::Wrong { found, right }));
     }
     Ok(radii)

@@ -77,7 +77,7 @@ impl<'de> Deserialize<'de> for Counts {
         let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
         match counts[..] {
             [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
-            _ => Err(D::Error::custom(format!("{} numbers found; [nx, ny, nz] is right", counts.len()))),
+            _ => Err(D::Error::custom(format!("expected [nx, ny, nz], found {} numbers", counts.len()))),
         }
     }
 }
@@ -98,7 +98,7 @@ impl<'de> Deserialize<'de> for Radii {
                 f.write_str(RIGHT)
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("{value:?} found; {RIGHT} is right"));
+                let refused = || E::custom(format!("expected {RIGHT}, found {value:?}"));
                 Positive::new(value).map(|radius| Radii([radius.get(); 2])).ok_or_else(refused)
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
@@ -108,7 +108,7 @@ impl<'de> Deserialize<'de> for Radii {
                 let radii = Numbers.visit_seq(list)?;
                 match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
                     [least, most] if least > 0.0 && least <= most => Ok(Radii([least, most])),
-                    ref found => Err(A::Error::custom(format!("{found:?} found; {RIGHT} is right"))),
+                    ref found => Err(A::Error::custom(format!("expected {RIGHT}, found {found:?}"))),
                 }
             }
         }

@@ -50,8 +50,9 @@ pub(crate) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'static str
             return Err(("lattice.origin", Mistake::Senseless { what, right }));
         }
         _ => {
-            let (what, right) = ("not one extent".to_owned(), "one of box, counts is right".to_owned());
-            return Err(("lattice", Mistake::Senseless { what, right }));
+            let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
+            let right = "one of box and counts".to_owned();
+            return Err(("lattice", Mistake::Wrong { found, right }));
         }
     };
     let total = counts[0] * counts[1] * counts[2] * places.len() as f64;

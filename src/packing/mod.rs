@@ -48,8 +48,8 @@ const MOST: usize = 50_000_000;
 fn too_many(count: f64) -> Option<String> {
     let room = memory::available().map_or(MOST, |free| MOST.min((free / memory::SPHERE) as usize));
     match room {
-        _ if count > MOST as f64 => Some(format!("{MOST} at most")),
-        room if count > room as f64 => Some(format!("{room} at most, for which there is memory,")),
+        _ if count > MOST as f64 => Some(format!("at most {MOST} spheres")),
+        room if count > room as f64 => Some(format!("at most {room} spheres, for which there is memory")),
         _ => None,
     }
 }

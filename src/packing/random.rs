@@ -85,8 +85,9 @@ pub(crate) fn packing(
             dense(&region, fraction.get(), table.radius.0, &mut random, &mut tell)
         }
         _ => {
-            let (what, right) = ("not one amount".to_owned(), "one of count, solid_fraction is right".to_owned());
-            Err(("packing", Mistake::Senseless { what, right }))
+            let found = if table.count.is_some() { "both" } else { "neither" }.to_owned();
+            let right = "one of count and solid_fraction".to_owned();
+            Err(("packing", Mistake::Wrong { found, right }))
         }
     }
 }
@@ -100,7 +101,7 @@ fn scattered(
     tell: &mut dyn FnMut(usize),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     if let Some(right) = too_many(count as f64) {
-        let found = count.to_string();
+        let found = format!("{count}");
         return Err(("packing.count", Mistake::Wrong { found, right }));
     }
     let size = region.size();

@@ -46,8 +46,9 @@ impl Region {
             }
             (None, Some(cylinder)) => Self::cylinder(cylinder),
             _ => {
-                let (what, right) = ("not one region".to_owned(), "one of box, cylinder is right".to_owned());
-                Err(("packing", Mistake::Senseless { what, right }))
+                let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
+                let right = "one of box and cylinder".to_owned();
+                Err(("packing", Mistake::Wrong { found, right }))
             }
         }
     }

@@ -4,11 +4,11 @@ mod rows;
 
 use crate::document::Document;
 use crate::quantity::MaterialIndex;
-use crate::scene::{Parameter, Run, Scene, Step};
-use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, is_of};
+use crate::scene::{Parameter, Run, SceneDraft, Step};
+use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, SWITCH, is_of};
 
 /// The parameters of a scene that was read from this text.
-pub(crate) fn of_scene(scene: &Scene, document: &Document) -> Vec<Parameter> {
+pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter> {
     let mut all = settings(scene);
     let mut leaves = Vec::new();
     for table in ["run", "material", "pair", "damping", "bond"] {
@@ -22,7 +22,7 @@ pub(crate) fn of_scene(scene: &Scene, document: &Document) -> Vec<Parameter> {
 }
 
 /// Settings of the run that every scene has.
-fn settings(scene: &Scene) -> Vec<Parameter> {
+fn settings(scene: &SceneDraft) -> Vec<Parameter> {
     let (step, safety) = match scene.run.step {
         Step::Given(step) => (step, Run::SAFETY),
         Step::Automatic { safety } => (0.0, safety),
@@ -42,6 +42,20 @@ fn settings(scene: &Scene) -> Vec<Parameter> {
             "fraction of the stable step that an automatic time step takes",
         ),
         number(THREADS, threads, None, COUNT, "threads; 0: as many as the machine offers"),
+        number(
+            CENTRAL_DERIVATIVES,
+            f64::from(u8::from(scene.run.central_derivatives)),
+            None,
+            SWITCH,
+            "whether directional derivatives are differences of both sides: two steps in place of one; 0: no, 1: yes",
+        ),
+        number(
+            "run.derivative_displacement",
+            scene.run.derivative_displacement,
+            Some("1"),
+            POSITIVE,
+            "how far directional derivatives displace inputs, over what the program chooses",
+        ),
     ]
 }
 
@@ -49,6 +63,8 @@ fn settings(scene: &Scene) -> Vec<Parameter> {
 pub(crate) const TIME_STEP: &str = "run.time_step";
 /// The number of threads, 0 where the machine decides.
 pub(crate) const THREADS: &str = "run.threads";
+/// Whether derivatives are differences of both sides, 0 or 1.
+pub(crate) const CENTRAL_DERIVATIVES: &str = "run.central_derivatives";
 
 /// All numbers at or below a key, with their dotted keys, in the order of the text.
 fn find_numbers(document: &Document, path: &str, found: &mut Vec<(String, f64)>) {
@@ -70,7 +86,7 @@ fn is_written_twice(document: &Document, name: &str) -> bool {
 }
 
 /// The parameter of this name, if it is one of the rows.
-fn row(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
+fn row(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
     let row = ROWS.iter().find(|row| is_of(name, row.keys))?;
     let unit = match row.unit {
         Always(unit) => unit,
@@ -84,7 +100,7 @@ fn row(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
 }
 
 /// The parameter of this name, if it is a strength of a bond law.
-fn strength(scene: &Scene, name: &str, value: f64) -> Option<Parameter> {
+fn strength(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
     let (bond, key) = scene.strength_of(name)?;
     let mut keys = scene.bonds[bond].keys.breakage?;
     let unit = keys.strengths().iter().find(|strength| strength.key == key)?.unit;
@@ -112,8 +128,8 @@ mod tests {
     #[test]
     fn a_number_out_of_range_is_refused_in_the_words_of_the_scene() {
         let refused = |range: &Range, value: f64| range.check(value).unwrap_err();
-        assert_eq!(refused(&NON_NEGATIVE, -0.1), "-0.1 found; a number of 0 or above is right");
-        assert_eq!(refused(&SAFETY, 1.0), "1.0 found; a number above 0 and below 1 is right");
+        assert_eq!(refused(&NON_NEGATIVE, -0.1), "expected a number of 0 or above, found -0.1");
+        assert_eq!(refused(&SAFETY, 1.0), "expected a number above 0 and below 1, found 1.0");
         for row in ROWS {
             let Range { minimum, maximum, .. } = row.range;
             for bound in minimum.into_iter().chain(maximum) {

@@ -1,6 +1,6 @@
 //! The kinds of parameters: keys, unit, range. A new kind is one row.
 
-use crate::contact::normal::sticky::DampingKind;
+use crate::contact::normal::sticky::{self, DampingKind};
 use crate::quantity::{AtLeastOne, Fraction, NonNegative, PoissonsRatio, Positive, Restitution, Safety};
 use crate::scene::{ContactLaw, Range, range_of as of};
 
@@ -12,6 +12,8 @@ pub(super) const POSITIVE: Range = of::<Positive>(ABOVE_ZERO, None);
 pub(super) const NON_NEGATIVE: Range = of::<NonNegative>(Some(0.0), None);
 /// A whole number of 0 or above.
 pub(super) const COUNT: Range = of::<NonNegative>(Some(0.0), Some(65535.0));
+/// 0 for no, 1 for yes.
+pub(super) const SWITCH: Range = of::<NonNegative>(Some(0.0), Some(1.0));
 /// 1 or above.
 const AT_LEAST_ONE: Range = of::<AtLeastOne>(Some(1.0), None);
 /// Above 0, at most 1.
@@ -35,7 +37,7 @@ pub(super) use Unit::{Always, ByLaw};
 
 /// Of a given stiffness: a force over a length, or a pressure where the overlap or the contact radius is a factor.
 fn stiffness(law: &ContactLaw) -> &'static str {
-    if law.normal.name() == "hertz_stiffness" || law.normal.sticky().is_some() { "Pa" } else { "N/m" }
+    if law.normal.name() == "hertz_stiffness" || law.normal.keys::<sticky::Keys>().is_some() { "Pa" } else { "N/m" }
 }
 
 /// Of a given damping over the effective mass.
@@ -45,7 +47,7 @@ fn damping(law: &ContactLaw) -> &'static str {
 
 /// Of the damping of `jkr` and `dmt`.
 fn sticky_damping(law: &ContactLaw) -> &'static str {
-    match law.normal.sticky() {
+    match law.normal.keys::<sticky::Keys>().map(|keys| keys.damping) {
         Some(DampingKind::MassVelocity) => "1/s",
         Some(DampingKind::Velocity) => "kg/s",
         Some(DampingKind::Viscoelastic) | None => "1/(m.s)",

@@ -67,7 +67,7 @@ impl Keys {
         };
         let volume = shape.volume();
         if !volume.is_normal() {
-            around.refuse(key, format!("a volume of {volume:?} m³"), "one that 64 bits hold");
+            around.refuse(key, format!("{volume:?} m³"), "a volume that 64 bits hold");
         }
         volume.is_normal().then_some(shape)
     }
@@ -78,9 +78,9 @@ fn solid(keys: &mesh::Keys, around: &mut dyn Files) -> Option<Solid> {
     match Solid::of(keys.closed(around)?) {
         Ok(solid) => Some(solid),
         Err(place) => {
-            let found = format!("a part of the surface, seen at {place:?} m, whose normals point to the wrong side,");
+            let found = format!("a part of the surface, seen at {place:?} m, whose normals point to the wrong side");
             let right = "parts beside each other with normals that point alike, and within another part only holes, with \
-                         normals that point into them,";
+                         normals that point into them";
             around.refuse("mesh.file", found, right);
             None
         }

@@ -52,6 +52,9 @@ pub struct Report {
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
+    if let Some(schedule) = &schedule {
+        schedule.check_step(scene_name, simulation.state().clock.step)?;
+    }
     let begins = schedule.as_ref().map_or(0.0, |schedule| {
         let time = simulation.time();
         schedule.point_of(time).unwrap_or(time)
@@ -65,7 +68,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&simulation);
-    simulation.restore(&present).expect("a state of this simulation");
+    simulation.return_to(&present);
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
     let savings = savings::of(scene, &simulation);
@@ -113,7 +116,7 @@ impl fmt::Display for Report {
             write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
         }
         for saving in &self.savings {
-            write!(formatter, "\nspare      {saving}")?;
+            write!(formatter, "\nunused     {saving}")?;
         }
         for remark in &self.remarks {
             write!(formatter, "\nremark     {remark}")?;
@@ -137,7 +140,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .bonds
             .iter()
             .zip(&simulation.state().bonds)
-            .map(|(bond, list)| format!("bond {}: {} bonds at the start", bond.name, list.first.len())),
+            .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, count(list.first.len(), "bond"))),
     );
     uses.extend(scene.boundaries.iter().map(boundary));
     if scene.gravity.iter().any(|part| *part != 0.0) {
@@ -145,9 +148,11 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     }
     uses.extend(scene.damping.iter().map(|damping| {
         let damped = damping.linear.iter().zip(&damping.angular).filter(|(a, b)| **a != 0.0 || **b != 0.0).count();
-        format!("damping {} of {damped} particles", damping.name)
+        format!("damping {} of {}", damping.name, count(damped, "particle"))
     }));
-    uses.extend(scene.forces.iter().map(|force| format!("force {} on {} particles", force.name, force.members.len())));
+    uses.extend(
+        scene.forces.iter().map(|force| format!("force {} on {}", force.name, count(force.members.len(), "particle"))),
+    );
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(exchange(scene));
     if scene.output.energy {

@@ -1,12 +1,9 @@
 //! What a scene pays for and could drop, with the saving measured: the scene is run for a moment with and without it.
 
 use super::trial;
-use crate::contact::cohesion::CohesionChoice;
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
-use crate::contact::{NoKeys, PairProperties};
+use crate::contact::PairProperties;
 use crate::quantity::NonNegative;
-use crate::scene::{ContactLaw, MotionPlane, Scene, Step, plane_objections};
+use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
 use crate::step::Simulation;
 use std::sync::Arc;
 use std::time::Duration;
@@ -23,28 +20,25 @@ const LEAST: f64 = 0.03;
 /// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
 const SHORT: f64 = 0.6;
 
-/// Fewer particles than these are not what a time step takes its time for.
-const FEW: usize = 100;
-
 /// Something that a scene could drop.
 struct Spare {
     /// What it is and why.
     what: String,
     /// The scene without it.
-    without: Scene,
+    without: SceneDraft,
 }
 
 /// What the scene could drop, a line each.
 pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
     let mut lines = Vec::new();
-    let spares = spares(scene).into_iter().map(|spare| (spare, "without it")).chain(third_dimension(scene));
-    for (Spare { what, without }, change) in spares {
-        if let Some([with, less]) = costs(scene, &Arc::new(without)) {
+    for Spare { what, without } in spares(scene) {
+        let without = without.build().ok().map(Arc::new);
+        if let Some([with, less]) = without.and_then(|without| costs(scene, &without)) {
             let saved = 1.0 - less / with;
             lines.push(if saved > LEAST {
-                format!("{what}: {change} a step takes {:.0} % less time", 100.0 * saved)
+                format!("{what}: without it a step takes {:.0} % less time", 100.0 * saved)
             } else {
-                format!("{what}: {change} a step takes as long, to {:.0} %", 100.0 * LEAST)
+                format!("{what}: without it a step takes as long, to {:.0} %", 100.0 * LEAST)
             });
         }
     }
@@ -57,7 +51,7 @@ fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
     let (safety, stable) = (crate::scene::Run::SAFETY, present.stable_step());
     let part = step / (safety * stable);
-    (part < SHORT).then(|| {
+    (stable.is_finite() && part < SHORT).then(|| {
         format!(
             "[run] step = {step:e}: {:.3} of the stable one; \"auto\" makes {:.2} times as many steps at the start",
             step / stable,
@@ -90,51 +84,35 @@ fn spares(scene: &Scene) -> Vec<Spare> {
     for (index, law) in scene.contacts.iter().enumerate() {
         let zero = |of: fn(&PairProperties) -> Option<NonNegative>| is_zero(scene, law, of);
         let mut add = |part: &str, model: &str, property: &str, drop: fn(&mut ContactLaw)| {
-            let mut without = scene.clone();
+            let mut without = SceneDraft::clone(scene);
             drop(&mut without.contacts[index]);
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             spares.push(Spare { what, without });
         };
-        if law.tangential.name() != "none" && zero(|pair| pair.friction) {
-            let drop = |law: &mut ContactLaw| law.tangential = TangentialChoice::None(NoKeys {});
-            add("tangential", law.tangential.name(), "friction", drop);
+        if law.tangential.row().is_active() && zero(|pair| pair.friction) {
+            add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
         }
-        if law.rolling.name() != "none" && zero(|pair| pair.rolling_friction) {
-            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = RollingChoice::None(NoKeys {}));
+        if law.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = ROLLING_FREELY);
         }
-        if law.cohesion.name() != "none" && zero(|pair| pair.cohesion_energy_density) {
-            let drop = |law: &mut ContactLaw| law.cohesion = CohesionChoice::None(NoKeys {});
-            add("cohesion", law.cohesion.name(), "cohesion_energy_density", drop);
+        if law.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+            add("cohesion", law.cohesion.name(), "cohesion_energy_density", |law| law.cohesion = DRY);
         }
     }
     for (index, damping) in scene.damping.iter().enumerate() {
         if damping.linear.iter().chain(&damping.angular).all(|fraction| *fraction == 0.0) {
-            let mut without = scene.clone();
+            let mut without = SceneDraft::clone(scene);
             without.damping.remove(index);
             spares.push(Spare { what: format!("[damping.{}]: damps no particle", damping.name), without });
         }
     }
     if scene.output.energy && scene.output.history_interval.is_none() {
         let what = "[output] energy: the book is kept, and without history_interval only summary.json tells of it";
-        let mut without = scene.clone();
+        let mut without = SceneDraft::clone(scene);
         without.output.energy = false;
         spares.push(Spare { what: what.to_owned(), without });
     }
     spares
-}
-
-/// The third dimension, where all particles are in one plane, nothing in the text takes them out of it, and the word for that spares
-/// work.
-fn third_dimension(scene: &Scene) -> Option<(Spare, &'static str)> {
-    let mut plane = scene.clone();
-    plane.run.plane = Some(MotionPlane::Xz);
-    if scene.particles.len() < FEW || scene.run.plane.is_some() || !plane_objections(&plane).is_empty() {
-        return None;
-    }
-    let simulation = Simulation::new(Arc::new(plane.clone())).ok()?;
-    let what = "the third dimension: all particles are in one plane, xz".to_owned();
-    let spare = Spare { what, without: plane };
-    simulation.spares_third_dimension().then_some((spare, "with [run] plane = \"xz\""))
 }
 
 /// Whether a property is given as 0 for all pairs of a law that say it.

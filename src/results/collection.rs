@@ -7,7 +7,7 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// What stands before the first frame.
-const HEAD: &str = "<?xml version=\"1.0\"?>\n\
+pub(super) const HEAD: &str = "<?xml version=\"1.0\"?>\n\
     <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
 
 /// What stands behind the last frame.

@@ -1,6 +1,7 @@
 //! Why a command did not do its work.
 
 use super::vtk::EncodeError;
+use crate::document::proposal;
 use crate::interface::InterfaceError;
 use crate::state::snapshot::SnapshotError;
 use crate::step::RunError;
@@ -26,6 +27,34 @@ pub enum OutputError {
         /// What the encoder said.
         source: EncodeError,
     },
+    /// Something that no run has made stands where a run writes.
+    #[error("{}: expected {right}, found {found}; move it away", path.display())]
+    NotOwn {
+        /// The file or folder.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+        /// What would be right.
+        right: String,
+    },
+    /// A file of the run is gone.
+    #[error("{}: expected the file that this run writes, found none or another one: it was moved or deleted meanwhile", path.display())]
+    Gone {
+        /// The file.
+        path: PathBuf,
+    },
+    /// There is no memory for an output.
+    #[error("{}: expected {right} for {what}, which needs about {:.2} GB", path.display(), *needed as f64 / 1e9)]
+    Memory {
+        /// The folder of the results.
+        path: PathBuf,
+        /// What it is needed for.
+        what: &'static str,
+        /// Bytes that are needed.
+        needed: u64,
+        /// What would be right.
+        right: String,
+    },
     /// A child of the process that writes.
     #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
     Forked {
@@ -41,6 +70,11 @@ pub enum OutputError {
 }
 
 impl OutputError {
+    /// Something that no run has made.
+    pub(crate) fn not_own(path: &Path, found: impl Into<String>, right: impl Into<String>) -> Self {
+        Self::NotOwn { path: path.to_owned(), found: found.into(), right: right.into() }
+    }
+
     /// Ties what the system said to the file.
     pub(crate) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |source| Self::Write { path: path.to_owned(), source }
@@ -73,7 +107,7 @@ pub enum ResumeError {
         source: SnapshotError,
     },
     /// It is not a checkpoint.
-    #[error("{}: is not a checkpoint; a file that run or settle has written is right", path.display())]
+    #[error("{}: expected a checkpoint that run or settle has written, found something else", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -103,7 +137,10 @@ pub enum ResumeError {
         time: f64,
     },
     /// A run of this scene never stops at its time.
-    #[error("the checkpoint is at t = {time} s, where a run of this scene writes nothing; {nearest} s would be right")]
+    #[error(
+        "expected a checkpoint where a run of this scene writes, as at t = {nearest} s, found one at t = {time} \
+             s"
+    )]
     Between {
         /// Time of the checkpoint \[s\].
         time: f64,
@@ -112,8 +149,8 @@ pub enum ResumeError {
     },
     /// Rows that were there when the checkpoint was written are missing.
     #[error(
-        "{}: {found} rows found; a run that is continued at t = {time} s has {expected}; \
-         take another folder with -o to begin a new file", path.display()
+        "{}: expected {expected} rows in a run that is continued at t = {time} s, found {found}; take another \
+         folder with -o to begin a new file", path.display()
     )]
     Rows {
         /// The file.
@@ -163,8 +200,26 @@ pub enum InputsError {
         /// What would be right.
         right: String,
     },
+    /// A column that stands for nothing.
+    #[error("{}, line 1: expected time and variables of the unit, found a column {column:?}{}", path.display(), nearest_of(column, known))]
+    Unknown {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The inputs.
+        known: Vec<String>,
+    },
+    /// A column that stands twice.
+    #[error("{}, line 1: expected one column {column}, found two", path.display())]
+    Twice {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+    },
     /// A field is not a number.
-    #[error("{}, line {line}, {column}: {found:?} found; a finite number is right", path.display())]
+    #[error("{}, line {line}, {column}: expected a finite number, found {found:?}", path.display())]
     Number {
         /// The file.
         path: PathBuf,
@@ -186,15 +241,20 @@ pub enum InputsError {
         source: InterfaceError,
     },
     /// A time out of order.
-    #[error("{}, line {line}: time {time:?} found; {right} is right", path.display())]
+    #[error("{}, line {line}: expected {right}, found {found}", path.display())]
     Time {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// The time \[s\].
-        time: f64,
         /// What would be right.
         right: &'static str,
+        /// What was found.
+        found: String,
     },
+}
+
+/// The known word that a column most likely stands for, in a message.
+fn nearest_of(column: &str, known: &[String]) -> String {
+    format!("; {}", proposal(column, known, "inputs are"))
 }

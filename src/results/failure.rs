@@ -39,13 +39,41 @@ pub enum Refusal {
         source: EncodeError,
     },
     /// The results have no place there.
-    #[error("{}: is a file; a folder, or a name that is not there yet, is right", folder.display())]
+    #[error("{}: expected a folder, or a name that is not there yet, found a file", folder.display())]
     NotAFolder {
         /// Where they were to be.
         folder: PathBuf,
     },
+    /// A file that is not to be replaced.
+    #[error("{}: expected a name that is not there yet, found a file; --overwrite replaces it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder where a file is to be written.
+    #[error("{}: expected a file or a name that is not there yet, found a folder", path.display())]
+    NotAFile {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that the command reads itself.
+    #[error("{}: expected a file that the command does not read itself, found {}", path.display(), read.display())]
+    Read {
+        /// The file that was to be written or replaced.
+        path: PathBuf,
+        /// The same file as the command reads it.
+        read: PathBuf,
+    },
+    /// Files of the folder have names of results, and no run has written them.
+    #[error("{}: expected results that a run has written, found {file} of another kind; move it away", folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the file.
+        file: String,
+    },
     /// Another process writes into the folder.
-    #[error("{}: in use by {holder}; another folder is right, or the same one when that run has ended", folder.display())]
+    #[error("{}: in use by {holder}; take another folder, or the same one when that run has ended", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
@@ -64,7 +92,8 @@ pub enum Refusal {
         held: String,
     },
     /// The folder holds results, and nothing else may be written there.
-    #[error("{}: holds results of an earlier run ({held}); an empty folder, or a name that is not there yet, is right", folder.display())]
+    #[error("{}: expected an empty folder, or a name that is not there yet, found results of an earlier run \
+             ({held})", folder.display())]
     Taken {
         /// The folder.
         folder: PathBuf,
@@ -73,7 +102,8 @@ pub enum Refusal {
     },
     /// More outputs than anybody can mean.
     #[error(
-        "{scene}, [output] {key}: {interval:e} s gives {count:.3e} {what} up to t = {end} s; at most {most:e} are right"
+        "{scene}, [output] {key}: expected at most {most:e} {what} up to t = {end} s, found {count:.3e}, one every \
+         {interval:e} s"
     )]
     Counts {
         /// File name of the scene.
@@ -93,7 +123,7 @@ pub enum Refusal {
     },
     /// More time steps than a clock can count.
     #[error(
-        "{scene}, [run] step: {step:e} s gives {count:.3e} time steps up to t = {end} s; at most {most:e} are right"
+        "{scene}, [run] step: expected at most {most:e} time steps up to t = {end} s, found {count:.3e} of {step:e} s"
     )]
     Steps {
         /// File name of the scene.
@@ -111,9 +141,7 @@ pub enum Refusal {
     #[error(transparent)]
     Resume(#[from] ResumeError),
     /// The run ends before it begins.
-    #[error(
-        "{scene}, [run] end: {end} s is not behind t = {time} s, where the checkpoint stands; a later end is right"
-    )]
+    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s")]
     Ended {
         /// File name of the scene.
         scene: String,
@@ -148,8 +176,10 @@ pub enum Failure {
         folder: PathBuf,
     },
     /// Someone asked to stop before the packing had come to rest.
-    #[error("interrupted after {steps} steps {}; nothing was written", reached(*ratio))]
+    #[error("interrupted after {steps} steps {}; {}", reached(*ratio), going_on(kept))]
     SettlingInterrupted {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
@@ -158,9 +188,12 @@ pub enum Failure {
     /// The packing will not come to rest.
     #[error(
         "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
-         the mean force, above settle_tolerance, {tolerance:e}: {why}"
+         the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
+        going_on(kept)
     )]
     Restless {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -173,8 +206,10 @@ pub enum Failure {
         why: String,
     },
     /// The packing did not come to rest.
-    #[error("not settled after {steps} steps (t = {time} s): {}", unsettled(*ratio, *tolerance))]
+    #[error("not settled after {steps} steps (t = {time} s): {}; {}", unsettled(*ratio, *tolerance), going_on(kept))]
     Unsettled {
+        /// Where the state is kept.
+        kept: PathBuf,
         /// Steps made.
         steps: u64,
         /// Time they took \[s\].
@@ -200,6 +235,11 @@ impl From<ResumeError> for Failure {
     fn from(error: ResumeError) -> Self {
         Self::Refused(error.into())
     }
+}
+
+/// Where a packing that is not at rest is kept, and how to go on with it.
+fn going_on(kept: &std::path::Path) -> String {
+    format!("{} holds the state so far: settle --from it to go on", kept.display())
 }
 
 /// How far settling had come.

@@ -2,6 +2,7 @@
 
 use super::UNFINISHED;
 use super::error::{OutputError, ResumeError, TakeOverError};
+use super::failure::Refusal;
 use crate::scene::Scene;
 use crate::state::snapshot::SnapshotError;
 use crate::state::{State, StateFault};
@@ -35,7 +36,12 @@ fn write_whole_by(
 ) -> Result<(), OutputError> {
     let unfinished = unfinished(path);
     let write = || -> io::Result<()> {
-        let mut file = File::create(&unfinished)?;
+        // What a run that was broken off left there, or a link, which is not followed.
+        match fs::remove_file(&unfinished) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let mut file = File::create_new(&unfinished)?;
         contents(&mut file)?;
         if durability == Durability::Machine {
             file.sync_all()?;
@@ -56,6 +62,75 @@ pub(crate) fn sync(path: &Path) -> Result<(), OutputError> {
     File::open(path).and_then(|file| file.sync_all()).map_err(OutputError::at(path))
 }
 
+/// Whether a path still leads to this open file, and through no link.
+#[cfg(unix)]
+pub(crate) fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let open = file.metadata()?;
+    match fs::symlink_metadata(path) {
+        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a path still leads to this open file: elsewhere an open file cannot be removed.
+#[cfg(not(unix))]
+pub(crate) fn is_at(_: &File, _: &Path) -> io::Result<bool> {
+    Ok(true)
+}
+
+/// Whether two paths lead to one file.
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    let same = |path: &Path| path.canonicalize().ok();
+    let Some(there) = same(one).filter(|_| same(other).is_some()) else { return false };
+    Some(there) == same(other) || is_same_file(one, other)
+}
+
+/// Whether two paths are two names of one file.
+#[cfg(unix)]
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let of = |path: &Path| fs::metadata(path).ok().map(|about| (about.dev(), about.ino()));
+    of(one).is_some() && of(one) == of(other)
+}
+
+/// Whether two paths are two names of one file, which is not looked at elsewhere.
+#[cfg(not(unix))]
+fn is_same_file(_: &Path, _: &Path) -> bool {
+    false
+}
+
+/// What happens to a file that is where another one is to be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EarlierFile {
+    /// It stays, and the command is refused.
+    Keep,
+    /// It is replaced.
+    Replace,
+}
+
+/// Refuses a file that the command reads itself, and one that is there and is not to be replaced.
+pub fn claim_file(path: &Path, earlier: EarlierFile, read: &[PathBuf]) -> Result<(), Refusal> {
+    if let Some(own) = read.iter().find(|own| is_same(own, path)) {
+        return Err(Refusal::Read { path: path.to_owned(), read: own.clone() });
+    }
+    match fs::symlink_metadata(path) {
+        Ok(about) if about.is_dir() => Err(Refusal::NotAFile { path: path.to_owned() }),
+        Ok(_) if earlier == EarlierFile::Keep => Err(Refusal::Exists { path: path.to_owned() }),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a folder of results in which a file that the command reads stands under the name of a result.
+pub fn refuse_to_replace(folder: &Path, read: &[PathBuf]) -> Result<(), Refusal> {
+    let results = if folder.is_dir() { super::replacement::results(folder).unwrap_or_default() } else { Vec::new() };
+    match results.iter().find_map(|file| Some((file, read.iter().find(|read| is_same(file, read))?))) {
+        Some((path, read)) => Err(Refusal::Read { path: path.clone(), read: read.clone() }),
+        None => Ok(()),
+    }
+}
+
 /// The name a file has while it is being written.
 fn unfinished(path: &Path) -> PathBuf {
     let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
@@ -68,6 +143,11 @@ fn unfinished(path: &Path) -> PathBuf {
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+}
+
+/// Whether a file is a checkpoint, of any format.
+pub(crate) fn is_checkpoint(beginning: &[u8]) -> bool {
+    beginning.starts_with(KIND) || beginning.starts_with(b"cograin\0")
 }
 
 /// What a checkpoint begins with; the number is that of its format.
@@ -108,8 +188,11 @@ impl Checkpoint {
         let at = path.to_owned();
         let bytes = fs::read(path).map_err(|source| ResumeError::Read { path: at.clone(), source })?;
         let Some(rest) = bytes.strip_prefix(HEAD.as_bytes()) else {
-            let older = bytes.starts_with(b"cograin\0") || bytes.starts_with(KIND);
-            return Err(if older { ResumeError::Format { path: at } } else { ResumeError::Foreign { path: at } });
+            return Err(if is_checkpoint(&bytes) {
+                ResumeError::Format { path: at }
+            } else {
+                ResumeError::Foreign { path: at }
+            });
         };
         let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
         let text = std::str::from_utf8(line).ok().and_then(|line| line.split_once(' '));

@@ -4,7 +4,7 @@ use super::error::{OutputError, ResumeError};
 use super::files::{sync, write_checkpoint};
 use super::frame_files::{Frame, FrameFiles};
 use super::job::{Job, cells};
-use super::replacement::results;
+use super::replacement::own_results;
 use super::schedule::Schedule;
 use super::table::{Found, Table};
 use super::{BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, frame_name, frame_number};
@@ -120,7 +120,7 @@ impl Folder {
         names: &[String],
         kept: &Kept,
     ) -> Result<Self, OutputError> {
-        for stale in results(path)?.iter().filter(|file| is_stale(file, kept)) {
+        for stale in own_results(path)?.iter().filter(|file| is_stale(file, kept)) {
             fs::remove_file(stale).map_err(OutputError::at(stale))?;
         }
         let table = |name: &str, names: &[String], found: &Option<Found>| match found {

@@ -5,6 +5,7 @@
 
 use super::error::OutputError;
 use super::failure::{Failure, Refusal};
+use super::files::is_at;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -12,6 +13,9 @@ use std::time::SystemTime;
 
 /// File that is locked.
 pub(crate) const LOCK: &str = ".cograin-lock";
+
+/// What the file begins with.
+const MARK: &str = "process ";
 
 /// The lock of a folder, until it is dropped.
 #[derive(Debug)]
@@ -30,6 +34,13 @@ impl FolderLock {
         let path = folder.join(LOCK);
         let failed = |source: io::Error| OutputError::Write { path: path.clone(), source };
         loop {
+            // What is not a file that a run left is somebody else's: links are not followed, files not emptied.
+            match fs::symlink_metadata(&path) {
+                Ok(about) if !about.is_file() => {
+                    return Err(OutputError::not_own(&path, "a link or a folder", "a file of a run").into());
+                }
+                _ => {}
+            }
             let mut file =
                 OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(failed)?;
             match file.try_lock() {
@@ -48,9 +59,14 @@ impl FolderLock {
             if !is_at(&file, &path).map_err(failed)? {
                 continue;
             }
+            let mut earlier = Vec::new();
+            (&file).take(MARK.len() as u64).read_to_end(&mut earlier).map_err(failed)?;
+            if !MARK.as_bytes().starts_with(&earlier) {
+                return Err(OutputError::not_own(&path, "a file of another kind", "a lock that a run left").into());
+            }
             file.set_len(0).and_then(|()| file.rewind()).map_err(failed)?;
             let begun = humantime::format_rfc3339_seconds(SystemTime::now());
-            writeln!(file, "process {}, started {begun}", std::process::id()).map_err(failed)?;
+            writeln!(file, "{MARK}{}, started {begun}", std::process::id()).map_err(failed)?;
             return Ok(Self { path, process: std::process::id(), _file: file });
         }
     }
@@ -77,24 +93,6 @@ fn name(holder: &str) -> String {
     if holder.is_empty() { "another process".to_owned() } else { holder.to_owned() }
 }
 
-/// Whether a path still leads to this open file.
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> io::Result<bool> {
-    use std::os::unix::fs::MetadataExt;
-    let open = file.metadata()?;
-    match fs::metadata(path) {
-        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
-    }
-}
-
-/// Whether a path still leads to this open file: elsewhere an open file cannot be removed.
-#[cfg(not(unix))]
-fn is_at(_: &File, _: &Path) -> io::Result<bool> {
-    Ok(true)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,5 +109,22 @@ mod tests {
         drop(held);
         assert!(!folder.join(LOCK).exists());
         drop(FolderLock::take(&folder).unwrap());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_lock_is_neither_followed_nor_emptied() {
+        let folder = std::env::temp_dir().join(format!("cograin-lock-links-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("mine.txt"), "mine").unwrap();
+        std::os::unix::fs::symlink("mine.txt", folder.join(LOCK)).unwrap();
+        let told = FolderLock::take(&folder).unwrap_err().to_string();
+        assert!(told.contains("expected a file of a run, found a link"), "{told}");
+        fs::remove_file(folder.join(LOCK)).unwrap();
+        fs::hard_link(folder.join("mine.txt"), folder.join(LOCK)).unwrap();
+        let told = FolderLock::take(&folder).unwrap_err().to_string();
+        assert!(told.contains("expected a lock that a run left"), "{told}");
+        assert_eq!(fs::read_to_string(folder.join("mine.txt")).unwrap(), "mine");
     }
 }

@@ -11,10 +11,10 @@
 //! | `.cograin-moving`    | the new run, the other is gone | puts the new files in their place |
 
 use super::error::OutputError;
-use super::files::sync_folder;
-use super::{BREAKAGE, CHECKPOINT, HISTORY, SUMMARY, UNFINISHED, frame_number, is_collection};
-use std::fs;
-use std::io;
+use super::files::{is_checkpoint, sync_folder};
+use super::{BREAKAGE, CHECKPOINT, HISTORY, SUMMARY, UNFINISHED, collection, frame_number, is_collection};
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Where a run begins.
@@ -25,6 +25,12 @@ const REPLACING: &str = ".cograin-replacing";
 
 /// The same, once the earlier run's results are gone.
 const MOVING: &str = ".cograin-moving";
+
+/// What every summary begins with.
+const SUMMARY_MARK: &[u8] = b"{\n  \"program\": \"cograin ";
+
+/// Bytes that tell what a file is.
+const BEGINNING: u64 = 256;
 
 /// Makes the empty folder in which a run begins.
 pub(crate) fn begin(folder: &Path) -> Result<PathBuf, OutputError> {
@@ -40,28 +46,36 @@ pub(crate) fn finish(folder: &Path) -> Result<(), OutputError> {
     take_up(folder)
 }
 
-/// Ends a replacement that was broken off; one that had not come to its decisive moment is undone.
+/// Ends a replacement that was broken off; one that had not come to its decisive moment is undone. Nothing is followed
+/// through a link, and nothing is removed or overwritten that no run has written.
 pub(crate) fn take_up(folder: &Path) -> Result<(), OutputError> {
     remove_folder(&folder.join(NEW))?;
-    if folder.join(REPLACING).is_dir() {
-        for path in results(folder)? {
+    let replacing = folder.join(REPLACING);
+    if is_own_folder(&replacing)? {
+        // A run's first files are whole before the folder gets this name.
+        if kind_of(&replacing.join(CHECKPOINT))? != Kind::Own {
+            return Err(OutputError::not_own(&replacing, "others", "the first files of a run"));
+        }
+        for path in own_results(folder)? {
             fs::remove_file(&path).map_err(OutputError::at(&path))?;
         }
         rename(folder, REPLACING, MOVING)?;
     }
     let moving = folder.join(MOVING);
-    if moving.is_dir() {
-        let entries = fs::read_dir(&moving).and_then(Iterator::collect::<io::Result<Vec<_>>>);
-        for entry in entries.map_err(OutputError::at(&moving))? {
-            let place = folder.join(entry.file_name());
-            fs::rename(entry.path(), &place).map_err(OutputError::at(&place))?;
+    if is_own_folder(&moving)? {
+        for path in own_results(&moving)? {
+            let place = folder.join(path.file_name().unwrap_or_default());
+            if fs::symlink_metadata(&place).is_ok() {
+                return Err(OutputError::not_own(&place, "a file", "no file where the run's own is to stand"));
+            }
+            fs::rename(&path, &place).map_err(OutputError::at(&place))?;
         }
         fs::remove_dir(&moving).map_err(OutputError::at(&moving))?;
     }
     Ok(())
 }
 
-/// The results of a run in a folder, also those that are not finished.
+/// The files in a folder that have names of results, also those that are not finished.
 pub(crate) fn results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(OutputError::at(folder))? {
@@ -72,6 +86,72 @@ pub(crate) fn results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     }
     found.sort();
     Ok(found)
+}
+
+/// Those of them that a run has written.
+pub(crate) fn own_results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    let mut own = Vec::new();
+    for path in results(folder)? {
+        if kind_of(&path)? == Kind::Own {
+            own.push(path);
+        }
+    }
+    Ok(own)
+}
+
+/// The first file with the name of a result that no run has written, if there is any.
+pub(crate) fn foreign_result(folder: &Path) -> Result<Option<String>, OutputError> {
+    for path in results(folder)? {
+        if kind_of(&path)? == Kind::Foreign {
+            return Ok(path.file_name().map(|name| name.to_string_lossy().into_owned()));
+        }
+    }
+    Ok(None)
+}
+
+/// Who has written a file with the name of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// A run.
+    Own,
+    /// Somebody else.
+    Foreign,
+    /// Nobody: there is none.
+    Absent,
+}
+
+/// Who has written a file with the name of a result, as its first bytes show; frames are those that a run's own list of them, the
+/// `.pvd` beside them, names, and the next one of the list, which a run that was broken off may have left.
+fn kind_of(path: &Path) -> Result<Kind, OutputError> {
+    let about = match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kind::Absent),
+        about => about.map_err(OutputError::at(path))?,
+    };
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let beginning = || -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        File::open(path)?.take(BEGINNING).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let begins = |own: &dyn Fn(&[u8]) -> bool| beginning().map(|bytes| own(&bytes)).map_err(OutputError::at(path));
+    let own = about.is_file()
+        && match name {
+            _ if name.ends_with(&format!(".{UNFINISHED}")) => true,
+            HISTORY | BREAKAGE => begins(&|bytes| bytes.starts_with(b"time,") || bytes.starts_with(b"time\n"))?,
+            SUMMARY => begins(&|bytes| bytes.starts_with(SUMMARY_MARK))?,
+            CHECKPOINT => begins(&is_checkpoint)?,
+            _ if is_collection(name) => begins(&|bytes| bytes.starts_with(collection::HEAD.as_bytes()))?,
+            _ => is_listed(path, name),
+        };
+    Ok(if own { Kind::Own } else { Kind::Foreign })
+}
+
+/// Whether a frame stands in the list of frames of its kind, or comes next there.
+fn is_listed(path: &Path, name: &str) -> bool {
+    let Some((kind, number)) = name.rsplit_once('_').zip(frame_number(name)) else { return false };
+    let Ok(list) = fs::read_to_string(path.with_file_name(super::collection_name(kind.0))) else { return false };
+    let listed = |number: usize| list.contains(&format!("file=\"{}\"", super::frame_name(kind.0, number)));
+    list.starts_with(collection::HEAD) && (listed(number) || number.checked_sub(1).is_none_or(listed))
 }
 
 /// Whether a file has a name that runs give.
@@ -86,11 +166,24 @@ fn rename(folder: &Path, from: &str, to: &str) -> Result<(), OutputError> {
     fs::rename(folder.join(from), &path).and_then(|()| sync_folder(&path)).map_err(OutputError::at(&path))
 }
 
-/// Removes a folder with what is in it, if it is there.
+/// Removes a hidden folder with what a run has begun in it, if it is there.
 fn remove_folder(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_dir_all(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::at(path)(error)),
-        _ => Ok(()),
+    if !is_own_folder(path)? {
+        return Ok(());
+    }
+    for file in results(path)? {
+        fs::remove_file(&file).map_err(OutputError::at(&file))?;
+    }
+    fs::remove_dir(path).map_err(OutputError::at(path))
+}
+
+/// Whether a hidden folder is there; a link or a file of its name is refused.
+fn is_own_folder(path: &Path) -> Result<bool, OutputError> {
+    match fs::symlink_metadata(path) {
+        Ok(about) if about.is_dir() => Ok(true),
+        Ok(_) => Err(OutputError::not_own(path, "a link or a file", "a folder that a run has made")),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(OutputError::at(path)(error)),
     }
 }
 
@@ -146,22 +239,68 @@ mod tests {
 
     #[test]
     fn what_stands_is_finished_wherever_it_was_broken_off() {
-        let expected = [("checkpoint.cograin", "new"), ("history.csv", "new"), ("notes.txt", "mine")];
+        let (old, new, checkpoint) = ("time,old\n", "time,new\n", "cograin checkpoint 1\nnew");
+        let list = format!("{}<DataSet timestep=\"0.0\" part=\"0\" file=\"particles_000007.vtu\"/>", collection::HEAD);
+        let expected = [
+            ("checkpoint.cograin", checkpoint),
+            ("history.csv", new),
+            ("notes.txt", "mine"),
+            ("particles_000003.vtu", "mine"),
+        ];
         let expected = expected.map(|(name, word)| (name.to_owned(), word.to_owned()));
         let cases: [&[(&str, &str)]; 3] = [
             &[
-                ("history.csv", "old"),
+                ("history.csv", old),
+                ("particles.pvd", &list),
                 ("particles_000007.vtu", "old"),
-                (".cograin-replacing/history.csv", "new"),
-                (".cograin-replacing/checkpoint.cograin", "new"),
+                ("particles_000008.vtu", "old, not yet in the list"),
+                (".cograin-replacing/history.csv", new),
+                (".cograin-replacing/checkpoint.cograin", checkpoint),
             ],
-            &[("history.csv", "new"), (".cograin-moving/checkpoint.cograin", "new")],
-            &[(".cograin-moving/history.csv", "new"), (".cograin-moving/checkpoint.cograin", "new")],
+            &[("history.csv", new), (".cograin-moving/checkpoint.cograin", checkpoint)],
+            &[(".cograin-moving/history.csv", new), (".cograin-moving/checkpoint.cograin", checkpoint)],
         ];
         for (number, case) in cases.into_iter().enumerate() {
-            let path = folder(&format!("finished{number}"), &[case, &[("notes.txt", "mine")]].concat());
+            let path = folder(
+                &format!("finished{number}"),
+                &[case, &[("notes.txt", "mine"), ("particles_000003.vtu", "mine")]].concat(),
+            );
             take_up(&path).unwrap();
             assert_eq!(contents(&path), expected, "case {number}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_no_run_has_made_is_neither_followed_nor_removed_nor_overwritten() {
+        let checkpoint = "cograin checkpoint 1\n";
+        let cases: [(&[(&str, &str)], &str); 3] = [
+            (&[("history.csv", "time,a\n"), (".cograin-replacing/notes", "x")], "expected the first files of a run"),
+            (&[("history.csv", "mine"), (".cograin-moving/history.csv", "time,a\n")], "expected no file where"),
+            (&[("a", "x"), (".cograin-moving/notes", "x")], ".cograin-moving"),
+        ];
+        for (number, (files, expected)) in cases.into_iter().enumerate() {
+            let path = folder(&format!("foreign{number}"), files);
+            let told = take_up(&path).unwrap_err().to_string();
+            assert!(told.contains(expected), "{told}");
+            for (file, word) in files {
+                assert_eq!(fs::read_to_string(path.join(file)).unwrap(), *word);
+            }
+        }
+        let others = folder("others", &[("history.csv", "time,a\n"), ("checkpoint.cograin", checkpoint)]);
+        for name in [NEW, REPLACING, MOVING] {
+            let path = folder("links", &[("history.csv", "time,b\n")]);
+            std::os::unix::fs::symlink(&others, path.join(name)).unwrap();
+            let told = take_up(&path).unwrap_err().to_string();
+            assert!(told.contains("found a link"), "{name}: {told}");
+            assert_eq!(
+                (contents(&others).len(), fs::read_to_string(path.join("history.csv")).unwrap().as_str()),
+                (2, "time,b\n")
+            );
+        }
+        let path =
+            folder("named", &[("history.csv", "mine"), ("summary.json", "{}"), ("particles_000000.vtu", "mine")]);
+        assert_eq!(own_results(&path).unwrap(), Vec::<PathBuf>::new());
+        assert_eq!(foreign_result(&path).unwrap().as_deref(), Some("history.csv"));
     }
 }

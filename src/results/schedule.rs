@@ -28,6 +28,9 @@ const MOST_STEPS: f64 = 1e15;
 /// Two times closer than this part of an interval are one.
 const SAME: f64 = 1e-9;
 
+/// Two times closer than this part of themselves differ by rounding alone: they are one, too.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A saved time may be off by this part of the shortest interval.
 const NEAR: f64 = 1e-3;
 
@@ -47,7 +50,7 @@ impl Series {
     /// Times at this interval \[s\].
     fn every(interval: f64) -> Self {
         let rate = (1.0 / interval).round();
-        let whole = rate >= 1.0 && (rate * interval - 1.0).abs() < SAME;
+        let whole = rate >= 1.0 && (rate * interval - 1.0).abs() < ROUNDING;
         Self { interval, per_second: whole.then_some(rate) }
     }
 
@@ -59,9 +62,27 @@ impl Series {
         }
     }
 
+    /// By how much two times at about this one \[s\] may differ and still be one \[s\].
+    fn slack(self, time: f64) -> f64 {
+        (SAME * self.interval).max(ROUNDING * time)
+    }
+
     /// The number of the last output at or before `time`, which may be off by `slack` \[s\].
     fn last(self, time: f64, slack: f64) -> u64 {
-        ((time + slack) / self.interval).floor().max(0.0) as u64
+        let mut count = (time / self.interval).floor().max(0.0) as u64;
+        // The quotient is rounded; the times of outputs, which are compared, are the same numbers everywhere.
+        while count > 0 && self.time(count) > time + slack {
+            count -= 1;
+        }
+        while self.time(count + 1) <= time + slack {
+            count += 1;
+        }
+        count
+    }
+
+    /// The first output after `time`, or after the one that `time` is \[s\].
+    fn beyond(self, time: f64) -> f64 {
+        self.time(self.last(time, self.slack(time)) + 1)
     }
 }
 
@@ -120,20 +141,27 @@ impl Schedule {
         for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
             let Some(interval) = interval else { continue };
             let count = end / interval;
-            if count > most {
+            if count > most * (1.0 + SAME) {
                 return Err(Refusal::Counts { scene: scene_name.to_owned(), key, interval, count, what, end, most });
             }
-        }
-        if let Step::Given(step) = scene.run.step
-            && end / step > MOST_STEPS
-        {
-            let (scene, count) = (scene_name.to_owned(), end / step);
-            return Err(Refusal::Steps { scene, step, count, end, most: MOST_STEPS });
         }
         let [history, frames, checkpoints] = intervals.map(|interval| interval.map(Series::every));
         let named = history.or(frames).or(checkpoints).is_some();
         let plain = (!named).then(|| Series::every(end / DEFAULT_STEPS));
-        Ok(Self { history, frames, checkpoints, plain, end })
+        let schedule = Self { history, frames, checkpoints, plain, end };
+        if let Step::Given(step) = scene.run.step {
+            schedule.check_step(scene_name, step)?;
+        }
+        Ok(schedule)
+    }
+
+    /// Refuses a time step of which nobody can mean so many \[s\].
+    pub(crate) fn check_step(&self, scene_name: &str, step: f64) -> Result<(), Refusal> {
+        let count = self.end / step;
+        if count <= MOST_STEPS {
+            return Ok(());
+        }
+        Err(Refusal::Steps { scene: scene_name.to_owned(), step, count, end: self.end, most: MOST_STEPS })
     }
 
     /// All intervals.
@@ -143,16 +171,15 @@ impl Schedule {
 
     /// The first point after the one at `time` \[s\]; none at the end.
     pub(crate) fn after(&self, time: f64) -> Option<Point> {
-        let beyond = |series: Series| series.time(series.last(time, SAME * series.interval) + 1);
         if time >= self.end {
             return None;
         }
-        let mut next = self.series().map(beyond).fold(self.end, f64::min);
-        if self.series().any(|series| self.end - next < SAME * series.interval) {
+        let mut next = self.series().map(|series| series.beyond(time)).fold(self.end, f64::min);
+        if self.series().any(|series| self.end - next < series.slack(self.end)) {
             next = self.end;
         }
         let is_due = |series: Option<Series>| {
-            series.is_some_and(|series| next >= self.end || beyond(series) - next < SAME * series.interval)
+            series.is_some_and(|series| next >= self.end || series.beyond(time) - next < series.slack(next))
         };
         let due = Due {
             history: is_due(self.history) || next >= self.end,
@@ -219,9 +246,8 @@ impl Schedule {
 
     /// Outputs of one kind up to and with the point at `time` \[s\], without the one at the end of the run.
     fn regular_until(&self, series: Series, time: f64) -> u64 {
-        let slack = SAME * series.interval;
-        let count = series.last(time, slack) + 1;
-        if count > 1 && self.end - series.time(count - 1) < slack { count - 1 } else { count }
+        let count = series.last(time, series.slack(time)) + 1;
+        if count > 1 && self.end - series.time(count - 1) < series.slack(self.end) { count - 1 } else { count }
     }
 }
 

@@ -4,6 +4,7 @@
 //! ends with a whole row at any time.
 
 use super::error::{OutputError, ResumeError};
+use super::files::is_at;
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -29,6 +30,9 @@ impl Table {
     pub(crate) fn reopen(path: &Path, found: &Found) -> Result<Self, OutputError> {
         let at = OutputError::at;
         let file = OpenOptions::new().append(true).open(path).map_err(at(path))?;
+        if !is_at(&file, path).map_err(at(path))? {
+            return Err(OutputError::not_own(path, "a link", "a file of a run"));
+        }
         file.set_len(found.bytes).map_err(at(path))?;
         Ok(Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) })
     }
@@ -41,7 +45,13 @@ impl Table {
 
     /// Makes sure that all rows are on the disk.
     pub(crate) fn sync(&self) -> Result<(), OutputError> {
-        self.rows.get_ref().sync_all().map_err(OutputError::at(&self.path))
+        let file = self.rows.get_ref();
+        file.sync_all().map_err(OutputError::at(&self.path))?;
+        if is_at(file, &self.path).map_err(OutputError::at(&self.path))? {
+            Ok(())
+        } else {
+            Err(OutputError::Gone { path: self.path.clone() })
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::jobs::{frame, row};
 use super::order::{EarlierResults, RunOrder, Start};
 use super::summary;
 use crate::interface::Interface;
+use crate::results::files::refuse_to_replace;
 use crate::results::folder::{Folder, Kept};
 use crate::results::job::Job;
 use crate::results::lock::FolderLock;
@@ -94,6 +95,12 @@ pub(super) fn claim(order: &RunOrder<'_>) -> Result<FolderLock, Failure> {
     {
         return Err(Refusal::Used { folder: path.to_owned(), held }.into());
     }
+    if let Some(file) = replacement::foreign_result(path)? {
+        return Err(Refusal::Foreign { folder: path.to_owned(), file }.into());
+    }
+    let from = if let Start::From(path) = order.start { Some(path.as_path()) } else { None };
+    let read: Vec<PathBuf> = order.inputs.into_iter().chain(from).map(Path::to_owned).collect();
+    refuse_to_replace(path, &read)?;
     Ok(lock)
 }
 

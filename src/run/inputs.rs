@@ -30,13 +30,24 @@ struct Column {
 }
 
 impl Inputs {
-    /// Reads a table: a column `time`, and columns with the names of inputs; others are skipped.
+    /// Reads a table: a column `time`, and columns with the names of inputs. Those of other variables are skipped: a master
+    /// notes them, too.
     pub(crate) fn read(path: &Path, interface: &Interface) -> Result<Self, InputsError> {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let names = reader.headers().map_err(unreadable)?.clone();
         let missing = |right| InputsError::Column { path: path.to_owned(), right };
         let time = names.iter().position(|name| name == "time").ok_or_else(|| missing("time".to_owned()))?;
+        for (place, name) in names.iter().enumerate() {
+            let column = || name.to_owned();
+            if name != "time" && !interface.variables().iter().any(|variable| variable.name == name) {
+                let known = interface.inputs().map(|(_, variable)| variable.name.clone()).collect();
+                return Err(InputsError::Unknown { path: path.to_owned(), column: column(), known });
+            }
+            if names.iter().take(place).any(|before| before == name) {
+                return Err(InputsError::Twice { path: path.to_owned(), column: column() });
+            }
+        }
         let inputs = interface.inputs().filter_map(|(index, variable)| {
             let column = names.iter().position(|name| name == variable.name)?;
             Some((column, index))
@@ -59,29 +70,29 @@ impl Inputs {
                 let refused = |source| InputsError::Refused { path: path.to_owned(), line, source };
                 interface.check(*index, *value).map_err(refused)?;
             }
-            table.add(now, &row).map_err(|right| InputsError::Time {
+            table.add(now, &row).map_err(|(right, found)| InputsError::Time {
                 path: path.to_owned(),
                 line,
-                time: now,
                 right,
+                found,
             })?;
         }
         Ok(table)
     }
 
-    /// Takes a row; otherwise what would be right.
-    fn add(&mut self, time: f64, row: &[f64]) -> Result<(), &'static str> {
+    /// Takes a row; otherwise what would be right and what was found.
+    fn add(&mut self, time: f64, row: &[f64]) -> Result<(), (&'static str, String)> {
         if time == 0.0 && self.times.len() == 1 {
             for (column, value) in self.columns.iter_mut().zip(row) {
                 if column.is_place && *value != 0.0 {
-                    return Err("displacement 0 at time 0");
+                    return Err(("displacement 0 at time 0", format!("{value:?}")));
                 }
                 column.values[0] = *value;
             }
             return Ok(());
         }
         if self.times.last().is_some_and(|last| time <= *last) {
-            return Err("a time after that of the line before, or 0 in the first");
+            return Err(("a time after that of the line before, or 0 in the first", format!("{time:?}")));
         }
         self.times.push(time);
         for (column, value) in self.columns.iter_mut().zip(row) {

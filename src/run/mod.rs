@@ -26,7 +26,7 @@ use crate::results::lock::FolderLock;
 use crate::results::schedule::{Due, Schedule};
 use crate::results::writer::{Writer, opened};
 use crate::results::{Failure, OutputError, Refusal, ResumeError};
-use crate::step::Simulation;
+use crate::step::{RunError, Simulation};
 use beginning::{First, Origin, checkpoint, claim};
 use inputs::Inputs;
 use jobs::{frame, row};
@@ -127,6 +127,7 @@ impl<'a> Session<'a> {
                 (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
             }
         };
+        schedule.check_step(order.scene_name, simulation.state().clock.step)?;
         let lock = early_lock.map_or_else(|| claim(&order), Ok)?;
         let outputs = interface.recorded().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
@@ -198,7 +199,7 @@ impl<'a> Session<'a> {
     }
 
     /// Hands the outputs that are due to the writer.
-    fn write(&mut self, due: Due, checkpoint: WrittenFrom) -> Result<(), OutputError> {
+    fn write(&mut self, due: Due, checkpoint: WrittenFrom) -> Result<(), Failure> {
         let time = self.time;
         if due.history {
             self.writer.send(row(&self.interface, &self.simulation, time))?;
@@ -208,6 +209,7 @@ impl<'a> Session<'a> {
         }
         if due.checkpoint {
             self.last_checkpoint = Instant::now();
+            self.simulation.check_present()?;
             let state = self.simulation.state();
             match checkpoint {
                 WrittenFrom::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
@@ -233,6 +235,15 @@ impl<'a> Session<'a> {
         let mut summary =
             Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
         summary.left_behind = self.left_behind;
+        let result = result.and_then(|()| match summary.lacking() {
+            Some(part) => {
+                Err(RunError::Invalid { part, place: 0, right: "finite numbers", time: self.simulation.time() }.into())
+            }
+            None => Ok(()),
+        });
+        if let Err(failure) = &result {
+            summary.end_with(failure);
+        }
         let path = self.order.folder.join(SUMMARY);
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
         result.and(written.map_err(Failure::from)).map(|()| summary)

@@ -49,6 +49,25 @@ pub struct MomentumBalance {
     pub relative_residual: f64,
 }
 
+impl MomentumBalance {
+    /// Whether every number is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let Self {
+            change,
+            gravity,
+            applied,
+            boundaries,
+            damping,
+            support,
+            added_inertia,
+            exchanged,
+            relative_residual,
+        } = self;
+        let impulses = [change, gravity, applied, boundaries, damping, support, added_inertia];
+        impulses.into_iter().chain(exchanged).flatten().chain([relative_residual]).all(|number| number.is_finite())
+    }
+}
+
 /// The account at the start of a session, to compare with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start(Account);

@@ -1,7 +1,8 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
+use crate::contact::{MaterialPair, PairProperties};
 use crate::exchange::Amount;
-use crate::scene::{Scene, Step};
+use crate::scene::{ContactLaw, Scene, Step};
 use crate::step::{COLLAPSING_COHESION, Simulation};
 
 /// Part of the stable step above which a given step is said to be near it.
@@ -22,6 +23,9 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(time_step(scene, simulation));
     remarks.extend(intervals(scene));
     remarks.extend(moduli(scene));
+    remarks.extend(unusual(scene));
+    remarks.extend(unread(scene));
+    remarks.extend(passed_through(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(overlap(simulation));
@@ -35,8 +39,9 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
     let stable = simulation.state().clock.stable;
     if scene.run.allow_unstable {
+        let found = if stable.is_finite() { format!(" ({stable:.3e} s as last found)") } else { String::new() };
         return Some(format!(
-            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one ({stable:.3e} s as last found); its numbers are worth nothing then"
+            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one{found}; its numbers are worth nothing then"
         ));
     }
     (step > NEAR_THE_BOUND * stable).then(|| {
@@ -94,6 +99,120 @@ fn moduli(scene: &Scene) -> Vec<String> {
         .collect()
 }
 
+/// Numbers that scenes usually have, in SI units; what is outside is often a slip of units or sign.
+const USUAL_DENSITIES: [f64; 2] = [50.0, 25_000.0];
+/// Radii from powders to boulders \[m\].
+const USUAL_RADII: [f64; 2] = [1e-7, 2.0];
+/// Coefficients of friction.
+const USUAL_FRICTION: [f64; 2] = [0.0, 2.0];
+/// Gravity, that of centrifuges included \[m/s²\].
+const USUAL_GRAVITY: [f64; 2] = [0.0, 2000.0];
+/// Surface energies \[J/m²\].
+const USUAL_SURFACE_ENERGIES: [f64; 2] = [0.0, 10.0];
+
+/// On numbers outside of the usual range, with the range.
+fn unusual(scene: &Scene) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let mut look = |key: String, value: f64, unit: &str, [least, most]: [f64; 2]| {
+        if value < least || value > most {
+            remarks
+                .push(format!("{key}: expected {least:e} to {most:e}{unit} as usual, found {value:e}; check the unit"));
+        }
+    };
+    for material in &scene.materials {
+        look(format!("[material.{}] density", material.name), material.density, " kg/m³", USUAL_DENSITIES);
+    }
+    let gravity = scene.gravity.iter().map(|part| part * part).sum::<f64>().sqrt();
+    look("gravity".to_owned(), gravity, " m/s²", USUAL_GRAVITY);
+    for (set, name) in scene.sets.iter().enumerate() {
+        let radii =
+            || scene.particles.iter().filter(|particle| particle.set.index() == set).map(|particle| particle.radius);
+        let key = || format!("[particles.{name}] radius");
+        if let Some(least) = radii().reduce(f64::min).filter(|least| *least < USUAL_RADII[0]) {
+            look(key(), least, " m", USUAL_RADII);
+        }
+        if let Some(most) = radii().reduce(f64::max).filter(|most| *most > USUAL_RADII[1]) {
+            look(key(), most, " m", USUAL_RADII);
+        }
+    }
+    for (table, properties) in pairs(scene) {
+        let keys = [
+            ("friction", properties.friction, "", USUAL_FRICTION),
+            ("rolling_friction", properties.rolling_friction, "", USUAL_FRICTION),
+            ("surface_energy", properties.surface_energy, " J/m²", USUAL_SURFACE_ENERGIES),
+        ];
+        for (key, value, unit, range) in keys {
+            if let Some(value) = value {
+                look(format!("[{table}] {key}"), value.get(), unit, range);
+            }
+        }
+    }
+    remarks
+}
+
+/// The tables of pairs of materials, by name, each once.
+fn pairs(scene: &Scene) -> impl Iterator<Item = (String, &PairProperties)> {
+    let count = scene.materials.len();
+    let name = |index: usize| &scene.materials[index].name;
+    let entries = (0..count).flat_map(move |a| (a..count).map(move |b| (a, b)));
+    entries.map(move |(a, b)| (format!("pair.{}.{}", name(a), name(b)), &scene.pairs[a * count + b]))
+}
+
+/// On properties of pairs of materials that nothing reads.
+fn unread(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let entries = (0..count).flat_map(|a| (a..count).map(move |b| (a, b)));
+    let mut remarks = Vec::new();
+    for ((a, b), (table, properties)) in entries.zip(pairs(scene)) {
+        let laws: Vec<_> = scene.contacts.iter().filter(|law| law.between[a * count + b]).collect();
+        let with = |law: &ContactLaw, properties: &PairProperties| {
+            let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
+            law.choice().coefficients(&pair).ok()
+        };
+        let is_read = |variants: &[PairProperties; 2]| {
+            laws.iter().any(|law| variants.iter().any(|other| with(law, other) != with(law, properties)))
+        };
+        let keys: Vec<_> =
+            properties.variants().filter(|(_, variants)| !is_read(variants)).map(|(key, _)| key).collect();
+        if keys.is_empty() {
+            continue;
+        }
+        let right = if laws.is_empty() {
+            "a [contact] law for these materials"
+        } else {
+            "a sub-model of [contact] that takes it, or no such key"
+        };
+        remarks.push(format!("[{table}] {}: nothing reads it; expected {right}", keys.join(", ")));
+    }
+    remarks
+}
+
+/// On particles that pass through boundaries because no law is for their contacts.
+fn passed_through(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let mut present: Vec<u32> = scene.particles.iter().map(|particle| particle.material.0).collect();
+    present.extend(scene.insertions.iter().map(|insertion| insertion.material.0));
+    present.sort_unstable();
+    present.dedup();
+    let mut remarks = Vec::new();
+    for boundary in &scene.boundaries {
+        let Some(material) = boundary.shape.material() else { continue };
+        let bonded = scene.bonds.iter().any(|bond| bond.plane.is_some());
+        let lawless = |particle: &&u32| {
+            let entry = **particle as usize * count + material.index();
+            !scene.contacts.iter().any(|law| law.between[entry])
+        };
+        if let Some(particle) = present.iter().find(lawless).filter(|_| !bonded) {
+            let [particle, other] = [*particle as usize, material.index()].map(|index| &scene.materials[index].name);
+            remarks.push(format!(
+                "[boundary.{}]: particles of {particle} pass through it: expected a [contact] law for {particle} and {other}",
+                boundary.name
+            ));
+        }
+    }
+    remarks
+}
+
 /// On cohesion that pulls contacts deep into each other.
 fn cohesion(scene: &Scene) -> Vec<String> {
     let count = scene.materials.len();
@@ -142,6 +261,55 @@ fn falling(scene: &Scene) -> Option<String> {
 mod tests {
     use super::*;
     use crate::scene::Source;
+
+    /// A scene with these lines about the pair and the law.
+    fn scene(pair: &str, law: &str, density: f64) -> Scene {
+        let text = format!(
+            "gravity = [0.0, 0.0, -9.81]\n[material.g]\ndensity = {density:?}\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\n\
+             [pair.g.g]\n{pair}\n{law}\n[particles.a]\nmaterial = \"g\"\nlist = [{{ position = [0.0, 0.0, 0.02], radius = 0.01 }}]\n\
+             [boundary.floor]\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}\nmaterial = \"g\"\n"
+        );
+        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+        Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn what_nothing_reads_is_remarked() {
+        let (pair, law) =
+            ("restitution = 0.5\nfriction = 0.4", "[contact.c.normal.hertz]\n[contact.c.tangential.history]");
+        assert!(unread(&scene(pair, law, 2500.0)).is_empty());
+        let forgotten = scene(pair, "", 2500.0);
+        assert_eq!(
+            unread(&forgotten),
+            ["[pair.g.g] restitution, friction: nothing reads it; expected a [contact] law for these materials"]
+        );
+        assert_eq!(
+            passed_through(&forgotten),
+            ["[boundary.floor]: particles of g pass through it: expected a [contact] law for g and g"]
+        );
+        let more = format!("{pair}\ncohesion_energy_density = 1e4\nrolling_friction = 0.3");
+        let told = unread(&scene(&more, law, 2500.0));
+        assert!(
+            told[0].starts_with("[pair.g.g] rolling_friction, cohesion_energy_density: nothing reads it"),
+            "{told:?}"
+        );
+        let read = format!("{law}\n[contact.c.rolling.cdt]\n[contact.c.cohesion.sjkr]");
+        assert!(unread(&scene(&more, &read, 2500.0)).is_empty());
+    }
+
+    #[test]
+    fn what_is_outside_of_the_usual_range_is_remarked_with_the_range() {
+        let law = "[contact.c.normal.hertz]\n[contact.c.tangential.history]";
+        assert!(unusual(&scene("restitution = 0.5\nfriction = 0.4", law, 2500.0)).is_empty());
+        let told = unusual(&scene("restitution = 0.5\nfriction = 40.0", law, 2.5));
+        assert_eq!(
+            told,
+            [
+                "[material.g] density: expected 5e1 to 2.5e4 kg/m³ as usual, found 2.5e0; check the unit",
+                "[pair.g.g] friction: expected 0e0 to 2e0 as usual, found 4e1; check the unit",
+            ]
+        );
+    }
 
     #[test]
     fn a_spring_that_its_dashpot_stretches_backwards_is_remarked() {

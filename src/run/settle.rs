@@ -2,10 +2,11 @@
 
 use crate::results::files::{Checkpoint, write_checkpoint};
 use crate::results::{Failure, Refusal};
-use crate::scene::{AxisMotion, Boundary, Scene};
+use crate::scene::{AxisMotion, Boundary, Scene, SceneDraft};
 use crate::step::{Description, Simulation};
 use std::collections::VecDeque;
-use std::path::Path;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -87,7 +88,10 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
     };
     let steps_before = simulation.state().clock.steps;
     simulation.damp_rest(order.scene.run.settle_damping);
-    let ratio = come_to_rest(&mut simulation, &order, watch)?;
+    let come = match come_to_rest(&mut simulation, &order, watch) {
+        Err(Failure::Run(error)) => return Err(error.into()),
+        come => come,
+    };
     let (steps, time) = (simulation.state().clock.steps - steps_before, simulation.time());
     let reached = simulation.state().clone();
     let simulation = match order.from {
@@ -95,6 +99,13 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         Some(_) => {
             let from = Description::of(&still, order.scene_name, time);
             Simulation::taken_over(Arc::clone(order.scene), &reached, &from)?.0
+        }
+    };
+    let ratio = match come {
+        Ok(ratio) => ratio,
+        Err(unsettled) => {
+            write_checkpoint(&kept(order.checkpoint), simulation.state(), order.scene, order.scene_name)?;
+            return Err(unsettled);
         }
     };
     write_checkpoint(order.checkpoint, simulation.state(), order.scene, order.scene_name)?;
@@ -108,6 +119,13 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         wall_time: begun.elapsed().as_secs_f64(),
         left_behind,
     })
+}
+
+/// Where the state of a packing goes that has not come to rest: nobody is to take it for one that has.
+fn kept(checkpoint: &Path) -> PathBuf {
+    let mut name = checkpoint.file_name().map_or_else(OsString::new, OsString::from);
+    name.push(".unsettled");
+    checkpoint.with_file_name(name)
 }
 
 /// Steps until several looks in a row find the unbalanced force below the tolerance. Returns the largest of them.
@@ -130,14 +148,27 @@ fn come_to_rest(
         }
         let latest = looks.back().copied().unwrap_or(ratio);
         if order.stop.load(Ordering::Relaxed) {
-            return Err(Failure::SettlingInterrupted { steps, ratio: latest });
+            return Err(Failure::SettlingInterrupted { kept: kept(order.checkpoint), steps, ratio: latest });
         }
         if steps >= order.most_steps {
-            return Err(Failure::Unsettled { steps, time: simulation.time(), ratio: latest, tolerance });
+            return Err(Failure::Unsettled {
+                kept: kept(order.checkpoint),
+                steps,
+                time: simulation.time(),
+                ratio: latest,
+                tolerance,
+            });
         }
         if let Some(best) = course.stalled(ratio, simulation) {
             let why = why_not(simulation);
-            return Err(Failure::Restless { steps, time: simulation.time(), ratio: best, tolerance, why });
+            return Err(Failure::Restless {
+                kept: kept(order.checkpoint),
+                steps,
+                time: simulation.time(),
+                ratio: best,
+                tolerance,
+                why,
+            });
         }
         let left = order.most_steps - steps;
         let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
@@ -204,8 +235,8 @@ fn why_not(simulation: &Simulation) -> String {
         && scene.gravity != [0.0; 3]
     {
         return format!(
-            "[damping.{}] gravity_damped = false: what it leaves of the load is not the whole load, so that bodies swing \
-             about rest; gravity_damped = true while it settles is right",
+            "[damping.{}]: expected gravity_damped = true while it settles, found false, which leaves a part of the \
+             load undamped, so that bodies swing about rest",
             damping.name
         );
     }
@@ -228,7 +259,7 @@ fn unbalanced_force(simulation: &mut Simulation) -> f64 {
 
 /// The scene with boundaries that stand still but for their free axes, insertions without a rate, and without books to keep.
 fn standing_still(scene: &Scene) -> Arc<Scene> {
-    let mut still = scene.clone();
+    let mut still = SceneDraft::clone(scene);
     for boundary in &mut still.boundaries {
         for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
             *axis = AxisMotion::Fixed;
@@ -238,5 +269,6 @@ fn standing_still(scene: &Scene) -> Arc<Scene> {
         insertion.stop();
     }
     still.output.energy = false;
-    Arc::new(still)
+    // What stands still is right wherever what moves is.
+    Arc::new(Scene::of_checked(still))
 }

@@ -206,6 +206,39 @@ impl Summary {
         }
     }
 
+    /// What of it is no finite number, if anything.
+    pub(super) fn lacking(&self) -> Option<&'static str> {
+        let book = self.energy.iter().flat_map(|book| {
+            let EnergyBook {
+                initial_kinetic,
+                kinetic,
+                initial_elastic,
+                elastic,
+                dissipated,
+                work,
+                residual,
+                relative_residual,
+            } = book;
+            let numbers = [initial_kinetic, kinetic, initial_elastic, elastic, dissipated, residual, relative_residual];
+            numbers.into_iter().chain(work.values())
+        });
+        let losses = self.losses.iter().flat_map(|book| book.lost.values().chain([&book.sum, &book.residual]));
+        let finite = |number: &f64| number.is_finite();
+        if !book.chain(losses).all(finite) {
+            return Some("the energy books");
+        }
+        if !self.momentum.is_finite() {
+            return Some("the momentum balance");
+        }
+        (![self.largest_overlap, self.time_step.current].iter().all(finite)).then_some("the summary")
+    }
+
+    /// Notes how the run ended.
+    pub(super) fn end_with(&mut self, failure: &Failure) {
+        self.ended = if matches!(failure, Failure::Interrupted { .. }) { Ending::Interrupted } else { Ending::Failed };
+        self.reason = Some(failure.to_string());
+    }
+
     /// The text of `summary.json`.
     pub fn to_json(&self) -> String {
         // Plain numbers and strings: writing them to memory has no way to fail.
@@ -215,12 +248,21 @@ impl Summary {
     }
 }
 
+/// A number of things, in words.
+fn counted(number: u64, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
 impl std::fmt::Display for Summary {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "{} steps to t = {} s, {} particles, {:.0} contacts on average, {:.3} s wall",
-            self.session_steps, self.time, self.counts.particles, self.counts.mean_contacts, self.wall_time
+            "{} to t = {} s, {}, {:.0} contacts on average, {:.3} s wall",
+            counted(self.session_steps, "step"),
+            self.time,
+            counted(self.counts.particles as u64, "particle"),
+            self.counts.mean_contacts,
+            self.wall_time
         )?;
         let costs = [
             (self.ns_per_interaction_and_step, "contact or bond"),

@@ -1,5 +1,10 @@
 //! What makes a motion nonsense.
 
+/// That a time step is below the stable one \[s\]; nothing where nothing is stiff, so that there is none.
+fn below(stable: f64) -> String {
+    if stable.is_finite() { format!(", though that is below the stable one, {stable:.3e} s") } else { String::new() }
+}
+
 /// The cause of a motion that no longer makes sense, with its figures.
 #[derive(Clone, Debug, Default, PartialEq, thiserror::Error)]
 pub enum Cause {
@@ -17,7 +22,7 @@ pub enum Cause {
     },
     /// The body is too fast for the time step.
     #[error(
-        "its speed, {speed:.3e} m/s, is too high for a time step of {step:.3e} s, though that is below the stable one, {stable:.3e} s"
+        "its speed, {speed:.3e} m/s, is too high for a time step of {step:.3e} s{}", below(*.stable)
     )]
     Speed {
         /// Speed \[m/s\].
@@ -43,6 +48,14 @@ pub enum Cause {
         /// Closing speed \[m/s\].
         speed: f64,
     },
+    /// Two centres are in one place, so that their contact has no direction.
+    #[error("the centres of particles {first} and {second} coincide, where a contact has no direction")]
+    Coincident {
+        /// One particle.
+        first: u32,
+        /// The other.
+        second: u32,
+    },
     /// A load is too large.
     #[error("the load on the contact is above what its stiffness holds (the time step is below the stable one)")]
     Load,
@@ -58,7 +71,7 @@ pub enum Cause {
     #[error("its load turns it that far, and no breakage limit ends it (the time step is below the stable one)")]
     Unbroken,
     /// The law itself, or numbers at the end of what is finite.
-    #[error("no single cause is seen (the time step, {step:.3e} s, is below the stable one, {stable:.3e} s)")]
+    #[error("no single cause is seen (time step {step:.3e} s{})", below(*.stable))]
     Unseen {
         /// The time step \[s\].
         step: f64,

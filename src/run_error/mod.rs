@@ -103,8 +103,8 @@ pub enum RunError {
     },
     /// A particle left the plane in which the scene says that all stay.
     #[error(
-        "particle {id} left the [run] plane at t = {time} s: {quantity} is {value:e} {unit}; a scene that keeps all forces and motions in the plane, or \
-         one without this key, is right"
+        "particle {id} left the [run] plane at t = {time} s: {quantity} is {value:e} {unit}; keep all forces and \
+         motions in the plane, or leave this key out"
     )]
     LeftPlane {
         /// The particle.
@@ -149,7 +149,8 @@ pub enum RunError {
     },
     /// Half a turn or more about several axes at once.
     #[error(
-        "boundary {boundary} would turn {angle:.4} rad about several axes in one communication step at t = {time} s; less than half a turn (pi) is right"
+        "boundary {boundary}: expected less than half a turn (pi) about several axes in one communication step, \
+         found {angle:.4} rad at t = {time} s"
     )]
     Turn {
         /// The boundary.
@@ -161,8 +162,8 @@ pub enum RunError {
     },
     /// A triangle of a mesh whose nodes the outside moves has no area any more.
     #[error(
-        "face {face} of boundary {boundary} has no area at t = {time} s: its nodes were moved onto a line or a point, or out of all \
-         bounds; displacements that leave every face its area are right"
+        "boundary {boundary}: expected displacements that leave every face its area, found face {face} without one \
+         at t = {time} s: its nodes were moved onto a line or a point, or out of all bounds"
     )]
     Collapsed {
         /// The boundary.
@@ -174,7 +175,8 @@ pub enum RunError {
     },
     /// Bodies are put in the middle of their way in a scene whose planes remember something.
     #[error(
-        "bodies cannot be put in the middle of their way beside boundary {boundary}: what contacts and bonds at a plane remember is not put with them; a scene without planes is right"
+        "expected a scene without planes where bodies are put in the middle of their way, found boundary \
+         {boundary}: what contacts and bonds at a plane remember is not put with them"
     )]
     PutAtPlane {
         /// The plane.
@@ -182,7 +184,8 @@ pub enum RunError {
     },
     /// Lists for which there is not enough memory.
     #[error(
-        "{pairs:.2e} {why} need about {:.1} GB of memory, and {:.1} GB are free; a shorter one or fewer particles are right",
+        "{pairs:.2e} {why} need about {:.1} GB of memory, and {:.1} GB are free; take a shorter one or fewer \
+         particles",
         needed / 1e9, *free as f64 / 1e9
     )]
     Memory {
@@ -197,8 +200,8 @@ pub enum RunError {
     },
     /// A sphere of a group where particles are taken away.
     #[error(
-        "particle {id} of [boundary.{boundary}] is where {by} takes particles away, at t = {time} s; a group keeps all its particles, so \
-         a place that it does not reach is right"
+        "particle {id} of [boundary.{boundary}] is where {by} takes particles away, at t = {time} s, and a group \
+         keeps all its particles; keep the group away from there"
     )]
     GroupLeaves {
         /// The particle.
@@ -211,15 +214,15 @@ pub enum RunError {
         time: f64,
     },
     /// So many particles came that no number is left for another.
-    #[error("all numbers of particles are used up at t = {time} s; particles numbered from a lower one on are right")]
+    #[error("all numbers of particles are used up at t = {time} s; number the particles from a lower one on")]
     NoNumberLeft {
         /// Time \[s\].
         time: f64,
     },
     /// A group of a scene that takes over another one's state would have to jump.
     #[error(
-        "[boundary.{boundary}] has particle {id} {way:.3e} m from where it has come to; a group of the checkpoint's scene, of the \
-         same name and particles, or particles that have not moved are right"
+        "[boundary.{boundary}]: expected a group of the checkpoint's scene, of the same name and particles, or \
+         particles that have not moved, found particle {id} moved by {way:.3e} m"
     )]
     GroupElsewhere {
         /// The group.
@@ -229,6 +232,21 @@ pub enum RunError {
         /// How far it would jump \[m\].
         way: f64,
     },
+    /// A number of the state cannot be.
+    #[error(
+        "expected {right} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \
+         numbers of 64 bits"
+    )]
+    Invalid {
+        /// Which part of the state.
+        part: &'static str,
+        /// Which entry of that part.
+        place: usize,
+        /// What would be right.
+        right: &'static str,
+        /// Time \[s\].
+        time: f64,
+    },
     /// The caller has asked to stop.
     #[error("stopped at t = {time} s, as asked for")]
     Stopped {
@@ -236,7 +254,7 @@ pub enum RunError {
         time: f64,
     },
     /// An interval that is not a finite number above 0.
-    #[error("an interval of {interval} s cannot be advanced; a finite number above 0 is right")]
+    #[error("expected an interval above 0 and finite, found {interval} s")]
     Interval {
         /// What was asked for \[s\].
         interval: f64,

@@ -1,6 +1,6 @@
 //! How the number of particles changes, as parts of a scene.
 
-use super::{Boundary, ParticleShape, Scene};
+use super::{Boundary, ParticleShape, SceneDraft};
 use crate::document::Mistake;
 use crate::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
 use crate::quantity::{BoundaryIndex, MaterialIndex};
@@ -32,6 +32,14 @@ impl Insertion {
         ParticleShape::Sphere.volume(radius) * self.density
     }
 
+    /// What one sphere adds at least to what its rate counts: 1, or the mass of the smallest \[kg\].
+    pub(crate) fn least_amount(&self) -> f64 {
+        match self.amount {
+            Amount::CountRate(_) => 1.0,
+            Amount::MassRate(_) | Amount::Mass(_) => self.mass(self.sizes.bounds()[0]),
+        }
+    }
+
     /// Largest speed of a new sphere \[m/s\].
     pub fn fastest(&self) -> f64 {
         self.velocity.iter().map(|part| (part.abs() + self.scatter).powi(2)).sum::<f64>().sqrt()
@@ -59,12 +67,12 @@ pub struct Outlet {
     /// Its name in the scene and in the unit's variables.
     pub name: String,
     /// Which they are.
-    pub place: Way,
+    pub place: OutletPlace,
 }
 
 /// Which particles an outlet takes away, by their centres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum OutletPlace {
     /// Those in one of the scene's regions.
     Region(usize),
     /// Those behind a plane: a point of it \[m\] and its unit normal, which points to what stays.
@@ -113,10 +121,10 @@ impl Known<'_> {
         let boundary = &self.boundaries[place];
         if boundary.shifting_plane().is_none() {
             let turns = if boundary.shape.plane().is_some() { " that turns" } else { "" };
-            let found = format!("[boundary.{found}], a {}{turns},", boundary.shape.words());
+            let found = format!("[boundary.{found}], a {}{turns}", boundary.shape.words());
             refuse(
                 "beyond",
-                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side,".to_owned() },
+                Mistake::Wrong { found, right: "a plane that does not turn, which has a far side".to_owned() },
             );
             return None;
         }
@@ -155,10 +163,10 @@ impl Outlet {
         refuse: &mut dyn FnMut(&str, Mistake),
     ) -> Option<Self> {
         let place = match (&keys.region, &keys.beyond) {
-            (Some(region), None) => Way::Region(known.region(region, refuse)?),
-            (None, Some(BeyondKeys::Boundary(name))) => Way::Behind(known.plane(name, refuse)?),
+            (Some(region), None) => OutletPlace::Region(known.region(region, refuse)?),
+            (None, Some(BeyondKeys::Boundary(name))) => OutletPlace::Behind(known.plane(name, refuse)?),
             (None, Some(BeyondKeys::Plane(plane))) => {
-                Way::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
+                OutletPlace::Beyond(plane.plane().map_err(|(key, mistake)| refuse(key, mistake)).ok()?)
             }
             (None, None) => {
                 let right =
@@ -167,8 +175,8 @@ impl Outlet {
                 return None;
             }
             (Some(_), Some(_)) => {
-                let (what, right) = ("region and beyond".to_owned(), "one of them is right".to_owned());
-                refuse("", Mistake::Senseless { what, right });
+                let (found, right) = ("both".to_owned(), "one of region and beyond".to_owned());
+                refuse("", Mistake::Wrong { found, right });
                 return None;
             }
         };
@@ -184,7 +192,7 @@ impl FlowMeter {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Whether particles come or go.
     pub fn changes_number(&self) -> bool {
         !self.insertions.is_empty() || self.removes()

@@ -1,6 +1,6 @@
 //! Which contact law governs two materials, and what is kept of the contacts of a law.
 
-use super::Scene;
+use super::SceneDraft;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{HistoryRow, Law, OFFSET};
 
@@ -25,7 +25,7 @@ impl GoverningLaws {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Which contact law governs each two materials.
     pub fn governing_laws(&self) -> GoverningLaws {
         let materials = self.materials.len();

@@ -1,14 +1,16 @@
 //! The scene: its particles, laws, boundaries and settings, checked, in SI units.
 //!
-//! A `Scene` cannot be wrong: `scene_file` reads single values by their type and checks relations between
-//! tables; [`Scene::check`] checks scenes that are built in code. Later code need not check again.
+//! A [`SceneDraft`] has public parts that code may fill in; [`SceneDraft::build`] checks all of them and makes a [`Scene`], which nothing
+//! changes any more. The text of a scene becomes a draft, too, and passes the same checks. Later code need not check again.
 
 mod accuracy;
 mod body;
 mod boundary;
+mod checked;
 mod damping;
 mod exchange;
 mod governing;
+mod models;
 mod output;
 mod parameters;
 mod plane;
@@ -24,10 +26,13 @@ pub use crate::surface::Shape;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
+pub use checked::Scene;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::Known;
-pub use exchange::{FlowMeter, Insertion, Outlet, Way};
+pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
+pub use models::Models;
+pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::Output;
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
@@ -36,18 +41,40 @@ pub use plane::{MotionPlane, ParticleShape};
 pub use region::Region;
 pub use source::Source;
 
-use crate::contact::cohesion::CohesionChoice;
-use crate::contact::normal::NormalChoice;
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
-use crate::contact::{LawChoice, Material, PairProperties, Scheme, Switches};
+use crate::contact::{
+    CohesionModel, LawChoice, Material, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
+};
 use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
-/// A scene that can be run: everything the file says, checked, in SI units.
+/// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
-/// The default is the empty scene, from which code can build others.
+/// The default is the empty scene, from which code builds others:
+///
+/// ```
+/// use cograin::contact::Material;
+/// use cograin::quantity::{MaterialIndex, ParticleId, SetIndex};
+/// use cograin::scene::{Particle, SceneDraft};
+///
+/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None };
+/// let marble = Particle {
+///     id: ParticleId(1), set: SetIndex(0), material: MaterialIndex(0), shape: Default::default(), radius: 0.01,
+///     density: 2500.0, position: [0.0, 0.0, 0.02], velocity: [0.0; 3], angular_velocity: [0.0; 3],
+/// };
+/// let mut draft = SceneDraft {
+///     gravity: [0.0, 0.0, -9.81],
+///     materials: vec![glass],
+///     pairs: vec![Default::default()],
+///     sets: vec!["marbles".into()],
+///     particles: vec![marble],
+///     ..SceneDraft::default()
+/// };
+/// assert_eq!(draft.clone().build()?.particles.len(), 1);
+/// draft.particles[0].radius = -0.01;
+/// assert!(draft.build().is_err());
+/// # Ok::<(), cograin::scene::SceneErrors>(())
+/// ```
 #[derive(Clone, Debug, Default)]
-pub struct Scene {
+pub struct SceneDraft {
     /// Settings of the run.
     pub run: Run,
     /// Acceleration of gravity \[m/s²\].
@@ -117,6 +144,10 @@ pub struct Run {
     pub max_overlap: f64,
     /// The plane in which all particles stay, if the scene says so: a run in which one leaves it stops.
     pub plane: Option<MotionPlane>,
+    /// Whether derivatives are differences of both sides.
+    pub central_derivatives: bool,
+    /// How far derivatives displace inputs, over what the program chooses.
+    pub derivative_displacement: f64,
 }
 
 impl Default for Run {
@@ -134,6 +165,8 @@ impl Default for Run {
             settle_damping: 0.7,
             max_overlap: 0.05,
             plane: None,
+            central_derivatives: false,
+            derivative_displacement: 1.0,
         }
     }
 }
@@ -163,13 +196,13 @@ pub struct ContactLaw {
     /// Whose contacts it governs; `between[a * materials + b]` and the mirrored entry are equal.
     pub between: Vec<bool>,
     /// Normal sub-model.
-    pub normal: NormalChoice,
+    pub normal: NormalModel,
     /// Tangential sub-model.
-    pub tangential: TangentialChoice,
+    pub tangential: TangentialModel,
     /// Rolling sub-model.
-    pub rolling: RollingChoice,
+    pub rolling: RollingModel,
     /// Cohesion sub-model.
-    pub cohesion: CohesionChoice,
+    pub cohesion: CohesionModel,
     /// Switches of every law.
     pub switches: Switches,
     /// How springs and dashpots are integrated in time.
@@ -212,17 +245,6 @@ impl Bond {
     }
 }
 
-impl Scene {
-    /// The boundaries that bonds of a law may hold: its plane, and groups with particles of its sets.
-    pub(crate) fn held_by<'a>(&'a self, bond: &'a Bond) -> impl Iterator<Item = &'a Boundary> {
-        let is_of = |member: &u32| bond.between.contains(&self.particles[*member as usize].set);
-        let holds = move |(place, boundary): &(usize, &Boundary)| {
-            bond.plane.is_some_and(|plane| plane.index() == *place) || boundary.shape.members().iter().any(is_of)
-        };
-        self.boundaries.iter().enumerate().filter(holds).map(|(_, boundary)| boundary)
-    }
-}
-
 /// A particle as the scene starts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
@@ -258,11 +280,11 @@ impl Particle {
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// Cohesion energy density of two materials (by their index) over their effective modulus, where a law has both.
     pub fn cohesion_ratio(&self, a: usize, b: usize) -> Option<f64> {
         let entry = a * self.materials.len() + b;
-        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.name() != "none";
+        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.row().is_active();
         if !self.contacts.iter().any(cohesive) {
             return None;
         }

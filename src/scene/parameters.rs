@@ -3,7 +3,7 @@
 //! A parameter is a number that stands in the text of the scene. Its name is the dotted key, as `--set` takes it, and it is
 //! checked by the type that reads the key.
 
-use super::Scene;
+use super::SceneDraft;
 use crate::bond::Law;
 use crate::bond::keys::KeyError;
 use crate::contact::PairProperties;
@@ -54,13 +54,13 @@ impl Range {
     pub fn check(&self, value: f64) -> Result<(), String> {
         (self.check)(value)?;
         match self.maximum.filter(|&most| value > most) {
-            Some(most) => Err(format!("{value:?} found; at most {most:?} is right")),
+            Some(most) => Err(format!("expected at most {most:?}, found {value:?}")),
             None => Ok(()),
         }
     }
 }
 
-impl Scene {
+impl SceneDraft {
     /// The parameters that may be changed between communication steps, in their order.
     pub fn tunables(&self) -> impl Iterator<Item = &Parameter> {
         self.parameters.iter().filter(|parameter| parameter.tunable)

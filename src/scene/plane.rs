@@ -1,7 +1,6 @@
 //! Scenes whose particles stay in one plane.
 
-use super::{Mistake, Particle, Scene};
-use crate::contact::rolling::RollingChoice;
+use super::{Mistake, Particle, SceneDraft};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -50,7 +49,7 @@ impl ParticleShape {
 pub(crate) type Objection = (String, &'static str, Mistake);
 
 /// What speaks against `[run] plane` in this scene.
-pub(crate) fn objections(scene: &Scene) -> Vec<Objection> {
+pub(crate) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     let Some(MotionPlane::Xz) = scene.run.plane else { return Vec::new() };
     let mut objections = Vec::new();
     let mut leaves = |table: String, key: &'static str, found: String, right: &str| {
@@ -79,13 +78,13 @@ pub(crate) fn objections(scene: &Scene) -> Vec<Objection> {
 }
 
 /// The first particle that is not in the plane of the first one or leaves it; what it has, and what is right.
-fn first_outside(scene: &Scene) -> Option<(&Particle, String, &'static str)> {
+fn first_outside(scene: &SceneDraft) -> Option<(&Particle, String, &'static str)> {
     let level = scene.particles.first()?.position[1];
     scene.particles.iter().find_map(|particle| {
         let ([.., v, _], [a, _, c]) = (particle.velocity, particle.angular_velocity);
         let id = particle.id.0;
         if particle.position[1] != level {
-            let found = format!("particle {id} at y = {:?} m, the first one at {level:?} m,", particle.position[1]);
+            let found = format!("particle {id} at y = {:?} m, the first one at {level:?} m", particle.position[1]);
             Some((particle, found, "the same y for all particles"))
         } else if v != 0.0 {
             Some((particle, format!("particle {id} with {v:?} m/s along y"), "a velocity without a component along y"))
@@ -99,19 +98,20 @@ fn first_outside(scene: &Scene) -> Option<(&Particle, String, &'static str)> {
 }
 
 /// What reckons with the volume or the moment of inertia of spheres.
-fn discs(scene: &Scene) -> Vec<Objection> {
+fn discs(scene: &SceneDraft) -> Vec<Objection> {
     let refused = |table: String, found: &str, right: &str| {
-        let message = format!(
-            "{found} with plane_particles = \"discs\" found; {right}, or plane_particles = \"spheres\", is right"
-        );
-        (table, "", Mistake::Refused { message })
+        (
+            table,
+            "",
+            Mistake::Wrong { found: found.to_owned(), right: format!("{right} with plane_particles = \"discs\"") },
+        )
     };
-    let epsd = scene.contacts.iter().filter(|law| matches!(law.rolling, RollingChoice::Epsd(_))).map(|law| {
-        let found = "epsd, whose dashpot is made for the moment of inertia of spheres,";
+    let epsd = scene.contacts.iter().filter(|law| law.rolling.name() == "epsd").map(|law| {
+        let found = "epsd, whose dashpot is made for the moment of inertia of spheres";
         refused(format!("contact.{}.rolling.epsd", law.name), found, "another rolling model")
     });
     let regions = scene.regions.iter().map(|region| {
-        let found = "a region, which reckons with the volume of spheres,";
+        let found = "a region, which reckons with the volume of spheres";
         refused(format!("region.{}", region.name), found, "a scene without regions")
     });
     epsd.chain(regions).collect()

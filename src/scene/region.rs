@@ -20,8 +20,8 @@ impl Region {
     /// The region that a scene with these boundaries writes so; refuses what is wrong, with its key.
     pub(crate) fn of(name: &str, keys: &Keys, boundaries: &[&str], around: &mut dyn Files) -> Option<Self> {
         if boundaries.contains(&name) {
-            let (what, right) = (format!("[boundary.{name}] has this name"), "a name of its own is right".to_owned());
-            around.report("", Mistake::Senseless { what, right });
+            let (found, right) = (format!("that of [boundary.{name}]"), "a name of its own".to_owned());
+            around.report("", Mistake::Wrong { found, right });
         }
         let follows = keys.follows.as_ref().map(|followed| {
             let place = boundaries.iter().position(|boundary| boundary == followed);

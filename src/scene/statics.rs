@@ -1,13 +1,13 @@
 //! What has no static stiffness.
 
-use super::Scene;
+use super::SceneDraft;
 use crate::bond::damping::DampingChoice;
 
-impl Scene {
+impl SceneDraft {
     /// What depends on speed or time, however slow, or moves by itself, if anything; and what would be right.
     pub fn without_statics(&self) -> Option<(String, &'static str)> {
         if let Some(law) = self.contacts.iter().find(|law| law.rolling.name() == "cdt") {
-            return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none,"));
+            return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none"));
         }
         for bond in &self.bonds {
             if bond.keys.formulation.is_engine() {
@@ -18,7 +18,7 @@ impl Scene {
             }
             if bond.keys.damping.is_some_and(|damping| !matches!(damping, DampingChoice::Viscous(_))) {
                 let what = format!("[bond.{}] damping by a share of the load", bond.name);
-                return Some((what, "damping.viscous, or none,"));
+                return Some((what, "damping.viscous, or none"));
             }
         }
         let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
@@ -28,7 +28,6 @@ impl Scene {
     /// What speaks against the stiffness that is asked for as an output: what was found, and what would be right.
     pub(crate) fn stiffness_objection(&self) -> Option<[String; 2]> {
         let (what, right) = self.without_statics().filter(|_| self.output.stiffness)?;
-        let found = format!("true beside {what}, which has no static stiffness,");
-        Some([found, format!("{right} or stiffness = false")])
+        Some([format!("true beside {what}, which has no static stiffness"), format!("{right}, or stiffness = false")])
     }
 }

@@ -8,8 +8,9 @@
 
 use super::network::{Element, Network};
 use super::shares::{Shares, divided};
-use super::triangle::{Place, Triangle, add_group, diagonal, is_positive, squares, times};
+use super::triangle::{Place, Triangle, add_group, whole};
 use crate::interactions::Link;
+use nalgebra::{Matrix6, Vector6};
 
 /// How often bodies hand load on.
 const RELIEFS: usize = 3;
@@ -208,8 +209,7 @@ impl Blocks<'_> {
 
     /// D(K) and D(C) of a body.
     fn block(&self, mover: usize) -> Block {
-        let double = |triangle: &Triangle| triangle.map(f64::from);
-        Block { stiffness: double(&self.stiffness[mover]), damping: self.damping.get(mover).map(double) }
+        Block { stiffness: whole(&self.stiffness[mover]), damping: self.damping.get(mover).map(whole) }
     }
 
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
@@ -217,28 +217,23 @@ impl Blocks<'_> {
         let square = root * root;
         let combined = self.block(mover).combined(root);
         // No eigenvalue is above the norm of all entries: most bodies need no more.
-        if squares(&combined) < square * square {
-            return true;
-        }
-        let mut rest = combined.map(|part| -part);
-        for k in 0..6 {
-            rest[diagonal(k)] += square;
-        }
-        is_positive(&mut rest)
+        combined.norm_squared() < square * square
+            || (Matrix6::from_diagonal_element(square) - combined).cholesky().is_some()
     }
 
     /// About the root of a body, from below: that of the motion that iteration comes to.
     fn estimate(&self, vector: &mut [f64; 6], mover: usize, guess: f64, iterations: usize) -> f64 {
-        let (mut root, block) = (guess, self.block(mover));
+        let (mut root, block, mut motion) = (guess, self.block(mover), Vector6::from(*vector));
         for _ in 0..iterations {
-            let next = times(&block.combined(root), vector);
-            let length = next.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let next = block.combined(root) * motion;
+            let length = next.norm();
             if length <= 0.0 {
                 return 0.0;
             }
-            *vector = next.map(|part| part / length);
-            root = block.root_of_motion(vector);
+            motion = next / length;
+            root = block.root_of_motion(&motion);
         }
+        *vector = motion.into();
         root
     }
 
@@ -268,28 +263,22 @@ impl Blocks<'_> {
 /// D(K) \[1/s²\] and, where anything is damped, D(C) \[1/s\] of a body.
 struct Block {
     /// D(K).
-    stiffness: [f64; 21],
+    stiffness: Matrix6<f64>,
     /// D(C).
-    damping: Option<[f64; 21]>,
+    damping: Option<Matrix6<f64>>,
 }
 
 impl Block {
     /// D(K) + μ D(C).
     #[inline(always)]
-    fn combined(&self, root: f64) -> [f64; 21] {
-        let mut sum = self.stiffness;
-        if let Some(damping) = &self.damping {
-            for (sum, part) in sum.iter_mut().zip(damping) {
-                *sum += root * part;
-            }
-        }
-        sum
+    fn combined(&self, root: f64) -> Matrix6<f64> {
+        self.damping.map_or(self.stiffness, |damping| self.stiffness + damping * root)
     }
 
     /// The root of one motion.
     #[inline(always)]
-    fn root_of_motion(&self, vector: &[f64; 6]) -> f64 {
-        let form = |block: &[f64; 21]| times(block, vector).iter().zip(vector).map(|(a, b)| a * b).sum::<f64>();
+    fn root_of_motion(&self, motion: &Vector6<f64>) -> f64 {
+        let form = |block: &Matrix6<f64>| (block * motion).dot(motion);
         let (k, c) = (form(&self.stiffness), self.damping.as_ref().map_or(0.0, form));
         0.5 * (c + (c * c + 4.0 * k).max(0.0).sqrt())
     }

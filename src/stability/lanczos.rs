@@ -11,6 +11,7 @@ use super::network::{Element, Network, UNMOVED};
 use super::plain::Plain;
 use crate::lanes::Shared;
 use crate::threads::{CHUNK, Context};
+use nalgebra::Vector6;
 use std::f64::consts::PI;
 
 /// Chance that the certified step is above the stable one.
@@ -369,8 +370,7 @@ fn moved(network: &Network, element: &Element, end: usize, mover: usize, scaled:
         }
         Some(group) => {
             let Some(group) = &network.groups[group] else { return [[0.0; 3]; 2] };
-            let freedom: [f64; 6] = std::array::from_fn(|row| (0..6).map(|k| group.root[row][k] * scaled[k]).sum());
-            let [a, b, c, d, e, f] = freedom;
+            let [a, b, c, d, e, f] = (group.root * Vector6::from(*scaled)).into();
             ([a, b, c], [d, e, f], network.arm(element, end, group).to_array())
         }
     };
@@ -426,9 +426,9 @@ fn scaled_back(network: &Network, mover: usize, load: &[f64; 6]) -> [f64; 6] {
             let [v, w] = network.roots[mover];
             [v * load[0], v * load[1], v * load[2], w * load[3], w * load[4], w * load[5]]
         }
-        Some(group) => network.groups[group]
-            .as_ref()
-            .map_or([0.0; 6], |group| std::array::from_fn(|k| (0..6).map(|row| group.root[row][k] * load[row]).sum())),
+        Some(group) => {
+            network.groups[group].as_ref().map_or([0.0; 6], |group| group.root.tr_mul(&Vector6::from(*load)).into())
+        }
     }
 }
 

@@ -24,6 +24,7 @@ use crate::scene::{Insertion, ParticleShape, Scene};
 use crate::state::{GONE, Particles, State};
 use crate::threads::Context;
 pub use limiter::{Limiter, LimiterKind, Mode};
+use nalgebra::Matrix6;
 use network::Network;
 pub(crate) use surfaces::{has_more_contacts, put_blocks};
 
@@ -238,9 +239,9 @@ pub(crate) fn foreseen_speed(particles: f64, boundaries: f64, faster: f64) -> f6
 }
 
 /// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].
-fn answer(mobility: &network::Matrix, arm: f64) -> f64 {
-    let (shift, turn) = (0..3)
-        .fold((0.0, 0.0), |(shift, turn): (f64, f64), k| (shift.max(mobility[k][k]), turn + mobility[3 + k][3 + k]));
+fn answer(mobility: &Matrix6<f64>, arm: f64) -> f64 {
+    let diagonal = mobility.diagonal();
+    let (shift, turn) = (diagonal.fixed_rows::<3>(0).max(), diagonal.fixed_rows::<3>(3).sum());
     shift + turn * arm * arm
 }
 

@@ -5,13 +5,11 @@ use crate::integration::Fields;
 use crate::interactions::{Ahead, Link, Pass};
 use crate::number::Vector;
 use crate::state::State;
+use nalgebra::Matrix6;
 use std::sync::Arc;
 
 /// Instead of a slot: what does not move by the forces on it.
 pub(super) const UNMOVED: u32 = u32::MAX;
-
-/// A matrix over six freedoms: three translations, three rotations.
-pub(super) type Matrix = [[f64; 6]; 6];
 
 /// A contact or bond between two bodies that forces move, or of one with something else; its springs and dashpots stand in
 /// [`Parts`]. Single precision: the network of a million particles is to fit beside them; the bound allows for the rounding.
@@ -80,7 +78,7 @@ pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
     /// L of the acceleration L Lᵀ that unit loads give it: what scales its freedoms.
-    pub root: Matrix,
+    pub root: Matrix6<f64>,
 }
 
 /// What is to be stable.
@@ -114,12 +112,8 @@ impl<'a> Network<'a> {
         let group = |(body, moved): (&Option<RigidBody>, _)| {
             let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
             let [linear, angular] = fields.amplification(body.members[0]);
-            let mut mobility = body.mobility(moved);
-            for (row, numbers) in mobility.iter_mut().enumerate() {
-                for number in numbers {
-                    *number *= if row < 3 { linear } else { angular };
-                }
-            }
+            let factor = |row: usize| if row < 3 { linear } else { angular };
+            let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
         };
         Self {
@@ -250,9 +244,9 @@ impl<'a> Network<'a> {
             return v * v * (along + 2.0 * across) + w * w * turning;
         };
         let arm = self.arm(element, end, group);
-        let square = |rows: &[[f64; 6]]| rows.iter().flatten().map(|part| part * part).sum::<f64>();
-        (along + 2.0 * across) * square(&group.root[..3])
-            + ((along + across) * arm.dot(arm) + 2.0 * bending + twisting) * square(&group.root[3..])
+        (along + 2.0 * across) * group.root.fixed_rows::<3>(0).norm_squared()
+            + ((along + across) * arm.dot(arm) + 2.0 * bending + twisting)
+                * group.root.fixed_rows::<3>(3).norm_squared()
     }
 
     /// From what moves a particle to where an element acts on it \[m\].
@@ -271,21 +265,9 @@ fn most_links(state: &State) -> usize {
     pairs.chain(walls).chain(bonds).sum()
 }
 
-/// L of a positive semidefinite matrix L Lᵀ (Cholesky); directions that do not move have zeros.
-fn root_of(matrix: &Matrix) -> Matrix {
-    let mut root = [[0.0; 6]; 6];
-    for a in 0..6 {
-        for b in 0..=a {
-            let known: f64 = (0..b).map(|k| root[a][k] * root[b][k]).sum();
-            let rest = matrix[a][b] - known;
-            root[a][b] = if a == b {
-                if rest > 1e-12 * matrix[a][a] { rest.sqrt() } else { 0.0 }
-            } else if root[b][b] > 0.0 {
-                rest / root[b][b]
-            } else {
-                0.0
-            };
-        }
-    }
-    root
+/// L of the mobility L Lᵀ of a body (Cholesky); freedoms that do not move have zeros.
+fn root_of(mobility: &Matrix6<f64>) -> Matrix6<f64> {
+    // With ones in their place, freedoms that do not move have a root, too.
+    let still = Matrix6::from_diagonal(&mobility.diagonal().map(|part| if part > 0.0 { 0.0 } else { 1.0 }));
+    (mobility + still).cholesky().map_or(Matrix6::zeros(), |root| root.l() - still)
 }

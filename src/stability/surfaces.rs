@@ -6,9 +6,10 @@ use crate::interactions::Ahead;
 use crate::number::Vector;
 use crate::state::contacts::TOUCHING;
 use crate::state::{State, boundaries::Inertial};
+use nalgebra::Matrix6;
 
 /// Stiffness and damping that a surface feels in its six freedoms.
-type Blocks = [implicit::Triangle; 2];
+type Blocks = [Matrix6<f64>; 2];
 
 impl System<'_> {
     /// Stiffness and damping of all springs and dashpots at each surface that forces move, as they may get; none of other
@@ -31,7 +32,7 @@ impl System<'_> {
             });
         }
         let more = self.fields.amplification_of_surfaces();
-        for block in blocks.iter_mut().flatten().flatten().flatten() {
+        for block in blocks.iter_mut().flatten().flatten() {
             *block *= more;
         }
         blocks
@@ -84,7 +85,7 @@ pub(crate) fn put_blocks(state: &mut State, blocks: Vec<Option<Blocks>>) {
         let Some([stiffness, damping]) = block else { continue };
         let contacts = contacts(state, boundary);
         let inertial = &mut state.boundaries[boundary].inertial;
-        *inertial = Inertial { stiffness, damping, contacts, ..*inertial };
+        *inertial = Inertial { stiffness: stiffness.into(), damping: damping.into(), contacts, ..*inertial };
     }
 }
 

@@ -1,14 +1,10 @@
 //! Symmetric 6 × 6 matrices: the blocks of bodies, and what elements add to them.
 
 use super::network::{Element, Group};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// Lower triangle of a symmetric 6 × 6 matrix, row by row, scaled by mass and moment of inertia.
 pub(super) type Triangle = [f32; 21];
-
-/// Where the diagonal entry of a row stands in a triangle.
-pub(super) const fn diagonal(row: usize) -> usize {
-    row * (row + 3) / 2
-}
 
 /// How a particle stands to an element: what its springs and its dashpots are weighed with.
 pub(super) struct Place {
@@ -75,68 +71,27 @@ pub(super) fn add_group(
     share: f64,
 ) {
     let [along, across, twisting, bending] = parts.map(|part| share * f64::from(part));
-    let n = normal.map(f64::from);
-    // The point of action moves with v + w × arm: what unit freedoms give along three axes.
-    let a = arm;
-    let turned = [[0.0, a[2], -a[1]], [-a[2], 0.0, a[0]], [a[1], -a[0], 0.0]];
-    // Motions of the point and turns of the body that the scaled freedoms make.
-    let freedom = |k: usize| {
-        let unscaled: [f64; 6] = std::array::from_fn(|row| group.root[row][k]);
-        let point: [f64; 3] = std::array::from_fn(|axis| {
-            unscaled[axis] + (0..3).map(|turn| turned[axis][turn] * unscaled[3 + turn]).sum::<f64>()
-        });
-        (point, [unscaled[3], unscaled[4], unscaled[5]])
+    let normal = Vector3::from(normal.map(f64::from));
+    let of = |along: f64, across: f64| {
+        Matrix3::from_diagonal_element(across) + normal * normal.transpose() * (along - across)
     };
-    let freedoms: [_; 6] = std::array::from_fn(freedom);
-    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    // Turns of the body that the scaled freedoms make, and motions v + ω × arm of the point of action.
+    let turns = group.root.fixed_rows::<3>(3);
+    let shifts = group.root.fixed_rows::<3>(0) - Vector3::from(arm).cross_matrix() * turns;
+    let (shift, turn) = (of(along, across) * shifts, of(twisting, bending) * turns);
     for row in 0..6 {
         for column in 0..=row {
-            let ((p, u), (q, w)) = (&freedoms[row], &freedoms[column]);
-            let shift = across * dot(p, q) + (along - across) * dot(p, &n) * dot(q, &n);
-            let turn = bending * dot(u, w) + (twisting - bending) * dot(u, &n) * dot(w, &n);
-            block[row * (row + 1) / 2 + column] += (shift + turn) as f32;
+            let part = shifts.column(row).dot(&shift.column(column)) + turns.column(row).dot(&turn.column(column));
+            block[row * (row + 1) / 2 + column] += part as f32;
         }
     }
 }
 
-/// Sum of the squares of all entries of a symmetric matrix, given by its triangle.
-pub(super) fn squares(triangle: &[f64; 21]) -> f64 {
-    let all: f64 = triangle.iter().map(|part| part * part).sum();
-    let on_diagonal: f64 = (0..6).map(|k| triangle[diagonal(k)] * triangle[diagonal(k)]).sum();
-    2.0 * all - on_diagonal
-}
-
-/// The product of a matrix, given by its triangle, with a vector.
+/// The whole matrix of a triangle.
 #[inline]
-pub(super) fn times(triangle: &[f64; 21], vector: &[f64; 6]) -> [f64; 6] {
-    let mut image = [0.0; 6];
-    let mut place = 0;
-    for a in 0..6 {
-        for b in 0..a {
-            image[a] += triangle[place] * vector[b];
-            image[b] += triangle[place] * vector[a];
-            place += 1;
-        }
-        image[a] += triangle[place] * vector[a];
-        place += 1;
-    }
-    image
-}
-
-/// Whether a symmetric matrix is positive definite (L D Lᵀ, in place).
-pub(super) fn is_positive(matrix: &mut [f64; 21]) -> bool {
-    for k in 0..6 {
-        let pivot = matrix[diagonal(k)];
-        if pivot <= 0.0 || pivot.is_nan() {
-            return false;
-        }
-        let per_pivot = 1.0 / pivot;
-        for a in k + 1..6 {
-            let factor = matrix[a * (a + 1) / 2 + k] * per_pivot;
-            for b in k + 1..=a {
-                matrix[a * (a + 1) / 2 + b] -= factor * matrix[b * (b + 1) / 2 + k];
-            }
-        }
-    }
-    true
+pub(super) fn whole(triangle: &Triangle) -> Matrix6<f64> {
+    Matrix6::from_fn(|row, column| {
+        let (low, high) = (row.min(column), row.max(column));
+        f64::from(triangle[high * (high + 1) / 2 + low])
+    })
 }

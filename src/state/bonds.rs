@@ -2,7 +2,6 @@
 
 use super::in_place::clone_in_place;
 use super::{Row, plain};
-use crate::bond::damping::LoadRows;
 use serde::{Deserialize, Serialize};
 
 /// Living bonds of one law: between particles ordered by slab and first particle, at a plane by particle.
@@ -66,11 +65,6 @@ impl BondList {
         (self.made, self.broken, self.removed) = (self.first.len() as u64, 0, 0);
         (self.relaxed, self.damped, self.released) = (0.0, 0.0, 0.0);
         self.lost.fill(0.0);
-    }
-
-    /// The columns of rates at the middle of the last step, behind those of loads.
-    pub(crate) fn rate_columns(&self) -> &[Vec<Row>] {
-        self.damping.get(LoadRows::<f64>::default().len()..).unwrap_or_default()
     }
 
     /// Energy that left the bonds so far: by damping, by relaxation, and with those that broke \[J\].

@@ -46,9 +46,10 @@ pub struct BoundaryState {
     pub force: [f64; 3],
     /// Moment about the moved reference point at the present time \[N m\].
     pub moment: [f64; 3],
-    /// What of both is of bond dashpots that are integrated by themselves, where that is shown: at the end of a communication step
-    /// \[N, N m\].
-    pub swept: [[f64; 3]; 2],
+    /// Force one time step ago; the present one before the first \[N\].
+    pub force_before: [f64; 3],
+    /// Moment one time step ago \[N m\].
+    pub moment_before: [f64; 3],
     /// Power of a surface that runs in itself, on the particles, at the present time \[W\].
     pub conveying_power: f64,
     /// Sum of the half-kick impulses of the present communication step \[N s\].
@@ -71,6 +72,15 @@ pub struct BoundaryState {
 }
 
 impl BoundaryState {
+    /// Rates of force and moment after a time step of this length \[s\], 0 before the first \[N/s, N m/s\].
+    pub(crate) fn rates(&self, step: f64) -> [[f64; 3]; 2] {
+        let Self { force, moment, force_before, moment_before, .. } = self;
+        let rate = |axis: usize, now: &[f64; 3], before: &[f64; 3]| {
+            if step > 0.0 { (now[axis] - before[axis]) / step } else { 0.0 }
+        };
+        [[0, 1, 2].map(|axis| rate(axis, force, force_before)), [0, 1, 2].map(|axis| rate(axis, moment, moment_before))]
+    }
+
     /// Counts impulse and work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.total_impulse, self.work) = ([0.0; 3], 0.0);
@@ -102,9 +112,9 @@ pub struct Inertial {
     pub support: [f64; 6],
     /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
     /// \[N/m, N, N m\].
-    pub stiffness: [f64; 21],
+    pub stiffness: [[f64; 6]; 6],
     /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
-    pub damping: [f64; 21],
+    pub damping: [[f64; 6]; 6],
     /// How many contacts there were when these were found.
     pub contacts: u64,
     /// Impulse of the input loads since time 0 \[N s, N m s\].

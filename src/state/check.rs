@@ -13,7 +13,7 @@ const MOST: u64 = 1 << 48;
 
 /// Why a state cannot be one of its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a state that cannot be: {part}[{place}]: {right} is right")]
+#[error("invalid state, {part}[{place}]: expected {right}")]
 pub struct StateFault {
     /// Which part of it.
     pub part: &'static str,
@@ -44,7 +44,7 @@ pub(crate) fn demand_all(
 const FINITE: &str = "finite numbers";
 
 /// How long a column has to be.
-const LENGTH: &str = "as many entries as the list has, or none where the law keeps none,";
+const LENGTH: &str = "as many entries as the list has, or none where the law keeps none";
 
 /// Whether a column has an entry for each of a list's, or none at all.
 fn column<T>(column: &[T], length: usize, kept: bool, part: &'static str) -> Result<(), StateFault> {
@@ -87,7 +87,7 @@ fn in_slabs(
                 first < second && second < beyond,
                 part,
                 place,
-                "a second particle behind it, of this slab or the next,",
+                "a second particle behind it, of this slab or the next",
             )?;
             demand(before <= (first, second), part, place, "ascending order")?;
             before = (first, second);
@@ -227,7 +227,7 @@ impl Particles {
     /// Whether places that no particle has are marked as such, and those of the later ones can be taken again.
     fn check_places(&self) -> Result<(), StateFault> {
         let there = self.slot.iter().filter(|slot| **slot != GONE).count();
-        demand(there == self.len(), "slot", there, "a slot of each particle, and of no other,")?;
+        demand(there == self.len(), "slot", there, "a slot of each particle, and of no other")?;
         demand(
             self.numbers.len() <= self.slot.len(),
             "numbers",
@@ -483,7 +483,8 @@ impl BoundaryState {
         } = self;
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
-        let Self { target_acceleration, acceleration, first_moment, force_slope, swept: [push, twist], .. } = self;
+        let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
+        let Self { force_before, moment_before, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -502,8 +503,8 @@ impl BoundaryState {
             acceleration,
             first_moment,
             force_slope,
-            push,
-            twist,
+            force_before,
+            moment_before,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,
@@ -524,7 +525,7 @@ impl BoundaryState {
             &inertial.support_impulse,
             &inertial.added_impulse,
         ];
-        let blocks = inertial.stiffness.iter().chain(&inertial.damping);
+        let blocks = inertial.stiffness.iter().chain(&inertial.damping).flatten();
         let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())

@@ -89,7 +89,7 @@ clone_in_place!(ContactList { slabs, first, second, flags, history, pair_constan
 pub const TOUCHING: u8 = 1;
 
 /// The tangential spring was at its limit in the last evaluation.
-pub const SLIDING: u8 = 2;
+pub use crate::contact::SLIDING;
 
 /// A bond that suppresses the contact was made in the present time step: it still acts as it did before.
 pub const FRESH: u8 = 4;

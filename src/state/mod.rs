@@ -12,14 +12,12 @@ pub mod exchange;
 pub mod foresight;
 mod history;
 mod in_place;
-mod layout;
 pub mod ledger;
 pub mod losses;
 pub mod nodes;
 mod number;
 pub mod particles;
 mod plain;
-pub(crate) mod plane_rows;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};

@@ -50,9 +50,6 @@ pub struct Particles {
     /// Indices behind the scene's own that are free, the next to be taken last.
     #[serde(with = "plain")]
     pub free: Vec<u32>,
-    /// Whether velocities and forces stand in plane rows just now, inside a communication step ([`plane_rows`](super::plane_rows)).
-    #[serde(skip)]
-    pub(crate) plane_rows: bool,
 }
 
 clone_in_place!(Particles {
@@ -68,8 +65,7 @@ clone_in_place!(Particles {
     slot,
     bonds,
     numbers,
-    free,
-    plane_rows
+    free
 });
 
 impl Particles {

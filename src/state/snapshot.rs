@@ -1,6 +1,6 @@
 //! State as bytes: versioned, checksummed, tied to its scene.
 
-use super::{State, StateFault, layout};
+use super::{State, StateFault};
 use crate::{bond, contact};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::OnceLock;
@@ -12,20 +12,23 @@ const MAGIC: &[u8; 8] = b"cograin\0";
 /// Version of what stands before the payload.
 const VERSION: u32 = 7;
 
-/// Length of what stands before the payload: magic, version, layout, scene fingerprint, checksum.
+/// Length of what stands before the payload: magic, version, schema, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8 + 8;
+
+/// The structs and enumerations of the state as text (`build.rs`).
+const SCHEMA: &str = include_str!(concat!(env!("OUT_DIR"), "/state_schema.txt"));
 
 /// A number that differs when any field of the state differs in name, type or place, or a law of the program remembers
 /// something else.
-fn layout() -> u64 {
+fn schema() -> u64 {
     /// It is the same for a whole process.
-    static LAYOUT: OnceLock<u64> = OnceLock::new();
-    *LAYOUT.get_or_init(|| xxh3_64(described().as_bytes()))
+    static SCHEMA: OnceLock<u64> = OnceLock::new();
+    *SCHEMA.get_or_init(|| xxh3_64(described().as_bytes()))
 }
 
 /// The fields of the state, and what laws of contacts and bonds keep in its rows, which are numbers alone.
 fn described() -> String {
-    layout::of::<State>() + &contact::remembered() + &bond::remembered()
+    SCHEMA.to_owned() + &contact::remembered() + &bond::remembered()
 }
 
 /// Why serialising a state into memory cannot fail.
@@ -36,7 +39,7 @@ fn header(scene_fingerprint: u64, checksum: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
     header[..8].copy_from_slice(MAGIC);
     header[8..12].copy_from_slice(&VERSION.to_le_bytes());
-    header[12..20].copy_from_slice(&layout().to_le_bytes());
+    header[12..20].copy_from_slice(&schema().to_le_bytes());
     header[20..28].copy_from_slice(&scene_fingerprint.to_le_bytes());
     header[28..].copy_from_slice(&checksum.to_le_bytes());
     header
@@ -48,8 +51,8 @@ pub enum SnapshotError {
     /// Another kind of file.
     #[error("not a cograin state: the first bytes are other than \"cograin\"")]
     Foreign,
-    /// Another layout.
-    #[error("state of layout version {found}; this program reads version {expected}")]
+    /// Another layout of what stands before the payload.
+    #[error("expected a state of layout version {expected}, found one of version {found}")]
     Version {
         /// Version in the bytes.
         found: u32,
@@ -58,19 +61,20 @@ pub enum SnapshotError {
     },
     /// Of a program whose state has other fields.
     #[error(
-        "state of another build of this program, which keeps other numbers of particles, contacts or bonds: layout {found:016x} found, {expected:016x} is right"
+        "expected the schema {expected:016x} of particles, contacts and bonds, found {found:016x}, that of another \
+         build of this program"
     )]
-    Layout {
-        /// Layout in the bytes.
+    Schema {
+        /// Schema in the bytes.
         found: u64,
-        /// Layout of this program.
+        /// Schema of this program.
         expected: u64,
     },
     /// Whole, and yet none of the scene.
     #[error(transparent)]
     Fault(#[from] StateFault),
     /// Another scene.
-    #[error("state of another scene: fingerprint {found:016x} found, {expected:016x} is right")]
+    #[error("expected the fingerprint {expected:016x} of this scene, found {found:016x}, that of another scene")]
     Scene {
         /// Fingerprint in the bytes.
         found: u64,
@@ -185,8 +189,8 @@ impl State {
             return Err(SnapshotError::Version { found: version, expected: VERSION });
         }
         let found = number(12).ok_or(SnapshotError::Damaged)?;
-        if found != layout() {
-            return Err(SnapshotError::Layout { found, expected: layout() });
+        if found != schema() {
+            return Err(SnapshotError::Schema { found, expected: schema() });
         }
         let scene = number(20).ok_or(SnapshotError::Damaged)?;
         if scene != scene_fingerprint {
@@ -224,10 +228,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_laws_remember_belongs_to_the_layout() {
+    fn fields_and_what_the_laws_remember_belong_to_the_schema() {
         let described = described();
         for part in [
-            "coefficients",
+            "pub struct State {\npub clock: Clock,\n",
+            "pub position: Vec<Row>,\n#[serde(with = \"plain\")]\npub velocity: Vec<Row>,\n",
+            "struct Losses",
+            "enum Source {\n",
             "history: tangential spring [true, true, true, false]",
             "eepa: plastic overlap, overlap before [false, false, false, false]",
             "epsd2: rolling torque [true, true, true, false]",

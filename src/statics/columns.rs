@@ -4,9 +4,10 @@ use super::network::Network;
 use crate::run_error::RunError;
 use crate::state::State;
 use crate::step::{Displacement, Probe};
+use nalgebra::Matrix6;
 
 /// Six freedoms of a body by six of another; of the first three alone where nothing turns.
-pub(super) type Block = [[f64; 6]; 6];
+pub(super) type Block = Matrix6<f64>;
 
 /// A body whose own stiffness in some direction is below this share of that in another is loose.
 const LOOSE: f64 = 1e-9;
@@ -64,7 +65,7 @@ impl Columns {
     /// Displaces every body along and about every axis, those at once that act on no common body.
     pub(super) fn of(probe: &mut Probe, network: &Network, way: f64) -> Result<Self, RunError> {
         let each = network.each;
-        let empty = |list: &Vec<u32>| list.iter().map(|&other| (other, [[0.0; 6]; 6])).collect();
+        let empty = |list: &Vec<u32>| list.iter().map(|&other| (other, Block::zeros())).collect();
         let mut blocks: Vec<Vec<(u32, Block)>> = network.near.iter().map(empty).collect();
         for set in &network.sets {
             for axis in 0..each {
@@ -73,8 +74,8 @@ impl Columns {
                 for &body in set {
                     for (other, block) in &mut blocks[body as usize] {
                         let first = *other as usize * each;
-                        for (row, load) in block.iter_mut().zip(&found.loads[first..first + each]) {
-                            row[axis] = -load;
+                        for (part, load) in block.column_mut(axis).iter_mut().zip(&found.loads[first..first + each]) {
+                            *part = -load;
                         }
                     }
                 }
@@ -100,8 +101,9 @@ impl Columns {
 
     /// Mean of the entries on the diagonal that belong to translations \[N/m\].
     pub(super) fn mean_stiffness(&self) -> f64 {
-        let own =
-            |body: usize| self.block(body as u32, body as u32).map_or(0.0, |own| own[0][0] + own[1][1] + own[2][2]);
+        let own = |body: usize| {
+            self.block(body as u32, body as u32).map_or(0.0, |own| own[(0, 0)] + own[(1, 1)] + own[(2, 2)])
+        };
         (0..self.blocks.len()).map(own).sum::<f64>() / (3 * self.blocks.len()).max(1) as f64
     }
 
@@ -118,8 +120,8 @@ impl Columns {
             for (body, block) in list {
                 let Some(mirrored) = self.block(moving as u32, *body) else { continue };
                 for (row, column) in (0..self.each).flat_map(|row| (0..self.each).map(move |column| (row, column))) {
-                    difference = difference.max((block[row][column] - mirrored[column][row]).abs());
-                    largest = largest.max(block[row][column].abs());
+                    difference = difference.max((block[(row, column)] - mirrored[(column, row)]).abs());
+                    largest = largest.max(block[(row, column)].abs());
                 }
             }
         }
@@ -133,7 +135,7 @@ impl Columns {
             let ways = &displacements[moving * self.each..(moving + 1) * self.each];
             for (body, block) in list {
                 let loads = &mut loads[*body as usize * self.each..(*body as usize + 1) * self.each];
-                for (load, row) in loads.iter_mut().zip(block) {
+                for (load, row) in loads.iter_mut().zip(block.row_iter()) {
                     *load += row.iter().zip(ways).map(|(entry, way)| entry * way).sum::<f64>();
                 }
             }
@@ -152,15 +154,15 @@ impl Columns {
     /// Whether a body's own stiffness is next to nothing in some direction: a pivot of its elimination vanishes.
     fn is_soft(&self, own: &Block) -> bool {
         let mut rest = *own;
-        let largest = (0..self.each).fold(0.0_f64, |most, k| most.max(own[k][k].abs()));
+        let largest = (0..self.each).fold(0.0_f64, |most, k| most.max(own[(k, k)].abs()));
         for pivot in 0..self.each {
-            if rest[pivot][pivot] <= LOOSE * largest {
+            if rest[(pivot, pivot)] <= LOOSE * largest {
                 return true;
             }
             for row in pivot + 1..self.each {
-                let factor = rest[row][pivot] / rest[pivot][pivot];
+                let factor = rest[(row, pivot)] / rest[(pivot, pivot)];
                 for column in pivot..self.each {
-                    rest[row][column] -= factor * rest[pivot][column];
+                    rest[(row, column)] -= factor * rest[(pivot, column)];
                 }
             }
         }

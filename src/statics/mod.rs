@@ -35,7 +35,7 @@ const OF_RADIUS: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StaticsError {
     /// The scene has something that has no static stiffness.
-    #[error("{what} has no static stiffness; {right} is right")]
+    #[error("expected {right}, found {what}, which has no static stiffness")]
     Refused {
         /// What it is.
         what: String,

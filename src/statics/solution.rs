@@ -2,6 +2,7 @@
 //! and as large as the packing.
 
 use super::columns::{Block, Columns};
+use nalgebra::{Matrix6, Vector6};
 
 /// What is added to the diagonal, over the mean stiffness, so that motions which nothing holds do not end the iteration.
 const HELD: f64 = 1e-12;
@@ -37,7 +38,8 @@ impl Factors {
     fn divide(&self, loads: &[f64]) -> Vec<f64> {
         let bodies = loads.chunks_exact(self.each).zip(&self.inverses);
         let divided = bodies.flat_map(|(loads, inverse)| {
-            inverse[..self.each].iter().map(move |row| row.iter().zip(loads).map(|(entry, load)| entry * load).sum())
+            let product = move |row: usize| inverse.row(row).iter().zip(loads).map(|(entry, load)| entry * load).sum();
+            (0..self.each).map(product)
         });
         divided.collect()
     }
@@ -94,28 +96,8 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-/// The inverse of a block with something added to its diagonal, by elimination; 0 in directions that nothing holds.
+/// The inverse of a block with something added to its diagonal; 0 where there is none.
 fn inverse(own: &Block, each: usize, held: f64) -> Block {
-    let (mut left, mut right) = (*own, [[0.0; 6]; 6]);
-    for k in 0..each {
-        left[k][k] += held;
-        right[k][k] = 1.0;
-    }
-    for pivot in 0..each {
-        let scale = left[pivot][pivot];
-        if scale <= held * 0.5 {
-            (left[pivot], right[pivot]) = ([0.0; 6], [0.0; 6]);
-            continue;
-        }
-        left[pivot].iter_mut().chain(&mut right[pivot]).for_each(|entry| *entry /= scale);
-        let (pivot_left, pivot_right) = (left[pivot], right[pivot]);
-        for row in (0..each).filter(|&row| row != pivot) {
-            let factor = left[row][pivot];
-            for column in 0..each {
-                left[row][column] -= factor * pivot_left[column];
-                right[row][column] -= factor * pivot_right[column];
-            }
-        }
-    }
-    right
+    let held = Vector6::from_fn(|freedom, _| if freedom < each { held } else { 1.0 });
+    (own + Matrix6::from_diagonal(&held)).try_inverse().unwrap_or_default()
 }

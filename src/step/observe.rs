@@ -3,7 +3,6 @@
 use super::Simulation;
 use crate::bond::Carried;
 use crate::books;
-use crate::boundaries::felt;
 use crate::integration;
 use crate::interactions::{BondRecord, ContactRecord, SLIGHT};
 use crate::number::Vector;
@@ -151,7 +150,7 @@ impl Simulation {
     pub fn undamped_unbalanced_force(&mut self) -> f64 {
         let kept = self.state.clone();
         let damped = self.fields.without_damping();
-        felt::clear_loads(&mut self.state, &mut self.room.loads);
+        self.clear_boundary_loads();
         integration::clear_loads(&mut self.state.particles);
         let context = self.standing();
         // What an evaluation finds wrong the next time step finds, too.

@@ -1,7 +1,7 @@
 //! A simulation at rest whose bodies are displaced a little: how forces answer, however slowly that is done.
 
 use super::{RunError, Simulation};
-use crate::boundaries::{felt, nodes, rigid_body};
+use crate::boundaries::rigid_body;
 use crate::geometry::{Quaternion, rotation};
 use crate::integration;
 use crate::interactions::{Ahead, Link};
@@ -95,8 +95,7 @@ impl Probe {
         }
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
         rigid_body::place_groups(scene, bodies, state);
-        felt::clear_loads(&mut simulation.state, &mut simulation.room.loads);
-        nodes::clear_loads(&mut simulation.state, &mut simulation.room.nodes);
+        simulation.clear_boundary_loads();
         integration::clear_loads(&mut simulation.state.particles);
         let context = Context { step: SLOWLY, ..simulation.standing() };
         simulation.evaluate(false, &context)?;

@@ -5,7 +5,6 @@ use crate::motion::InputCourse;
 use crate::number::Vector;
 use crate::run_error::Cause;
 use crate::scene::{Outside, Scene};
-use crate::state::plane_rows::ParticleMotion;
 use crate::state::{Clock, GONE, Particles};
 use crate::surface;
 
@@ -35,7 +34,7 @@ impl Simulation {
         }
         let particles = &self.state.particles;
         for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
-            let ParticleMotion { velocity, force, .. } = particles.motion(slot);
+            let (velocity, force) = (particles.velocity[slot], particles.force[slot]);
             let next = |axis: usize| velocity[axis] + 0.5 * step / velocity[3] * force[axis];
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
@@ -83,7 +82,22 @@ impl Simulation {
     /// The step as the cause, or none that is seen.
     fn step_or_unseen(&self) -> Cause {
         let Clock { last_step: step, stable, .. } = self.state.clock;
-        self.step_as_cause().unwrap_or(Cause::Unseen { step, stable })
+        self.step_as_cause().or_else(|| Some(self.coincident()?.1)).unwrap_or(Cause::Unseen { step, stable })
+    }
+
+    /// Two particles that touch and whose centres coincide, or did at the start where they are no numbers any more: the number
+    /// of the first, and what is said of both.
+    pub(super) fn coincident(&self) -> Option<(u32, Cause)> {
+        let particles = &self.state.particles;
+        let centre = |slot: u32| {
+            let [x, y, z, _] = *particles.position.get(slot as usize)?;
+            let start = || Some(self.scene.particles.get(particles.id[slot as usize] as usize)?.position);
+            if (x + y + z).is_finite() { Some([x, y, z]) } else { start() }
+        };
+        let pairs = self.state.contacts.iter().flat_map(|list| list.first.iter().zip(&list.second));
+        let (&i, &j) = pairs.into_iter().find(|&(&i, &j)| centre(i).is_some() && centre(i) == centre(j))?;
+        let [first, second] = [i, j].map(|slot| self.number(particles.id[slot as usize]));
+        Some((first, Cause::Coincident { first, second }))
     }
 
     /// Stops where particles are so deep in each other that no law holds, and before energy comes out of nothing.
@@ -122,13 +136,12 @@ impl Simulation {
         let particles = &self.state.particles;
         let finite = |row: &[f64; 4]| row.iter().all(|number| number.is_finite());
         for slot in 0..particles.len() {
-            let ParticleMotion { velocity, spin, force, torque } = particles.motion(slot);
             let quantities = [
                 ("position", &particles.position[slot]),
-                ("force", &force),
-                ("torque", &torque),
-                ("velocity", &velocity),
-                ("angular velocity", &spin),
+                ("force", &particles.force[slot]),
+                ("torque", &particles.torque[slot]),
+                ("velocity", &particles.velocity[slot]),
+                ("angular velocity", &particles.angular_velocity[slot]),
             ];
             if let Some((quantity, _)) = quantities.into_iter().find(|(_, row)| !finite(row)) {
                 let (time, cause) = (self.time(), self.step_or_unseen());
@@ -164,7 +177,7 @@ impl Simulation {
         let relative = Vector::from(self.state.particles.velocity[slot as usize])
             - Vector::from(self.state.boundaries[at].velocity);
         let closing = -relative.dot(normal.into());
-        if closing > 0.0 { Cause::Impact { speed: closing } } else { Cause::Load }
+        self.impact_or_load(closing, self.state.particles.position[slot as usize][3])
     }
 
     /// The number of a particle by its index; of none, that of the next to come.
@@ -199,6 +212,7 @@ impl Simulation {
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }
+            | RunError::Invalid { .. }
             | RunError::Stopped { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }

@@ -95,12 +95,16 @@ impl Simulation {
         self.open_energy_book();
     }
 
-    /// Lets mean loads and the energy book begin at the present state.
+    /// Lets mean loads, rates of loads and the energy book begin at the present state.
     pub(super) fn open_energy_book(&mut self) {
         let energies = self.state.ledger.is_some().then(|| (self.kinetic_energy(), self.elastic_energy()));
         for boundary in &mut self.state.boundaries {
             boundary.mean_force = boundary.force;
             boundary.mean_moment = boundary.moment;
+            for axis in 0..3 {
+                boundary.force_before[axis] = boundary.force[axis];
+                boundary.moment_before[axis] = boundary.moment[axis];
+            }
         }
         for nodes in &mut self.state.nodes {
             nodes.mean_force.clone_from(&nodes.force);

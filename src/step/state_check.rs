@@ -1,11 +1,19 @@
 //! States from outside are checked before they are used.
 
-use super::{LONGEST_AUTOMATIC_STEP, Simulation};
+use super::{LONGEST_AUTOMATIC_STEP, RunError, Simulation};
 use crate::flow;
 use crate::scene::Step;
 use crate::state::{State, StateFault, demand};
 
 impl Simulation {
+    /// Refuses a present state that could not be taken up again.
+    pub(crate) fn check_present(&self) -> Result<(), RunError> {
+        self.check(&self.state).map_err(|StateFault { part, place, right }| match self.coincident() {
+            Some((id, cause)) => RunError::NotFinite { id, quantity: "force", time: self.time(), cause },
+            None => RunError::Invalid { part, place, right, time: self.time() },
+        })
+    }
+
     /// Whether a state can be one of this simulation: everything that the passes trust (slots, lengths and order of the
     /// lists, finite numbers) and what never changes (radii, masses, materials, groups). Takes a time in proportion to
     /// the state.

@@ -49,8 +49,10 @@ pub(super) struct WayBack {
     nodes: Vec<[Row; 2]>,
     /// Rates of insertions that were given for them, and how they change, insertion by insertion.
     rates: Vec<[f64; 2]>,
-    /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself, unless slopes go along.
+    /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
     close: bool,
+    /// Memory of a state that is worked on meanwhile.
+    pub(super) room: Option<State>,
 }
 
 impl WayBack {
@@ -59,15 +61,15 @@ impl WayBack {
         self.holds = false;
     }
 
-    /// Whether there is a last communication step.
-    pub(super) fn has_last(&self) -> bool {
-        self.holds && !self.intervals.is_empty()
+    /// Length of the last communication step, if one can be made again \[s\].
+    pub(super) fn last_length(&self) -> Option<f64> {
+        self.intervals.last().copied().filter(|_| self.holds)
     }
 
-    /// Notes that a communication step of this length \[s\] begins, from which nobody is expected to go back if it carries slopes along.
-    fn note(&mut self, state: &State, interval: f64, carries: bool) {
+    /// Notes that a communication step of this length \[s\] begins.
+    fn note(&mut self, state: &State, interval: f64) {
         let recent = |earlier: &State| state.clock.steps - earlier.clock.steps < MOST_STEPS;
-        if self.close && !carries || !(self.holds && self.earlier.as_ref().is_some_and(recent)) {
+        if self.close || !(self.holds && self.earlier.as_ref().is_some_and(recent)) {
             match &mut self.earlier {
                 Some(earlier) => earlier.clone_from(state),
                 None => {
@@ -95,17 +97,12 @@ impl Simulation {
     /// Runs one communication step of `interval` \[s\] as [`Simulation::advance`] does. If it fails, the state is that of
     /// its beginning.
     pub fn advance_or_return(&mut self, interval: f64) -> Result<(), RunError> {
-        let inputs = self.habit.expect();
-        self.way_back.note(&self.state, interval, !inputs.is_empty());
-        let result = match inputs.is_empty() {
-            true => self.advance(interval),
-            false => self.advance_with_slopes(&inputs, interval),
-        };
-        result.inspect_err(|_| self.go_back())
+        self.way_back.note(&self.state, interval);
+        self.advance(interval).inspect_err(|_| self.go_back())
     }
 
     /// Goes back to the beginning of the communication step that was noted last, and gives its length \[s\]. From now on the beginning
-    /// of each one that carries no slopes along is kept.
+    /// of each one is kept.
     pub(super) fn return_to_last(&mut self) -> f64 {
         self.way_back.close = true;
         let length = self.way_back.intervals.last().copied().expect("a communication step was made");

@@ -79,7 +79,7 @@ impl ShapeKeys for Keys {
         let (material, axis) = (around.material("a cylinder"), axis(self.from, self.to, "cylinder", around));
         if self.infinite && self.caps != Caps::None {
             let found = "caps on a cylinder without ends".to_owned();
-            around.refuse("cylinder.caps", found, "infinite = false, or no caps,");
+            around.refuse("cylinder.caps", found, "infinite = false, or no caps");
             return None;
         }
         let (material, (from, along, length), radius) = (material?, axis?, self.radius.get());

@@ -25,7 +25,7 @@ impl ShapeKeys for Keys {
     fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
         let (material, normal) = (around.material("a disc"), direction(self.normal.0));
         if normal.is_none() {
-            around.refuse("disc.normal", "a normal of length 0".to_owned(), "one across the disc");
+            around.refuse("disc.normal", "one of length 0".to_owned(), "a normal across the disc");
         }
         let (hole, radius) = (self.hole.map_or(0.0, Positive::get), self.radius.get());
         if hole >= radius {

@@ -163,6 +163,11 @@ pub(crate) trait Files {
     fn refuse(&mut self, key: &str, found: String, right: &str) {
         self.report(key, Mistake::Wrong { found, right: right.to_owned() });
     }
+
+    /// Reports the content of a file: what was found in it and what would be right.
+    fn refuse_file(&mut self, key: &str, file: &str, found: &str, right: &str) {
+        self.report(key, Mistake::Refused { message: format!("{file}: expected {right}, found {found}") });
+    }
 }
 
 /// What stands around the key of a shape in a scene.

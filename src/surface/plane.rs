@@ -119,8 +119,8 @@ impl ShapeKeys for Keys {
     fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
         let (material, normal) = (around.material("a plane"), direction(self.normal.0));
         if normal.is_none() {
-            let right = "one that points towards the particles";
-            around.refuse("plane.normal", "a normal of length 0".to_owned(), right);
+            let right = "a normal that points towards the particles";
+            around.refuse("plane.normal", "one of length 0".to_owned(), right);
         }
         Some(Shape::of(Plane { material: material?, point: self.point.0, normal: normal? }))
     }

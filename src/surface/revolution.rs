@@ -23,11 +23,11 @@ impl ShapeKeys for Keys {
     fn shape(&self, around: &mut dyn Around) -> Option<Shape> {
         let (material, axis) = (around.material("a surface of revolution"), direction(self.axis.0));
         if axis.is_none() {
-            around.refuse("revolution.axis", "an axis of length 0".to_owned(), "one along the axis");
+            around.refuse("revolution.axis", "one of length 0".to_owned(), "a vector along the axis");
         }
         let profile: Vec<[f64; 2]> = self.profile.iter().map(|corner| corner.map(Finite::get)).collect();
         let wrong = match &profile[..] {
-            [] | [_] => Some(("fewer than two corners".to_owned(), "two or more")),
+            [] | [_] => Some(("fewer".to_owned(), "two corners or more")),
             _ => {
                 let inward = profile.iter().find(|corner| corner[0] < 0.0);
                 let inward = inward.map(|corner| (format!("radius {:?}", corner[0]), "radii of 0 or above"));

@@ -43,7 +43,7 @@ def unit(cograin, tmp_path_factory):
         if (model, settings) not in packaged:
             path = tmp_path_factory.mktemp(model) / f"{model}.fmu"
             given = [argument for setting in settings for argument in ("--set", setting)]
-            cograin("export", ROOT / "models" / model / "scene.toml", "-o", path, *given)
+            cograin("export", ROOT / "models" / model / "scene.toml", "-o", path, "--overwrite", *given)
             packaged[model, settings] = path
         return packaged[model, settings]
 

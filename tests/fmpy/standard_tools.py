@@ -178,7 +178,7 @@ def main():
     given_programs = vars(parser.parse_args())
     tools = [(tool, given_programs[tool.option]) for tool in TOOLS if given_programs[tool.option]]
     if not tools:
-        parser.error("no tool named; --checker, --fmusim or --fmi-sim with the path of its program is right")
+        parser.error("expected --checker, --fmusim or --fmi-sim with the path of its program, found none of them")
     print("| model | communication steps | outputs |", " | ".join(f"{tool.name}" for tool, _ in tools), "|")
     print("|---|---|---|" + "---|" * len(tools))
     failed = []
@@ -186,7 +186,7 @@ def main():
         for model in MODELS:
             path = Path(folder) / f"{model}.fmu"
             scene = ROOT / "models" / model / "scene.toml"
-            subprocess.run([given_programs["program"], "export", scene, "-o", path], check=True, capture_output=True)
+            subprocess.run([given_programs["program"], "export", scene, "-o", path, "--overwrite"], check=True, capture_output=True)
             course = course_of(model)
             expected = with_fmpy(path, course)
             cells = []

@@ -29,7 +29,7 @@ def bell(cograin, slave, tmp_path):
     def package(motion):
         scene = tmp_path / "bell.toml"
         scene.write_text(SCENE.format(motion=motion))
-        cograin("export", scene, "-o", tmp_path / "bell.fmu")
+        cograin("export", scene, "-o", tmp_path / "bell.fmu", "--overwrite")
         return slave(tmp_path / "bell.fmu")
 
     return package

@@ -50,7 +50,7 @@ def bed(cograin, tmp_path_factory):
 
     def package(name, *settings):
         path = folder / f"{name}.fmu"
-        cograin("export", folder / "bed.toml", "-o", path, *(f"--set={setting}" for setting in settings))
+        cograin("export", folder / "bed.toml", "-o", path, "--overwrite", *(f"--set={setting}" for setting in settings))
         return path
 
     return package

@@ -51,7 +51,7 @@ def stages(cograin, tmp_path_factory):
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
     cograin("run", folder / "prepare.toml", "-o", folder / "prepared")
     checkpoint, unit = folder / "prepared" / "checkpoint.cograin", folder / "couple.fmu"
-    said = cograin("export", folder / "couple.toml", "--from", checkpoint, "-o", unit)
+    said = cograin("export", folder / "couple.toml", "--from", checkpoint, "-o", unit, "--overwrite")
     assert "not taken along" not in said
     with (folder / "prepared" / "history.csv").open() as file:
         return list(csv.DictReader(file))[-1], unit

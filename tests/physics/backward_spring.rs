@@ -4,13 +4,13 @@
 //! deep the first time step finds the contact. The test shows how much, and that the spring which is not stretched converges.
 
 use crate::physics::stage::{HERTZ, hertz_duration, hit, material, properties, rigid, sphere};
-use cograin::contact::LawChoice;
-use cograin::contact::tangential::{TangentialChoice, turned_history};
+use cograin::contact::tangential::turned_history;
+use cograin::contact::{LawChoice, TangentialModel, tangential};
 
 /// Largest error of the rebound with 100 time steps in a contact against 6,400, over the speed of impact; restitution 0.5, µ = 0.4.
 fn error(backward_spring: bool) -> f64 {
     let keys = turned_history::Keys { backward_spring: Some(backward_spring), ..Default::default() };
-    let law = LawChoice { tangential: TangentialChoice::TurnedHistory(keys), ..HERTZ };
+    let law = LawChoice { tangential: TangentialModel::of::<tangential::turned_history::TurnedHistory>(keys), ..HERTZ };
     let (radius, speed, modulus) = (0.0025, 3.9, 70e9);
     let error = |angle: f64| {
         let (sine, cosine) = angle.to_radians().sin_cos();

@@ -4,8 +4,9 @@
 //! `cargo test --test library bond_orders -- --nocapture` prints the errors.
 
 use super::orders::{Case, order};
+use crate::support::checked;
 use cograin::contact::Scheme;
-use cograin::scene::{Scene, Source};
+use cograin::scene::SceneDraft;
 
 /// Three bonded spheres, of which the last may be bonded to a plane, stretched, sheared, bent and twisted as they spin.
 const SCENE: &str = r#"
@@ -46,12 +47,11 @@ tangential_stiffness = 5.0e6
 damping.viscous = { normal_force = RATIO, tangential_force = RATIO, normal_torque = RATIO, tangential_torque = RATIO }"#;
 
 /// A scene with this scheme, formulation and damping ratio; with a foot, if asked for.
-fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> Scene {
+fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> SceneDraft {
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" });
     let text = text.replace("LAW", LAW).replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
     let text = text.replace("RATIO", &format!("{ratio:?}"));
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    checked(&text).into_draft()
 }
 
 /// The motions: formulations and damping ratios.
@@ -63,33 +63,6 @@ fn cases() -> [Case; 4] {
         case("incremental, ratio 0.3", |scheme, _| scene(scheme, "incremental", 0.3, false)),
         case("finite_rotation, ratio 0.3, at a plane", |scheme, _| scene(scheme, "finite_rotation", 0.3, true)),
     ]
-}
-
-/// The same scene with dashpots that are integrated by themselves.
-fn split(formulation: &str, ratio: f64, foot: bool) -> Scene {
-    let text = format!("{SCENE}{}", if foot { FLOOR } else { "" }).replace("LAW", LAW);
-    let text = text.replace("SCHEME", "engine").replace("FORMULATION", formulation);
-    let text = text.replace("normal_torque = RATIO,", "normal_torque = RATIO, integration = \"split\",");
-    let source = Source {
-        name: "scene.toml".into(),
-        text: text.replace("RATIO", &format!("{ratio:?}")),
-        files: Default::default(),
-    };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-#[test]
-fn split_dashpots_of_bonds_are_of_second_order() {
-    let case = |name, scene| Case { name, scene, time: 0.01, steps: 400, phases: 1 };
-    for case in [
-        case("split, finite_rotation, ratio 0.05", |_, _| split("finite_rotation", 0.05, false)),
-        case("split, finite_rotation, ratio 1", |_, _| split("finite_rotation", 1.0, false)),
-        case("split, incremental, ratio 0.3", |_, _| split("incremental", 0.3, false)),
-        case("split, finite_rotation, ratio 0.3, plane", |_, _| split("finite_rotation", 0.3, true)),
-    ] {
-        let found = order(&case, Scheme::Engine);
-        assert!(found >= 1.9, "{}: {found:.2}", case.name);
-    }
 }
 
 #[test]

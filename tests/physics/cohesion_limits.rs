@@ -5,8 +5,8 @@
 
 use crate::physics::cundall_decay::damping;
 use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, properties, scene, sphere};
-use cograin::contact::cohesion::{CohesionChoice, sjkr};
-use cograin::contact::{LawChoice, PairProperties};
+use cograin::contact::cohesion::sjkr;
+use cograin::contact::{CohesionModel, LawChoice, PairProperties, cohesion};
 use cograin::quantity::NonNegative;
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 const R: f64 = 0.001;
 
 /// `sjkr`
-const COHESION: CohesionChoice = CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce: false });
+const COHESION: CohesionModel = CohesionModel::fixed::<cohesion::sjkr::Sjkr>(&sjkr::Keys { tangential_reduce: false });
 
 /// Overlap \[m\] that two spheres begin with.
 const TOUCH: f64 = 1e-6 * R;

@@ -2,8 +2,7 @@
 
 use crate::physics::momentum::{cloud, whole_law};
 use crate::physics::stage::{HERTZ, Stage, assert_near, material, scene};
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, NoKeys};
+use cograin::contact::{LawChoice, NoKeys, TangentialModel, tangential};
 
 /// Largest difference of reported and acting force on any particle, over the largest force; and whether any slid.
 fn difference(law: LawChoice) -> (f64, bool) {
@@ -33,7 +32,7 @@ fn difference(law: LawChoice) -> (f64, bool) {
 
 #[test]
 fn reported_forces_add_up_to_those_on_the_particles() {
-    for tangential in [HERTZ.tangential, TangentialChoice::NoHistory(NoKeys {})] {
+    for tangential in [HERTZ.tangential, TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {})] {
         let (apart, slid) = difference(LawChoice { tangential, ..whole_law().0 });
         assert!(slid, "no contact slides");
         // The velocities of the evaluation are found again from those after it: rounding.

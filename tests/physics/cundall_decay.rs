@@ -7,11 +7,11 @@
 use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
 use cograin::contact::PairProperties;
 use cograin::quantity::NonNegative;
-use cograin::scene::{Damping, Scene};
+use cograin::scene::{Damping, SceneDraft};
 use std::f64::consts::PI;
 
 /// Damping of every particle by these fractions.
-pub(crate) fn damping(scene: &Scene, linear: f64, angular: f64, gravity_damped: bool) -> Vec<Damping> {
+pub(crate) fn damping(scene: &SceneDraft, linear: f64, angular: f64, gravity_damped: bool) -> Vec<Damping> {
     let each = |fraction: f64| vec![fraction; scene.particles.len()];
     let (linear, angular) = (each(linear), each(angular));
     vec![Damping {

@@ -4,8 +4,8 @@
 //! more under a large one (D. Elata & J. G. Berryman, *Mech. Mater.* 24 (1996) 229–240). The test shows how much.
 
 use crate::physics::stage::{HERTZ, hertz_duration, hit, material, properties, rigid, sphere};
-use cograin::contact::tangential::{TangentialChoice, turned_history};
-use cograin::contact::{LawChoice, NoKeys, Scheme};
+use cograin::contact::tangential::turned_history;
+use cograin::contact::{LawChoice, NoKeys, Scheme, TangentialModel, tangential};
 
 /// Kinetic energy after over before, of an elastic sphere that meets a rigid plane at this angle \[°\] from the normal.
 fn energy_ratio(law: LawChoice, friction: f64, angle: f64) -> f64 {
@@ -33,7 +33,7 @@ fn sticking_impacts_gain_a_little_energy_at_grazing_angles() {
 #[test]
 fn a_spring_that_shrinks_with_its_stiffness_gains_none() {
     let keys = turned_history::Keys { rescale: true, ..Default::default() };
-    let law = LawChoice { tangential: TangentialChoice::TurnedHistory(keys), ..HERTZ };
+    let law = LawChoice { tangential: TangentialModel::of::<tangential::turned_history::TurnedHistory>(keys), ..HERTZ };
     for (friction, angle) in [(1.0, 30.0), (5.0, 75.0), (5.0, 45.0)] {
         let found = energy_ratio(law, friction, angle);
         assert!(found < 1.0, "µ = {friction}, {angle}°: {found:.5}");
@@ -49,7 +49,8 @@ fn sliding_impacts_lose_energy() {
 #[test]
 fn a_force_that_is_kept_while_the_contact_grows_and_shrinks_with_it_gains_nothing() {
     for scheme in [Scheme::Engine, Scheme::Midway] {
-        let law = LawChoice { tangential: TangentialChoice::Rescaled(NoKeys {}), scheme, ..HERTZ };
+        let law =
+            LawChoice { tangential: TangentialModel::of::<tangential::rescaled::Rescaled>(NoKeys {}), scheme, ..HERTZ };
         for (friction, angle) in [(0.3, 30.0), (1.0, 30.0), (1.0, 60.0), (5.0, 15.0), (5.0, 75.0)] {
             let found = energy_ratio(law, friction, angle);
             assert!(found < 1.0, "{}, µ = {friction}, {angle}°: {found:.6}", scheme.name());

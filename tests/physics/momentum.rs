@@ -3,9 +3,8 @@
 //! Every contact force acts on both bodies along one line, and the arms of both add up to their distance.
 
 use crate::physics::stage::{HERTZ, Stage, assert_near, material, properties, scene, sphere};
-use cograin::contact::cohesion::{CohesionChoice, sjkr};
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::{LawChoice, NoKeys, PairProperties};
+use cograin::contact::cohesion::sjkr;
+use cograin::contact::{CohesionModel, LawChoice, NoKeys, PairProperties, RollingModel, cohesion, rolling};
 use cograin::quantity::NonNegative;
 use cograin::scene::Particle;
 
@@ -31,8 +30,8 @@ pub(crate) fn cloud() -> Vec<Particle> {
 /// Everything that makes forces between spheres.
 pub(crate) fn whole_law() -> (LawChoice, PairProperties) {
     let law = LawChoice {
-        rolling: RollingChoice::Cdt(NoKeys {}),
-        cohesion: CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce: true }),
+        rolling: RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
+        cohesion: CohesionModel::of::<cohesion::sjkr::Sjkr>(sjkr::Keys { tangential_reduce: true }),
         ..HERTZ
     };
     let pair = PairProperties {

@@ -3,10 +3,10 @@
 //! `cargo test --test physics orders -- --nocapture` prints the errors.
 
 use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, scene, sphere};
-use cograin::contact::rolling::{RollingChoice, rocking};
-use cograin::contact::{LawChoice, PairProperties, Scheme};
+use cograin::contact::rolling::rocking;
+use cograin::contact::{LawChoice, PairProperties, RollingModel, Scheme, rolling};
 use cograin::quantity::NonNegative;
-use cograin::scene::{AppliedForce, Scene};
+use cograin::scene::{AppliedForce, SceneDraft};
 
 /// Radius of all spheres \[m\].
 const R: f64 = 5e-3;
@@ -19,7 +19,7 @@ pub(super) struct Case {
     /// What is claimed of it.
     pub(super) name: &'static str,
     /// The scene of phase 0 to 1, without its step.
-    pub(super) scene: fn(Scheme, f64) -> Scene,
+    pub(super) scene: fn(Scheme, f64) -> SceneDraft,
     /// How long it runs \[s\].
     pub(super) time: f64,
     /// Coarsest number of steps; three halvings follow.
@@ -78,7 +78,7 @@ fn law(scheme: Scheme) -> LawChoice {
 const SOFT: f64 = 1e6;
 
 /// A sphere that meets a plane 10° off its normal, and sticks.
-fn stick_on_a_plane(scheme: Scheme, phase: f64) -> Scene {
+fn stick_on_a_plane(scheme: Scheme, phase: f64) -> SceneDraft {
     let (sine, cosine) = 10.0_f64.to_radians().sin_cos();
     let mut body = sphere(R, 2500.0);
     body.position[2] = R + 1e-4 * phase;
@@ -89,7 +89,7 @@ fn stick_on_a_plane(scheme: Scheme, phase: f64) -> Scene {
 }
 
 /// Two spheres that meet obliquely and stick, with this spin \[rad/s\].
-fn stuck_pair(scheme: Scheme, phase: f64, spin: [f64; 3]) -> Scene {
+fn stuck_pair(scheme: Scheme, phase: f64, spin: [f64; 3]) -> SceneDraft {
     let (sine, cosine) = 20.0_f64.to_radians().sin_cos();
     let (mut one, mut other) = (sphere(R, 2500.0), sphere(R, 2500.0));
     one.position[2] = 2.0 * R + 1e-4 * phase;
@@ -100,7 +100,7 @@ fn stuck_pair(scheme: Scheme, phase: f64, spin: [f64; 3]) -> Scene {
 }
 
 /// Young's modulus and density give a sphere that sinks 5e-4 of its radius into the plane.
-fn resting(law: LawChoice, pair: PairProperties) -> Scene {
+fn resting(law: LawChoice, pair: PairProperties) -> SceneDraft {
     let mut body = sphere(R, 2500.0);
     let modulus = 1e6 / (2.0 * 0.91);
     let overlap = (body.mass() * 9.81 / (4.0 / 3.0 * modulus * R.sqrt())).powf(2.0 / 3.0);
@@ -113,7 +113,7 @@ fn resting(law: LawChoice, pair: PairProperties) -> Scene {
 }
 
 /// Two spheres that forces press together while they spin, roll and slip on each other.
-fn pressed(law: LawChoice, pair: PairProperties) -> Scene {
+fn pressed(law: LawChoice, pair: PairProperties) -> SceneDraft {
     let (mut one, mut other) = (sphere(R, 2500.0), sphere(R, 2500.0));
     one.position[2] = 2.0 * R - 2e-5;
     one.velocity = [0.02, 0.01, 0.0];
@@ -160,7 +160,7 @@ fn damped() -> [Case; 2] {
 /// Rolling springs without dashpots, in permanent contact.
 fn rolling() -> [Case; 3] {
     /// With this rolling model, elastic.
-    fn with(scheme: Scheme, rolling: RollingChoice) -> (LawChoice, PairProperties) {
+    fn with(scheme: Scheme, rolling: RollingModel) -> (LawChoice, PairProperties) {
         let pair = PairProperties {
             rolling_friction: NonNegative::new(ROLLING),
             rolling_viscous_damping: NonNegative::new(0.0),
@@ -170,14 +170,17 @@ fn rolling() -> [Case; 3] {
     }
     /// The spring as stiff as friction, with torsion.
     fn twisting(scheme: Scheme) -> (LawChoice, PairProperties) {
-        with(scheme, RollingChoice::Epsd2(rocking::Keys { torsion: true, ..rocking::Keys::default() }))
+        with(
+            scheme,
+            RollingModel::of::<rolling::epsd2::Epsd2>(rocking::Keys { torsion: true, ..rocking::Keys::default() }),
+        )
     }
     let rest = |scheme, _| {
-        let (law, pair) = with(scheme, RollingChoice::Epsd(rocking::Keys::default()));
+        let (law, pair) = with(scheme, RollingModel::of::<rolling::epsd::Epsd>(rocking::Keys::default()));
         resting(law, pair)
     };
     let press = |scheme, _| {
-        let (law, pair) = with(scheme, RollingChoice::Epsd(rocking::Keys::default()));
+        let (law, pair) = with(scheme, RollingModel::of::<rolling::epsd::Epsd>(rocking::Keys::default()));
         pressed(law, pair)
     };
     let twist = |scheme, _| {

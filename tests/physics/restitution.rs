@@ -4,8 +4,8 @@
 //! the attractive end of the contact is kept.
 
 use crate::physics::stage::{SMOOTH, assert_near, hertz_duration, hit, material, properties, rigid, sphere};
-use cograin::contact::LawChoice;
-use cograin::contact::normal::{NormalChoice, hooke};
+use cograin::contact::normal::hooke;
+use cograin::contact::{LawChoice, NormalModel, normal};
 use cograin::quantity::Positive;
 use cograin::scene::Particle;
 use std::f64::consts::PI;
@@ -50,7 +50,7 @@ fn two_hundred_steps_are_right_to_a_thousandth_from_0_4_on() {
 #[test]
 fn hooke_rebounds_with_the_restitution_given() {
     let keys = hooke::Keys { characteristic_velocity: Positive::new(3.9).unwrap() };
-    let law = LawChoice { normal: NormalChoice::Hooke(keys), ..SMOOTH };
+    let law = LawChoice { normal: NormalModel::of::<normal::hooke::Hooke>(keys), ..SMOOTH };
     let mass = ball().mass();
     // The spring stores at its largest overlap what Hertz's contact does there.
     let deepest = crate::physics::stage::hertz_overlap(MODULUS, 0.0025, mass, 3.9);

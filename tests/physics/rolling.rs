@@ -6,8 +6,7 @@
 use crate::physics::stage::{
     HERTZ, SMOOTH, Stage, assert_close, assert_near, material, plane, properties, scene, sphere,
 };
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::{LawChoice, NoKeys, PairProperties};
+use cograin::contact::{LawChoice, NoKeys, PairProperties, RollingModel, rolling};
 use cograin::quantity::NonNegative;
 
 /// Gravity \[m/s²\].
@@ -32,7 +31,7 @@ fn resting(law: LawChoice, down: [f64; 3], friction: f64, speed: f64, spin: f64)
     body.angular_velocity[1] = spin;
     let rolling_friction = NonNegative::new(MU);
     let pair = PairProperties { rolling_friction, ..properties(0.5, friction) };
-    let rough = LawChoice { rolling: RollingChoice::Cdt(NoKeys {}), ..law };
+    let rough = LawChoice { rolling: RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}), ..law };
     let mut scene = scene(rough, 4e-6, vec![material(modulus, 0.0); 2], pair, vec![body]);
     scene.gravity = down;
     scene.boundaries = vec![plane([0.0; 3], [0.0, 0.0, 1.0], 1)];

@@ -3,11 +3,10 @@
 //! `cargo test --test physics scheme_impacts -- --nocapture` prints the tables.
 
 use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, rigid, scene, sphere};
-use cograin::contact::normal::{NormalChoice, hooke};
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, NoKeys, Scheme};
+use cograin::contact::normal::hooke;
+use cograin::contact::{LawChoice, NoKeys, NormalModel, Scheme, TangentialModel, normal, tangential};
 use cograin::quantity::Positive;
-use cograin::scene::{Accuracy, Scene, Step};
+use cograin::scene::{Accuracy, SceneDraft, Step};
 use cograin::step::Simulation;
 use std::sync::Arc;
 
@@ -28,9 +27,9 @@ const PHASES: u32 = 12;
 
 /// A sphere before a plane, or two spheres before each other; velocity and spin of the first afterwards, and the steps that
 /// the impact took about.
-fn rebound(mut scene: Scene, step: Step, duration: f64) -> ([f64; 3], [f64; 3], f64) {
+fn rebound(mut scene: SceneDraft, step: Step, duration: f64) -> ([f64; 3], [f64; 3], f64) {
     scene.run.step = step;
-    let mut simulation = Simulation::new(Arc::new(scene)).unwrap();
+    let mut simulation = Simulation::new(Arc::new(scene.build().unwrap())).unwrap();
     simulation.advance(5.0 * duration).unwrap();
     let steps = duration / simulation.state().clock.step;
     let stage = Stage { simulation, step: 0.0 };
@@ -38,7 +37,7 @@ fn rebound(mut scene: Scene, step: Step, duration: f64) -> ([f64; 3], [f64; 3], 
 }
 
 /// An oxide sphere before a rigid plane, this angle \[°\] from its normal, this far \[m\] away; and the duration of the impact.
-fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f64) -> (Scene, f64) {
+fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f64) -> (SceneDraft, f64) {
     let (sine, cosine) = angle.to_radians().sin_cos();
     let mut body = sphere(R, 4000.0);
     body.velocity = [SPEED * sine, 0.0, -SPEED * cosine];
@@ -53,7 +52,7 @@ fn on_plane(law: LawChoice, restitution: f64, friction: f64, angle: f64, gap: f6
 /// The law with hooke's spring as stiff as Hertz's at the speed of the impacts.
 fn hooke(law: LawChoice) -> LawChoice {
     let keys = hooke::Keys { characteristic_velocity: Positive::new(SPEED).unwrap() };
-    LawChoice { normal: NormalChoice::Hooke(keys), ..law }
+    LawChoice { normal: NormalModel::of::<normal::hooke::Hooke>(keys), ..law }
 }
 
 /// Gap in a phase: up to a seventh of a step of the longest \[m\].
@@ -132,7 +131,7 @@ fn table(what: &str, law: (&str, LawChoice), error: impl Fn(LawChoice, Step) -> 
 
 #[test]
 fn restitution_is_right_to_a_five_hundredth_with_high_accuracy() {
-    let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+    let smooth = LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), ..HERTZ };
     for law in [("hertz", smooth), ("hooke", hooke(smooth))] {
         let high = table("restitution", law, restitution_error);
         assert!(high <= 2e-3, "{}: {high:.2e}", law.0);
@@ -142,7 +141,7 @@ fn restitution_is_right_to_a_five_hundredth_with_high_accuracy() {
 #[test]
 fn restitution_is_right_to_a_hundredth_at_the_default_step() {
     let law = LawChoice { scheme: Accuracy::Standard.scheme(), ..HERTZ };
-    let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..law };
+    let smooth = LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), ..law };
     for (name, law) in [("hertz", law), ("hertz without friction", smooth), ("hooke", hooke(smooth))] {
         let (error, _) = restitution_error(law, Step::Automatic { safety: Accuracy::Standard.safety() });
         assert!(error <= 1e-2, "{name}: {error:.2e}");
@@ -162,7 +161,8 @@ fn oblique_rebounds_are_right_to_two_per_cent_at_the_default_step() {
 #[test]
 fn a_linear_dashpot_that_is_predicted_is_of_second_order_from_touch_to_touch() {
     for scheme in [Scheme::PredictedNormal, Scheme::Predicted] {
-        let smooth = LawChoice { tangential: TangentialChoice::None(NoKeys {}), scheme, ..HERTZ };
+        let smooth =
+            LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), scheme, ..HERTZ };
         let errors = [0.1, 0.05, 0.025].map(|safety| restitution_error(hooke(smooth), Step::Automatic { safety }).0);
         for pair in errors.windows(2) {
             assert!(pair[0] / pair[1] > 3.0, "{errors:?}");

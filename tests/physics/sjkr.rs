@@ -4,11 +4,10 @@
 //! The area of the documents is negative for overlapping spheres; taken at its word it would push.
 
 use crate::physics::stage::{HERTZ, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
-use cograin::contact::cohesion::{CohesionChoice, sjkr};
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, NoKeys, PairProperties};
+use cograin::contact::cohesion::sjkr;
+use cograin::contact::{CohesionModel, LawChoice, NoKeys, PairProperties, TangentialModel, cohesion, tangential};
 use cograin::quantity::NonNegative;
-use cograin::scene::Scene;
+use cograin::scene::SceneDraft;
 use std::f64::consts::PI;
 
 /// Radius \[m\].
@@ -21,7 +20,7 @@ const OVERLAP: f64 = 1e-6;
 const DENSITY: f64 = 1e4;
 
 /// A law without springs that holds by cohesion alone.
-fn law(cohesion: CohesionChoice) -> (LawChoice, PairProperties) {
+fn law(cohesion: CohesionModel) -> (LawChoice, PairProperties) {
     let pair = PairProperties {
         normal_stiffness: NonNegative::new(0.0),
         normal_damping: NonNegative::new(0.0),
@@ -32,7 +31,7 @@ fn law(cohesion: CohesionChoice) -> (LawChoice, PairProperties) {
 }
 
 /// Force on the first of two overlapping spheres along the line to the second \[N\].
-fn between_spheres(cohesion: CohesionChoice) -> f64 {
+fn between_spheres(cohesion: CohesionModel) -> f64 {
     let (law, pair) = law(cohesion);
     let mut other = sphere(R, 2500.0);
     other.position[0] = 2.0 * R - OVERLAP;
@@ -41,7 +40,7 @@ fn between_spheres(cohesion: CohesionChoice) -> f64 {
 }
 
 /// Force on a sphere towards a plane that it overlaps \[N\].
-fn at_wall(cohesion: CohesionChoice) -> f64 {
+fn at_wall(cohesion: CohesionModel) -> f64 {
     let (law, pair) = law(cohesion);
     let mut body = sphere(R, 2500.0);
     body.position[2] = R - OVERLAP;
@@ -51,9 +50,9 @@ fn at_wall(cohesion: CohesionChoice) -> f64 {
 }
 
 /// Both models.
-const MODELS: [CohesionChoice; 2] = [
-    CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce: false }),
-    CohesionChoice::Sjkr2(sjkr::Keys { tangential_reduce: false }),
+const MODELS: [CohesionModel; 2] = [
+    CohesionModel::fixed::<cohesion::sjkr::Sjkr>(&sjkr::Keys { tangential_reduce: false }),
+    CohesionModel::fixed::<cohesion::sjkr2::Sjkr2>(&sjkr::Keys { tangential_reduce: false }),
 ];
 
 #[test]
@@ -79,12 +78,12 @@ fn friction(tangential_reduce: bool) -> (f64, f64) {
     let elastic = 4.0 / 3.0 * 1e7 / 2.0 * (R * overlap).sqrt() * overlap;
     let density = 0.5 * elastic / (2.0 * PI * R * overlap);
     let law = LawChoice {
-        tangential: TangentialChoice::NoHistory(NoKeys {}),
-        cohesion: CohesionChoice::Sjkr2(sjkr::Keys { tangential_reduce }),
+        tangential: TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {}),
+        cohesion: CohesionModel::of::<cohesion::sjkr2::Sjkr2>(sjkr::Keys { tangential_reduce }),
         ..HERTZ
     };
     let pair = PairProperties { cohesion_energy_density: NonNegative::new(density), ..properties(0.5, 0.1) };
-    let mut scene: Scene = scene(law, 1e-7, vec![material(1e7, 0.0); 2], pair, vec![body]);
+    let mut scene: SceneDraft = scene(law, 1e-7, vec![material(1e7, 0.0); 2], pair, vec![body]);
     scene.boundaries = vec![plane([0.0; 3], [0.0, 0.0, 1.0], 1)];
     (-Stage::of(scene).force(0)[0], 0.1 * elastic)
 }

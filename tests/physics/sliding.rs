@@ -3,8 +3,7 @@
 //! Source: any mechanics text; ω = 5 µ g t/(2 r) while it slides, u = 5 u₀/7 once it rolls.
 
 use crate::physics::stage::{HERTZ, Stage, assert_close, assert_near, material, plane, properties, scene, sphere};
-use cograin::contact::LawChoice;
-use cograin::contact::tangential::TangentialChoice;
+use cograin::contact::{LawChoice, TangentialModel, tangential};
 
 /// Gravity \[m/s²\].
 const G: f64 = 9.81;
@@ -48,7 +47,9 @@ fn slides_under_the_friction_of_its_weight() {
 
 #[test]
 fn rolls_with_five_sevenths_of_its_speed() {
-    for tangential in [HERTZ.tangential, TangentialChoice::NoHistory(cograin::contact::NoKeys {})] {
+    for tangential in
+        [HERTZ.tangential, TangentialModel::of::<tangential::no_history::NoHistory>(cograin::contact::NoKeys {})]
+    {
         let mut stage = sliding_sphere(LawChoice { tangential, ..HERTZ }, 0.5);
         stage.steps(50_000);
         assert_close(stage.velocity(0)[0], 5.0 / 7.0 * SPEED, SPRING, "speed");

@@ -1,13 +1,14 @@
 //! Scenes built in code, for physics tests.
 
-use cograin::contact::cohesion::CohesionChoice;
-use cograin::contact::normal::{NormalChoice, hooke_stiffness};
-use cograin::contact::rolling::RollingChoice;
-use cograin::contact::tangential::TangentialChoice;
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
+use cograin::contact::normal::hooke_stiffness;
+use cograin::contact::{
+    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
+    TangentialModel, cohesion, normal, rolling, tangential,
+};
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{
-    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, Scene, Shape, Step,
+    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, SceneDraft, Shape,
+    Step,
 };
 use cograin::step::Simulation;
 use cograin::surface::Plane;
@@ -15,10 +16,10 @@ use std::sync::Arc;
 
 /// Hertz with a tangential spring.
 pub(crate) const HERTZ: LawChoice = LawChoice {
-    normal: NormalChoice::Hertz(NoKeys {}),
-    tangential: TangentialChoice::History(NoKeys {}),
-    rolling: RollingChoice::None(NoKeys {}),
-    cohesion: CohesionChoice::None(NoKeys {}),
+    normal: NormalModel::fixed::<normal::hertz::Hertz>(&NoKeys {}),
+    tangential: TangentialModel::fixed::<tangential::history::History>(&NoKeys {}),
+    rolling: RollingModel::fixed::<rolling::none::None>(&NoKeys {}),
+    cohesion: CohesionModel::fixed::<cohesion::none::None>(&NoKeys {}),
     switches: Switches {
         least_force: f64::NEG_INFINITY,
         tangential_damping_factor: 1.0,
@@ -28,11 +29,16 @@ pub(crate) const HERTZ: LawChoice = LawChoice {
 };
 
 /// Hertz without friction.
-pub(crate) const SMOOTH: LawChoice = LawChoice { tangential: TangentialChoice::None(NoKeys {}), ..HERTZ };
+pub(crate) const SMOOTH: LawChoice =
+    LawChoice { tangential: TangentialModel::fixed::<tangential::none::None>(&NoKeys {}), ..HERTZ };
 
 /// A given linear spring without friction.
-pub(crate) const SPRING: LawChoice =
-    LawChoice { normal: NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: false }), ..SMOOTH };
+pub(crate) const SPRING: LawChoice = LawChoice {
+    normal: NormalModel::fixed::<normal::hooke_stiffness::HookeStiffness>(&hooke_stiffness::Keys {
+        absolute_damping: false,
+    }),
+    ..SMOOTH
+};
 
 /// A material with these moduli \[Pa, 1\].
 pub(crate) fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
@@ -93,10 +99,12 @@ pub(crate) fn scene(
     materials: Vec<Material>,
     properties: PairProperties,
     particles: Vec<Particle>,
-) -> Scene {
+) -> SceneDraft {
     let pairs = materials.len() * materials.len();
+    let named = materials.into_iter().zip(0..).map(|(it, place)| Material { name: format!("material_{place}"), ..it });
+    let materials: Vec<Material> = named.collect();
     let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
-    Scene {
+    SceneDraft {
         run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
         contacts: vec![ContactLaw {
             name: "contact".into(),
@@ -113,7 +121,7 @@ pub(crate) fn scene(
         bonds: Vec::new(),
         sets: vec!["particles".into()],
         particles: numbered.collect(),
-        ..Scene::default()
+        ..SceneDraft::default()
     }
 }
 
@@ -127,9 +135,9 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// Starts.
-    pub(crate) fn of(scene: Scene) -> Self {
+    pub(crate) fn of(scene: SceneDraft) -> Self {
         let Step::Given(step) = scene.run.step else { panic!("physics tests give the step") };
-        Self { simulation: Simulation::new(Arc::new(scene)).unwrap(), step }
+        Self { simulation: Simulation::new(Arc::new(scene.build().unwrap())).unwrap(), step }
     }
 
     /// Makes time steps.

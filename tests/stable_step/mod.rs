@@ -8,11 +8,12 @@
 mod linearised;
 mod scenes;
 
+use crate::support::checked;
 use cograin::scene::{Scene, Step};
 use cograin::step::Simulation;
 use scenes::{
     Sphere, block, bonds, contacts, cubic, damped_hertz, damped_hooke, dashpots, face_centred, free, hertz, hexagonal,
-    near_faces, packing, scene,
+    near_faces, packing,
 };
 use std::sync::Arc;
 
@@ -24,10 +25,10 @@ const QUICK_LEAST: f64 = 0.5;
 
 /// The scene with this time step, unstable or not.
 fn with_step(scene: &Scene, step: f64) -> Simulation {
-    let mut scene = scene.clone();
+    let mut scene = scene.clone().into_draft();
     scene.run.step = Step::Given(step);
     scene.run.allow_unstable = true;
-    Simulation::new(Arc::new(scene)).expect("it starts")
+    Simulation::new(Arc::new(scene.build().expect("the scene is right"))).expect("it starts")
 }
 
 /// Whether the motion grows by more than ten thousand in energy at this step.
@@ -44,9 +45,9 @@ fn grows(scene: &Scene, step: f64, steps: u32) -> bool {
 
 /// The stated stable step \[s\].
 fn stated(scene: &Scene) -> f64 {
-    let mut free = scene.clone();
+    let mut free = scene.clone().into_draft();
     free.run.step = Step::Automatic { safety: 0.2 };
-    Simulation::new(Arc::new(free)).expect("it starts").state().clock.stable
+    Simulation::new(Arc::new(free.build().expect("the scene is right"))).expect("it starts").state().clock.stable
 }
 
 /// The stated stable step over the true one, by bisection on the engine, to one in two hundred.
@@ -63,7 +64,7 @@ fn ratio_on_the_engine(scene: &Scene, stated: f64) -> f64 {
 /// The stated step is within its range of that of the linearised time step.
 #[allow(clippy::print_stdout, reason = "the figures of docs/stability.md are what this test prints with --nocapture")]
 fn holds(name: &str, text: &str) -> f64 {
-    let scene = scene(text);
+    let scene = checked(text);
     let stated = stated(&scene);
     let ratio = stated / linearised::stable_step(text, stated);
     let by_bodies = quick(&scene, stated) / stated * ratio;
@@ -75,15 +76,15 @@ fn holds(name: &str, text: &str) -> f64 {
 
 /// What is known of the stable step where a given one is far below it: no more than is true \[s\].
 fn quick(scene: &Scene, stated: f64) -> f64 {
-    let mut given = scene.clone();
+    let mut given = scene.clone().into_draft();
     given.run.step = Step::Given(0.05 * stated);
-    Simulation::new(Arc::new(given)).expect("it starts").state().clock.stable
+    Simulation::new(Arc::new(given.build().expect("the scene is right"))).expect("it starts").state().clock.stable
 }
 
 /// The same, and the engine itself says the same.
 fn holds_on_the_engine(name: &str, text: &str) {
     let linearised = holds(name, text);
-    let scene = scene(text);
+    let scene = checked(text);
     let tried = ratio_on_the_engine(&scene, stated(&scene));
     // It is known to half a per cent, and what grows slowly is not seen within its time steps.
     assert!((tried / linearised - 1.0).abs() < 0.01, "{name}: {tried:.3} by trying, {linearised:.3} linearised");
@@ -129,7 +130,7 @@ fn of_predicted_contact_dashpots() {
         );
         let text = block(&spheres, near_faces(&spheres, 1.1e-3), &contacts("hooke_stiffness", &pair));
         let text = text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n");
-        let scene = scene(&text);
+        let scene = checked(&text);
         let tried = ratio_on_the_engine(&scene, stated(&scene));
         assert!((0.88..=1.005).contains(&tried), "predicted contact dashpots, ratio {ratio}: {tried:.3}");
     }
@@ -159,56 +160,11 @@ fn of_predicted_bond_dashpots() {
     for ratio in [0.3, 1.0, 3.0] {
         for spheres in [cubic(2, 2e-3)[..2].to_vec(), cubic(3, 2e-3)] {
             let text = block(&spheres, free, &bonds(&dashpots(ratio)));
-            let scene = scene(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
+            let scene = checked(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
             let tried = ratio_on_the_engine(&scene, stated(&scene));
             let what = format!("predicted bond dashpots, {} spheres, ratio {ratio}", spheres.len());
             assert!((0.88..=1.005).contains(&tried), "{what}: {tried:.3}");
         }
-    }
-}
-
-/// Blocks, a chain and a random network of bonded spheres, of which some are held.
-fn bonded_networks() -> [(&'static str, Vec<Sphere>); 3] {
-    let chain = (0..12).map(|i| [2e-3 * f64::from(i), 0.0, 0.0, 1e-3]).collect();
-    [("chain", chain), ("face-centred", face_centred(2, 2e-3)), ("random 1:2", packing(30, 2.0))]
-}
-
-#[test]
-fn of_split_bond_dashpots_is_that_without_dashpots() {
-    for (name, spheres) in bonded_networks() {
-        let text = |more: &str| block(&spheres, |sphere| *sphere == spheres[0], &bonds(more));
-        let bare = scene(&text(""));
-        let undamped = linearised::stable_step(&text(""), stated(&bare));
-        for ratio in [0.3, 1.0, 3.0] {
-            let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(ratio))));
-            assert_eq!(stated(&split), stated(&bare), "{name}, ratio {ratio}");
-            assert!(!grows(&split, 0.97 * undamped, 4000), "{name}, ratio {ratio}: unstable below the undamped step");
-            assert!(grows(&split, 1.03 * undamped, 4000), "{name}, ratio {ratio}: stable above the undamped step");
-            let acting = stated(&scene(&text(&dashpots(ratio))));
-            assert!(acting < 0.8 * stated(&split), "{name}, ratio {ratio}: dashpots that act as forces");
-        }
-    }
-}
-
-#[test]
-fn of_split_bond_dashpots_beside_contact_dashpots_is_that_of_the_contacts() {
-    let spheres = cubic(4, 1.998e-3);
-    let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
-    let soft = |more: &str| bonds(more).replace("1e12", "3e10").replace("4e11", "1e10");
-    for ratio in [0.05, 0.3] {
-        let damping = 2.0 * ratio * (1e5 * 0.5 * mass).sqrt() / (0.5 * mass);
-        let pair = format!(
-            "normal_stiffness = 1e5\ntangential_stiffness = 8e4\nnormal_damping = {damping:?}\ntangential_damping = {damping:?}"
-        );
-        let contacts = contacts("hooke_stiffness", &pair);
-        let text = |more: &str| {
-            let text = block(&spheres, near_faces(&spheres, 1.1e-3), &format!("{contacts}{}", soft(more)));
-            text.replace("threads = 1\n", "threads = 1\nscheme = \"engine\"\n")
-        };
-        let split = scene(&text(&format!("{}integration = \"split\"\n", dashpots(1.0))));
-        assert_eq!(stated(&split), stated(&scene(&text(""))));
-        let tried = ratio_on_the_engine(&split, stated(&split));
-        assert!((0.88..=1.005).contains(&tried), "contact dashpots, ratio {ratio}: {tried:.3}");
     }
 }
 

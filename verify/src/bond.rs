@@ -73,7 +73,7 @@ pub(super) fn laws(case: &Case, formulation: FormulationChoice) -> Result<Vec<Bo
         return Ok(Vec::new());
     }
     if flag(case, "temperatureBreak")? {
-        return Err(Mistake::new("model.temperatureBreak", "true found; the other engine refuses it as well"));
+        return Err(Mistake::new("model.temperatureBreak", "expected false, as in the other engine, found true"));
     }
     let Some(create) = creation(case)? else { return Ok(Vec::new()) };
     let mut laws = Vec::new();
@@ -103,11 +103,13 @@ fn creation(case: &Case) -> Result<Option<Creation>, Mistake> {
         return Ok(Some(Creation::Always));
     }
     let field = "pair_properties.tsCreateBond";
-    let value =
-        case.pair_properties.get("tsCreateBond").ok_or_else(|| Mistake::new(field, "absent; a step is right"))?;
+    let value = case
+        .pair_properties
+        .get("tsCreateBond")
+        .ok_or_else(|| Mistake::new(field, "expected a step, found nothing"))?;
     // The engine keeps all properties as floating-point numbers.
     let number = value.as_u64().or_else(|| value.as_f64().filter(|step| *step >= 0.0).map(|step| step as u64));
-    let number = number.ok_or_else(|| Mistake::new(field, format!("{value} found; the number of a step is right")))?;
+    let number = number.ok_or_else(|| Mistake::new(field, format!("expected the number of a step, found {value}")))?;
     Ok((number > 0).then_some(Creation::Step(number)))
 }
 
@@ -121,7 +123,7 @@ fn flag(case: &Case, name: &str) -> Result<bool, Mistake> {
         Some(serde_json::Value::String(word)) if word == "off" => Ok(false),
         Some(other) => Err(Mistake::new(
             format!("model.{name}"),
-            format!("{other} found; true, false, \"on\" or \"off\" is right"),
+            format!("expected true, false, \"on\" or \"off\", found {other}"),
         )),
     }
 }
@@ -165,7 +167,7 @@ impl Types<'_> {
     /// A property of 0 or above that the flags need.
     fn non_negative(&self, name: &str) -> Result<NonNegative, Mistake> {
         let value = self.needed(name)?;
-        let right = || Mistake::new(self.field(name), format!("{value} found; 0 or above is right"));
+        let right = || Mistake::new(self.field(name), format!("expected 0 or above, found {value}"));
         NonNegative::new(value).ok_or_else(right)
     }
 
@@ -174,7 +176,7 @@ impl Types<'_> {
         let part = |part: &str| {
             let name = format!("{kind}{part}Bond");
             let value = self.needed(&name)?;
-            let wrong = || Mistake::new(self.field(&name), format!("{value} found; {right} is right"));
+            let wrong = || Mistake::new(self.field(&name), format!("expected {right}, found {value}"));
             make(value).map(Some).ok_or_else(wrong)
         };
         Ok(PartKeys {

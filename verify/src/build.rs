@@ -9,7 +9,7 @@ use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
     AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, ParticleShape,
-    Run, Scene, Shape, Step,
+    Run, Scene, SceneDraft, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ use std::path::Path;
 /// The scene that a case describes, its bonds in this formulation.
 pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) -> Result<Scene, Mistake> {
     if case.steps == 0 || case.sample_every == 0 {
-        return Err(Mistake::new("steps, sample_every", "0 found; numbers above 0 are right"));
+        return Err(Mistake::new("steps, sample_every", "expected numbers above 0, found 0"));
     }
     let step = positive("dt", case.dt)?.get();
     let law = law::law(case)?;
@@ -45,7 +45,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
     };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
-    Ok(Scene {
+    let draft = SceneDraft {
         run: Run { step: Step::Given(step), allow_unstable: true, threads: Some(1), ..Run::default() },
         gravity: finite("gravity", case.gravity)?,
         materials,
@@ -57,13 +57,14 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
         particles,
-        ..Scene::default()
-    })
+        ..SceneDraft::default()
+    };
+    draft.build().map_err(|errors| Mistake::new("scene", errors.to_string()))
 }
 
 /// A number above 0.
 pub(super) fn positive(field: impl Into<String>, value: f64) -> Result<Positive, Mistake> {
-    Positive::new(value).ok_or_else(|| Mistake::new(field, format!("{value} found; a number above 0 is right")))
+    Positive::new(value).ok_or_else(|| Mistake::new(field, format!("expected a number above 0, found {value}")))
 }
 
 /// Three finite numbers.
@@ -71,7 +72,7 @@ fn finite(field: impl Into<String>, value: [f64; 3]) -> Result<[f64; 3], Mistake
     if value.iter().all(|number| number.is_finite()) {
         Ok(value)
     } else {
-        Err(Mistake::new(field, format!("{value:?} found; finite numbers are right")))
+        Err(Mistake::new(field, format!("expected finite numbers, found {value:?}")))
     }
 }
 
@@ -80,7 +81,7 @@ fn material(field: impl Into<String>, kind: usize, case: &Case) -> Result<Materi
     if (1..=case.materials.len()).contains(&kind) {
         Ok(MaterialIndex((kind - 1) as u32))
     } else {
-        Err(Mistake::new(field, format!("{kind} found; 1 to {} are materials", case.materials.len())))
+        Err(Mistake::new(field, format!("expected a material from 1 to {}, found {kind}", case.materials.len())))
     }
 }
 
@@ -105,7 +106,7 @@ fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
     let all: Vec<Particle> = case.by_id().into_iter().map(one).collect::<Result<_, Mistake>>()?;
     match all.windows(2).find(|two| two[0].id == two[1].id) {
         Some(two) => Err(Mistake::new("particles", format!("two of them have id {}", two[0].id.0))),
-        None if all.is_empty() => Err(Mistake::new("particles", "none found; at least one is right")),
+        None if all.is_empty() => Err(Mistake::new("particles", "expected at least one, found none")),
         None => Ok(all),
     }
 }
@@ -123,7 +124,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
     for (index, motion) in case.prescribed_motion.iter().enumerate() {
         let place = format!("prescribed_motion[{index}]");
         if motion.kind != "constant_velocity" {
-            return Err(Mistake::new(place, format!("\"{}\" found; constant_velocity is right", motion.kind)));
+            return Err(Mistake::new(place, format!("expected constant_velocity, found \"{}\"", motion.kind)));
         }
         let velocity = finite(format!("{place}.velocity"), motion.velocity)?;
         let members = members(&place, &motion.ids, index_of)?;
@@ -167,7 +168,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
             cylinder::infinite(of, point, axis, radius).ok_or_else(|| missing("axis"))?
         }
         other => {
-            return Err(Mistake::new(place("kind"), format!("\"{other}\" found; plane, mesh or cylinder is right")));
+            return Err(Mistake::new(place("kind"), format!("expected plane, mesh or cylinder, found \"{other}\"")));
         }
     };
     let (mut axes, mut reference) = ([const { AxisMotion::Fixed }; 6], [0.0; 3]);
@@ -198,7 +199,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
     let normal = finite(place("normal"), wall.normal)?;
     let length = normal.iter().map(|component| component * component).sum::<f64>().sqrt();
     if length == 0.0 || !length.is_finite() {
-        return Err(Mistake::new(place("normal"), format!("{normal:?} found; a vector with a direction is right")));
+        return Err(Mistake::new(place("normal"), format!("expected a vector with a direction, found {normal:?}")));
     }
     let on_axis = match &wall.axis {
         Some(Axis::Name(axis)) => ["x", "y", "z"].iter().position(|name| name == axis),
@@ -211,7 +212,13 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
             point[axis] = position;
             point
         }
-        _ => return Err(Mistake::new(place("point"), "absent; a point on the plane, or axis and position, is right")),
+        _ => {
+            return Err(Mistake::new(
+                place("point"),
+                "expected a point on the plane, or axis and position, found \
+                                                      nothing",
+            ));
+        }
     };
     let point = finite(place("point"), point)?;
     Ok(Boundary {
@@ -233,9 +240,8 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
 fn members(place: &str, ids: &[u32], index_of: &BTreeMap<u32, u32>) -> Result<Vec<u32>, Mistake> {
     let index = |id: &u32| {
         let found = index_of.get(id).copied();
-        found.ok_or_else(|| {
-            Mistake::new(format!("{place}.ids"), format!("{id} found; it is not a particle of the case"))
-        })
+        found
+            .ok_or_else(|| Mistake::new(format!("{place}.ids"), format!("expected a particle of the case, found {id}")))
     };
     let mut all: Vec<u32> = ids.iter().map(index).collect::<Result<_, Mistake>>()?;
     all.sort_unstable();
@@ -260,18 +266,22 @@ fn forces(case: &Case, index_of: &BTreeMap<u32, u32>) -> Result<Vec<AppliedForce
 fn damping(case: &Case, particles: &[Particle]) -> Result<Vec<Damping>, Mistake> {
     let Some(damping) = &case.global_damping else { return Ok(Vec::new()) };
     if damping.kind != "cundall" {
-        return Err(Mistake::new("global_damping.type", format!("\"{}\" found; cundall is right", damping.kind)));
+        return Err(Mistake::new("global_damping.type", format!("expected cundall, found \"{}\"", damping.kind)));
     }
     let factors = particles.iter().map(|particle| scale(damping, particle)).collect::<Result<Vec<f64>, Mistake>>()?;
     let of = |key: &str, fraction: f64| match NonNegative::new(fraction) {
         Some(fraction) => Ok(factors.iter().map(|factor| fraction.get() * factor).collect()),
-        None => Err(Mistake::new(format!("global_damping.{key}"), format!("{fraction} found; 0 or above is right"))),
+        None => Err(Mistake::new(format!("global_damping.{key}"), format!("expected 0 or above, found {fraction}"))),
     };
     let gravity_damped = match damping.gravity_damped {
         Some(damped) => damped,
         None if case.gravity == [0.0; 3] => false,
         None => {
-            return Err(Mistake::new("global_damping.gravity_damped", "absent; with gravity, true or false is right"));
+            return Err(Mistake::new(
+                "global_damping.gravity_damped",
+                "expected true or false beside gravity, found \
+                                                                      nothing",
+            ));
         }
     };
     Ok(vec![Damping {
@@ -293,6 +303,6 @@ fn scale(damping: &GlobalDamping, particle: &Particle) -> Result<f64, Mistake> {
         ("variable", _) => {
             Err(Mistake::new("global_damping.scale.divisor", "absent or 0; the radius is divided by it"))
         }
-        _ => Err(Mistake::new("global_damping.scale.kind", format!("\"{kind}\" found; type or variable is right"))),
+        _ => Err(Mistake::new("global_damping.scale.kind", format!("expected type or variable, found \"{kind}\""))),
     }
 }

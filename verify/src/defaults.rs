@@ -43,6 +43,6 @@ pub(super) fn switch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool,
         serde_json::Value::Bool(value) => Ok(value),
         serde_json::Value::String(word) if word == "on" || word == "stokes" => Ok(true),
         serde_json::Value::String(word) if word == "off" => Ok(false),
-        other => Err(D::Error::custom(format!("{other} found; true, false, \"on\" or \"off\" is right"))),
+        other => Err(D::Error::custom(format!("expected true, false, \"on\" or \"off\", found {other}"))),
     }
 }

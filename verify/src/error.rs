@@ -14,7 +14,7 @@ pub enum VerifyError {
         cause: String,
     },
     /// A folder without cases.
-    #[error("{}: no case.json here or in a folder below; a case, or a folder of cases, is right", folder.display())]
+    #[error("{}: expected a case, or a folder of cases, found no case.json here or in a folder below", folder.display())]
     NoCase {
         /// The folder.
         folder: PathBuf,

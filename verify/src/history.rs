@@ -90,7 +90,7 @@ fn parse(
         Some(place) => {
             let text = fields.get(place + offset).copied().unwrap_or_default();
             let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-            value.ok_or_else(|| format!("{}: \"{text}\" found; a finite number is right", COLUMNS[column]))
+            value.ok_or_else(|| format!("{}: expected a finite number, found \"{text}\"", COLUMNS[column]))
         }
     };
     let body = |column: usize| {

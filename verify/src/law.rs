@@ -4,11 +4,14 @@ use super::bond;
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
-use cograin::contact::cohesion::{CohesionChoice, sjkr};
-use cograin::contact::normal::{NormalChoice, eepa, hooke, hooke_stiffness, sticky};
-use cograin::contact::rolling::{RollingChoice, rocking};
-use cograin::contact::tangential::{TangentialChoice, turned_history::Keys as Turned};
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
+use cograin::contact::cohesion::sjkr;
+use cograin::contact::normal::{eepa, hooke, hooke_stiffness, sticky};
+use cograin::contact::rolling::rocking;
+use cograin::contact::tangential::turned_history::Keys as Turned;
+use cograin::contact::{
+    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
+    TangentialModel, cohesion, normal, rolling, tangential,
+};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 
 /// The other engine's name of each pair property, with ours.
@@ -54,7 +57,7 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
         if let Some(value) = material.poissons_ratio.filter(|value| PoissonsRatio::new(*value).is_none()) {
             return Err(Mistake::new(
                 place("poissons_ratio"),
-                format!("{value} found; a number from 0 to 0.5 is right"),
+                format!("expected a number from 0 to 0.5, found {value}"),
             ));
         }
         Ok(Material {
@@ -65,7 +68,7 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
         })
     });
     let all: Vec<Material> = all.collect::<Result<_, Mistake>>()?;
-    if all.is_empty() { Err(Mistake::new("materials", "none found; at least one is right")) } else { Ok(all) }
+    if all.is_empty() { Err(Mistake::new("materials", "expected at least one, found none")) } else { Ok(all) }
 }
 
 /// Properties of each two materials.
@@ -83,7 +86,7 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
             }
             let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
             set(&mut pairs[at], ours, value)
-                .map_err(|right| Mistake::new(field(), format!("{value} found; {right} is right")))?;
+                .map_err(|right| Mistake::new(field(), format!("expected {right}, found {value}")))?;
         }
     }
     if case.model.mixing == "lammps" {
@@ -129,7 +132,7 @@ fn mixed(case: &Case, pairs: &mut [PairProperties]) {
 fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64>, Mistake> {
     let field = || format!("pair_properties.{name}");
     let rows: Vec<Vec<f64>> = serde_json::from_value(value.clone())
-        .map_err(|cause| Mistake::new(field(), format!("{cause}; a matrix of numbers is right")))?;
+        .map_err(|cause| Mistake::new(field(), format!("expected a matrix of numbers: {cause}")))?;
     if rows.len() != count || rows.iter().any(|row| row.len() != count) {
         return Err(Mistake::new(field(), format!("not {count} rows of {count} numbers, one for each type")));
     }
@@ -137,7 +140,7 @@ fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64
         for j in 0..i {
             if row[j] != rows[j][i] {
                 let found = format!("[{i}][{j}] is {} and [{j}][{i}] is {}", row[j], rows[j][i]);
-                return Err(Mistake::new(field(), format!("{found}; a symmetric matrix is right")));
+                return Err(Mistake::new(field(), format!("expected a symmetric matrix, found {found}")));
             }
         }
     }
@@ -180,12 +183,15 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
 pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     let model = &case.model;
     let unknown = |field: &str, found: &str, right: &str| {
-        Mistake::new(format!("model.{field}"), format!("\"{found}\" found; {right} is right"))
+        Mistake::new(format!("model.{field}"), format!("expected {right}, found \"{found}\""))
     };
     for (flag, value) in model.others.iter().filter(|(flag, _)| !bond::has_flag(case, flag)) {
         let off = value.is_null() || *value == serde_json::json!(false) || *value == serde_json::json!("off");
         if !off {
-            return Err(Mistake::new(format!("model.{flag}"), format!("{value} found; this flag is not known here")));
+            return Err(Mistake::new(
+                format!("model.{flag}"),
+                format!("expected no flag of this name, found it ({value})"),
+            ));
         }
     }
     let speed = || {
@@ -195,16 +201,16 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         Ok(hooke::Keys { characteristic_velocity: positive(field, value)? })
     };
     let normal = match model.normal.as_str() {
-        "hertz" => NormalChoice::Hertz(NoKeys {}),
-        "hertz/stiffness" => NormalChoice::HertzStiffness(NoKeys {}),
-        "hooke" if model.viscous => NormalChoice::HookeViscous(speed()?),
-        "hooke" => NormalChoice::Hooke(speed()?),
-        "hooke/stiffness" => {
-            NormalChoice::HookeStiffness(hooke_stiffness::Keys { absolute_damping: model.absolute_damping })
-        }
-        "edinburgh" => NormalChoice::Eepa(eepa(case)?),
-        "jkr" => NormalChoice::Jkr(sticky(case)?),
-        "dmt" => NormalChoice::Dmt(sticky(case)?),
+        "hertz" => NormalModel::of::<normal::hertz::Hertz>(NoKeys {}),
+        "hertz/stiffness" => NormalModel::of::<normal::hertz_stiffness::HertzStiffness>(NoKeys {}),
+        "hooke" if model.viscous => NormalModel::of::<normal::hooke_viscous::HookeViscous>(speed()?),
+        "hooke" => NormalModel::of::<normal::hooke::Hooke>(speed()?),
+        "hooke/stiffness" => NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys {
+            absolute_damping: model.absolute_damping,
+        }),
+        "edinburgh" => NormalModel::of::<normal::eepa::Eepa>(eepa(case)?),
+        "jkr" => NormalModel::of::<normal::jkr::Jkr>(sticky(case)?),
+        "dmt" => NormalModel::of::<normal::dmt::Dmt>(sticky(case)?),
         other => {
             let right = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
             return Err(unknown("normal", other, right));
@@ -218,28 +224,33 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     Ok(LawChoice {
         normal,
         tangential: match model.tangential.as_str() {
-            "off" => TangentialChoice::None(NoKeys {}),
-            "history" => TangentialChoice::History(NoKeys {}),
-            "no_history" | "linear_nohistory" => TangentialChoice::NoHistory(NoKeys {}),
-            "linear_history" => TangentialChoice::TurnedHistory(Turned { given_stiffness: true, ..turned }),
-            "mindlin" => TangentialChoice::TurnedHistory(turned),
-            "mindlin_rescale" => TangentialChoice::TurnedHistory(Turned { rescale: true, ..turned }),
+            "off" => TangentialModel::of::<tangential::none::None>(NoKeys {}),
+            "history" => TangentialModel::of::<tangential::history::History>(NoKeys {}),
+            "no_history" | "linear_nohistory" => TangentialModel::of::<tangential::no_history::NoHistory>(NoKeys {}),
+            "linear_history" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned {
+                given_stiffness: true,
+                ..turned
+            }),
+            "mindlin" => TangentialModel::of::<tangential::turned_history::TurnedHistory>(turned),
+            "mindlin_rescale" => {
+                TangentialModel::of::<tangential::turned_history::TurnedHistory>(Turned { rescale: true, ..turned })
+            }
             other => {
                 let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
                 return Err(unknown("tangential", other, right));
             }
         },
         rolling: match model.rolling_friction.as_str() {
-            "off" => RollingChoice::None(NoKeys {}),
-            "cdt" => RollingChoice::Cdt(NoKeys {}),
-            "epsd" => RollingChoice::Epsd(rocking),
-            "epsd2" => RollingChoice::Epsd2(rocking),
+            "off" => RollingModel::of::<rolling::none::None>(NoKeys {}),
+            "cdt" => RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
+            "epsd" => RollingModel::of::<rolling::epsd::Epsd>(rocking),
+            "epsd2" => RollingModel::of::<rolling::epsd2::Epsd2>(rocking),
             other => return Err(unknown("rolling_friction", other, "cdt, epsd, epsd2 or off")),
         },
         cohesion: match model.cohesion.as_str() {
-            "off" | "bond" => CohesionChoice::None(NoKeys {}),
-            "sjkr" => CohesionChoice::Sjkr(keys),
-            "sjkr2" => CohesionChoice::Sjkr2(keys),
+            "off" | "bond" => CohesionModel::of::<cohesion::none::None>(NoKeys {}),
+            "sjkr" => CohesionModel::of::<cohesion::sjkr::Sjkr>(keys),
+            "sjkr2" => CohesionModel::of::<cohesion::sjkr2::Sjkr2>(keys),
             other => return Err(unknown("cohesion", other, "sjkr, sjkr2, bond or off")),
         },
         scheme: Scheme::Engine,
@@ -268,14 +279,14 @@ fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
         Some("mass_velocity") => sticky::DampingKind::MassVelocity,
         Some("velocity") => sticky::DampingKind::Velocity,
         Some(other) => {
-            let message = format!("\"{other}\" found; viscoelastic, mass_velocity or velocity is right");
+            let message = format!("expected viscoelastic, mass_velocity or velocity, found \"{other}\"");
             return Err(Mistake::new("model.damping", message));
         }
     };
     let engine_exact = match case.model.arms.as_str() {
         "lammps" => true,
         "overlap" => false,
-        other => return Err(Mistake::new("model.arms", format!("\"{other}\" found; lammps or overlap is right"))),
+        other => return Err(Mistake::new("model.arms", format!("expected lammps or overlap, found \"{other}\""))),
     };
     Ok(sticky::Keys { damping, given_tangential_modulus: case.model.mixing == "lammps", engine_exact })
 }
@@ -284,7 +295,13 @@ fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
 fn misplaced(case: &Case) -> Result<(), Mistake> {
     let model = &case.model;
     let refused = |flag: &str, home: &str| {
-        Err(Mistake::new(format!("model.{flag}"), format!("true found; this flag belongs to {home} alone")))
+        Err(Mistake::new(
+            format!("model.{flag}"),
+            format!(
+                "expected false, as this flag belongs to {home} alone, \
+                                                           found true"
+            ),
+        ))
     };
     if model.viscous && model.normal != "hooke" {
         return refused("viscous", "hooke");

@@ -44,7 +44,10 @@ impl Samples {
             let index =
                 *in_case.get(&id).ok_or_else(|| wrong(line, format!("id {id} is not a particle of the case")))?;
             if step > case.steps {
-                return Err(wrong(line, format!("step {step} found; the case ends at step {}", case.steps)));
+                return Err(wrong(
+                    line,
+                    format!("expected a step up to {}, where the case ends, found {step}", case.steps),
+                ));
             }
             let of_step = steps.entry(step).or_insert_with(|| vec![None; in_case.len()]);
             if of_step[index].replace(row).is_some() {
@@ -53,7 +56,7 @@ impl Samples {
         }
         let rows = complete(steps, case).map_err(|message| wrong(1, message))?;
         if rows.is_empty() {
-            return Err(wrong(1, "no rows; one for each particle and sample is right".into()));
+            return Err(wrong(1, "expected a row for each particle and sample, found none".into()));
         }
         Ok(Some(Self { rows }))
     }
@@ -96,7 +99,7 @@ fn parse(line: &str, places: &[usize]) -> Result<(u64, u32, Row), String> {
     };
     let whole = |column: usize| {
         let text = field(column)?;
-        text.parse::<u64>().map_err(|_| format!("{}: \"{text}\" found; a whole number is right", COLUMNS[column]))
+        text.parse::<u64>().map_err(|_| format!("{}: expected a whole number, found \"{text}\"", COLUMNS[column]))
     };
     let mut row = Row::default();
     for (offset, number) in row.iter_mut().flatten().enumerate() {
@@ -105,10 +108,10 @@ fn parse(line: &str, places: &[usize]) -> Result<(u64, u32, Row), String> {
             .parse()
             .ok()
             .filter(|value: &f64| value.is_finite())
-            .ok_or_else(|| format!("{}: \"{text}\" found; a finite number is right", COLUMNS[NUMBERS + offset]))?;
+            .ok_or_else(|| format!("{}: expected a finite number, found \"{text}\"", COLUMNS[NUMBERS + offset]))?;
     }
     let id = whole(2)?;
-    let id = u32::try_from(id).map_err(|_| format!("id {id} found; a number below 2³² is right"))?;
+    let id = u32::try_from(id).map_err(|_| format!("expected an id below 2³², found {id}"))?;
     Ok((whole(0)?, id, row))
 }
 

@@ -38,7 +38,7 @@ impl Surfaces {
             let numbers: Vec<f64> = text.split(',').filter_map(|field| field.trim().parse().ok()).collect();
             let surfaces = numbers.len().saturating_sub(BEFORE);
             if surfaces == 0 || !surfaces.is_multiple_of(EACH) {
-                let message = format!("{} numbers; {BEFORE} and {EACH} for each surface are right", numbers.len());
+                let message = format!("expected {BEFORE} and {EACH} for each surface, found {} numbers", numbers.len());
                 return Err(VerifyError::Samples { path: path.to_path_buf(), line, message });
             }
             let surface = |of: &[f64]| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];

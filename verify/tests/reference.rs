@@ -217,12 +217,12 @@ fn bad_cases_of_bonds_are_refused() {
         (
             "heat",
             with("model", "temperatureBreak", true.into()),
-            "case.json, model.temperatureBreak: true found; the other engine refuses it as well",
+            "case.json, model.temperatureBreak: expected false, as in the other engine, found true",
         ),
         (
             "damping",
             with("pair_properties", "dampingNormalForceBond", serde_json::json!([[1.5]])),
-            "case.json, pair_properties.dampingNormalForceBond[0][0]: 1.5 found; a number from 0 to 1 is right",
+            "case.json, pair_properties.dampingNormalForceBond[0][0]: expected a number from 0 to 1, found 1.5",
         ),
         (
             "reach",
@@ -232,7 +232,7 @@ fn bad_cases_of_bonds_are_refused() {
         (
             "flag",
             with("model", "shearStress", 7.into()),
-            "case.json, model.shearStress: 7 found; true, false, \"on\" or \"off\" is right",
+            "case.json, model.shearStress: expected true, false, \"on\" or \"off\", found 7",
         ),
     ];
     for (name, text, expected) in table {
@@ -286,7 +286,7 @@ fn flags_that_are_not_written_take_their_defaults() {
 fn a_folder_without_cases_is_refused() {
     let scratch = Scratch::new("none");
     let message = find(std::slice::from_ref(&scratch.0)).unwrap_err().to_string();
-    assert!(message.ends_with("no case.json here or in a folder below; a case, or a folder of cases, is right"));
+    assert!(message.ends_with("expected a case, or a folder of cases, found no case.json here or in a folder below"));
 }
 
 #[test]
@@ -299,17 +299,18 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
         (
             "steps",
             with("\"steps\": 450", "\"steps\": 0"),
-            "case.json, steps, sample_every: 0 found; numbers above 0 are right",
+            "case.json, steps, sample_every: expected numbers above 0, found 0",
         ),
         (
             "model",
             with("\"normal\": \"hertz\"", "\"normal\": \"luding\""),
-            "case.json, model.normal: \"luding\" found; hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt is right",
+            "case.json, model.normal: expected hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or \
+             dmt, found \"luding\"",
         ),
         (
             "bond",
             with("\"cohesion\": \"off\"", "\"cohesion\": \"bond\""),
-            "case.json, pair_properties.tsCreateBond: absent; a step is right",
+            "case.json, pair_properties.tsCreateBond: expected a step, found nothing",
         ),
         (
             "property",
@@ -319,9 +320,14 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
         (
             "flag",
             with("\"viscous\": false", "\"viscous\": true"),
-            "case.json, model.viscous: true found; this flag belongs to hooke alone",
+            "case.json, model.viscous: expected false, as this flag belongs to hooke alone, found true",
         ),
-        ("type", with("\"type\": 2", "\"type\": 3"), "case.json, particles[1].type: 3 found; 1 to 2 are materials"),
+        (
+            "type",
+            with("\"type\": 2", "\"type\": 3"),
+            "case.json, particles[1].type: expected a material from 1 to \
+                                                      2, found 3",
+        ),
         ("id", with("\"id\": 2", "\"id\": 1"), "case.json, particles: two of them have id 1"),
         ("radius", with("\"radius\": 0.0", "\"radius\": -0.0"), "case.json, particles[0].radius: -0.0"),
         (
@@ -342,7 +348,8 @@ fn asymmetric_and_absent_properties_are_refused() {
     case["pair_properties"]["coefficientFriction"] = serde_json::json!([[0.3, 0.2], [0.25, 0.3]]);
     assert_eq!(
         refusal("asymmetric", &case.to_string()),
-        "case.json, pair_properties.coefficientFriction: [1][0] is 0.25 and [0][1] is 0.2; a symmetric matrix is right"
+        "case.json, pair_properties.coefficientFriction: expected a symmetric matrix, found [1][0] is 0.25 and \
+         [0][1] is 0.2"
     );
     case["pair_properties"].as_object_mut().unwrap().remove("coefficientFriction");
     assert_eq!(
@@ -382,6 +389,6 @@ fn bad_samples_are_refused_with_their_line() {
     let not_finite = row.replacen("0,0,1,", "0,0,1,nan,", 1);
     assert_eq!(
         with_samples("nan", &format!("{header}\n{not_finite}\n")),
-        "samples.csv, line 2: x: \"nan\" found; a finite number is right"
+        "samples.csv, line 2: x: expected a finite number, found \"nan\""
     );
 }

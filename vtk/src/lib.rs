@@ -6,14 +6,6 @@
 use vtkio::Vtk;
 pub use vtkio::{IOBuffer, model};
 
-/// Reads a file, XML or legacy. Damaged ones can make vtkio panic.
-///
-/// # Errors
-/// What vtkio says of a file that it cannot read.
-pub fn read(bytes: &[u8]) -> Result<Vtk, vtkio::Error> {
-    if bytes.starts_with(b"# vtk DataFile") { Vtk::parse_legacy_be(bytes) } else { Vtk::parse_xml(bytes) }
-}
-
 /// Writes a file as XML.
 ///
 /// # Errors

@@ -83,7 +83,7 @@ fn results_cannot_go_where_a_file_is() {
     let place = Place::new("a_file");
     let scene = place.scene(SHORT, "");
     let said = complaint(&cograin(&[&"run", &scene, &"-o", &scene]).output().unwrap(), 2);
-    assert!(said.contains("scene.toml: is a file; a folder, or a name that is not there yet, is right"), "{said}");
+    assert!(said.contains("scene.toml: expected a folder, or a name that is not there yet, found a file"), "{said}");
 }
 
 /// Copies the files of a folder.

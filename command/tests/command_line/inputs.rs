@@ -17,7 +17,8 @@ fn driven(place: &Place, table: &str) -> (PathBuf, PathBuf) {
 #[test]
 fn a_table_of_inputs_moves_driven_boundaries_and_ends_the_run() {
     let place = Place::new("inputs");
-    let (scene, inputs) = driven(&place, "other, time, floor.displacement.z\n-, 0, 0\n-, 4e-3, 8e-3\n-, 1e-2, 5e-3\n");
+    let (scene, inputs) =
+        driven(&place, "floor.force.z, time, floor.displacement.z\n-, 0, 0\n-, 4e-3, 8e-3\n-, 1e-2, 5e-3\n");
     let (output, folder) = (place.at("out"), "-o");
     let done = cograin(&[&"run", &scene, &"--inputs", &inputs, &folder, &output]).output().unwrap();
     complaint(&done, 0);
@@ -38,15 +39,23 @@ fn a_table_of_inputs_that_does_not_fit_is_refused_with_its_line() {
     let place = Place::new("bad_inputs");
     let cases = [
         ("floor.displacement.z\n1e-3\n", "has no column time"),
-        ("time,floor.displacement.x\n1e-3,0\n", "has no column floor.displacement.z"),
+        ("time,floor.force.z\n1e-3,0\n", "has no column floor.displacement.z"),
+        (
+            "time,floor.displacment.z\n1e-3,0\n",
+            "line 1: expected time and variables of the unit, found a column \"floor.displacment.z\"; the nearest is floor.displacement.z",
+        ),
+        (
+            "time,floor.displacement.z,floor.displacement.z\n1e-3,0,0\n",
+            "line 1: expected one column floor.displacement.z, found two",
+        ),
         (
             "time,floor.displacement.z\n1e-3,nan\n",
-            "line 2, floor.displacement.z: \"nan\" found; a finite number is right",
+            "line 2, floor.displacement.z: expected a finite number, found \"nan\"",
         ),
-        ("time,floor.displacement.z\n0,1e-3\n", "line 2: time 0.0 found; displacement 0 at time 0 is right"),
+        ("time,floor.displacement.z\n0,1e-3\n", "line 2: expected displacement 0 at time 0, found 0.001"),
         (
             "time,floor.displacement.z\n2e-3,0\n1e-3,0\n",
-            "line 3: time 0.001 found; a time after that of the line before, or 0 in the first is right",
+            "line 3: expected a time after that of the line before, or 0 in the first, found 0.001",
         ),
     ];
     for (table, expected) in cases {

@@ -1,9 +1,11 @@
 //! The commands: what they leave, what they say, and with which status they end.
 
 mod broken_off;
+mod charts;
 mod checks;
 mod folders;
 mod ground;
+mod hostile;
 mod inputs;
 mod protocols;
 mod refusals;

@@ -107,6 +107,18 @@ fn a_packing_that_does_not_settle_in_time_is_a_failure() {
     let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--steps", &"5000"]).output().unwrap(), 1);
     assert!(said.contains("not settled after 5000 steps") && said.contains("is asked for"), "{said}");
     assert!(!state.exists());
+    // What was reached is kept, and goes on.
+    let reached = place.at("settled.cograin.unsettled");
+    assert!(said.contains("settled.cograin.unsettled holds the state so far"), "{said}");
+    complaint(&cograin(&[&"settle", &scene, &"-o", &state, &"--from", &reached]).output().unwrap(), 0);
+    assert!(state.exists());
+    // And neither it nor what the command reads is overwritten unasked.
+    let before = fs::read(&state).unwrap();
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap(), 2);
+    assert!(said.contains("found a file; --overwrite replaces it"), "{said}");
+    let said = complaint(&cograin(&[&"settle", &scene, &"-o", &scene, &"--overwrite"]).output().unwrap(), 2);
+    assert!(said.contains("expected a file that the command does not read itself"), "{said}");
+    assert_eq!(fs::read(&state).unwrap(), before);
 }
 
 /// Rolling friction of constant size trembles about rest for ever; settling once went on as long.

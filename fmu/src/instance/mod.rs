@@ -11,7 +11,7 @@ use crate::saved::{Course, Saved};
 use crate::types::Status;
 use cograin::export::{ResourceError, identity, read_resources};
 use cograin::interface::{Derivatives, Findings, Interface, Value};
-use cograin::scene::{Scene, SceneErrors, Source};
+use cograin::scene::{Models, Scene, SceneErrors, Source};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
 use cograin::step::{Description, RunError, Simulation};
@@ -31,7 +31,7 @@ const SMALL: f64 = 1000.0;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum StartError {
     /// An argument is missing.
-    #[error("{argument} is missing; {right} is right")]
+    #[error("{argument}: expected {right}, found none")]
     Missing {
         /// The argument.
         argument: &'static str,
@@ -39,7 +39,7 @@ pub(crate) enum StartError {
         right: &'static str,
     },
     /// Model exchange.
-    #[error("fmuType {found} is not provided; fmi2CoSimulation (1) is right")]
+    #[error("fmuType: expected fmi2CoSimulation (1), found {found}")]
     Type {
         /// The type asked for.
         found: i32,
@@ -52,8 +52,8 @@ pub(crate) enum StartError {
     Resources(#[from] ResourceError),
     /// Description and resources do not belong together.
     #[error(
-        "fmuGUID {given} is not that of the resources with this library, {expected}; the description, resources \
-             and library of one export are right"
+        "fmuGUID: expected {expected}, that of the resources with this library, found {given}; take the \
+         description, resources and library of one export"
     )]
     Identity {
         /// The GUID given.
@@ -88,6 +88,8 @@ pub(crate) struct Request {
 struct Unit {
     /// The scene.
     scene: Arc<Scene>,
+    /// The sub-models that it may name.
+    models: Models,
     /// Its text and files, from which it is read anew with other parameters.
     source: Source,
     /// The state to begin in, if it is not the scene's own.
@@ -100,7 +102,7 @@ struct Unit {
 
 impl Unit {
     /// Reads the resources.
-    fn read(request: &Request) -> Result<Self, StartError> {
+    fn read(request: &Request, models: Models) -> Result<Self, StartError> {
         let missing = |argument, right| StartError::Missing { argument, right };
         if request.name.as_ref().is_none_or(String::is_empty) {
             return Err(missing("instanceName", "a name"));
@@ -116,10 +118,10 @@ impl Unit {
         if *given != expected {
             return Err(StartError::Identity { given: given.clone(), expected });
         }
-        let scene = Scene::from_source(&contents.source)?;
+        let scene = models.scene(&contents.source, &[])?;
         let start = contents.state.map(|bytes| State::from_bytes(&bytes, scene.fingerprint)).transpose()?;
         let (interface, source) = (Interface::of(&scene), contents.source);
-        Ok(Self { interface, scene: Arc::new(scene), source, start, identity: expected })
+        Ok(Self { interface, scene: Arc::new(scene), models, source, start, identity: expected })
     }
 
     /// A simulation at its beginning, with these values of parameters.
@@ -136,7 +138,7 @@ impl Unit {
             };
             return Ok(Begun { simulation, start: self.start.clone(), given });
         }
-        let scene = Arc::new(self.interface.scene_with(&self.source, &given)?);
+        let scene = Arc::new(self.interface.scene_with(&self.models, &self.source, &given)?);
         let Some(state) = &self.start else {
             return Ok(Begun { simulation: Simulation::new(scene)?, start: None, given });
         };
@@ -197,9 +199,9 @@ pub(crate) struct Instance {
 }
 
 impl Instance {
-    /// An instance as the host asks for it.
-    pub(crate) fn new(request: &Request) -> Result<Self, StartError> {
-        let unit = Unit::read(request)?;
+    /// An instance as the host asks for it, whose scene may name these sub-models.
+    pub(crate) fn new(request: &Request, models: Models) -> Result<Self, StartError> {
+        let unit = Unit::read(request, models)?;
         let Begun { simulation, start, given } = unit.begin(Given::new())?;
         let course = Self::at_the_beginning(&simulation);
         let stop = Arc::<AtomicBool>::default();

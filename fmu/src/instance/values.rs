@@ -32,7 +32,6 @@ impl Instance {
         let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name() == kind);
         let mut values = std::mem::take(&mut self.values);
         values.clear();
-        values.reserve(references.len());
         for reference in references.iter() {
             let index = reference as usize;
             if wanted.is_none() || self.unit.interface.type_of(index) != wanted {
@@ -97,8 +96,8 @@ impl Instance {
         references.iter().map(text).collect()
     }
 
-    /// `fmi2SetString`: all or nothing.
-    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) -> Result<(), Refusal> {
+    /// Whether all of these are texts that may be set now.
+    pub(crate) fn check_texts(&self, references: Items<Reference>) -> Result<(), Refusal> {
         let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
         for reference in references.iter() {
             let (index, variable) = self.variable(reference, "String")?;
@@ -106,10 +105,14 @@ impl Instance {
                 return Err(InterfaceError::Fixed { index, name: variable.name.clone() }.into());
             }
         }
+        Ok(())
+    }
+
+    /// `fmi2SetString`, once the references are checked: all or nothing.
+    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) {
         for (reference, value) in references.iter().zip(values) {
             self.frames.set_text(reference as usize, value);
         }
-        Ok(())
     }
 
     /// The other setters: there are no inputs of these types, so every reference is a wrong one.
@@ -158,21 +161,12 @@ impl Instance {
         knowns: Items<Reference>,
         direction: Items<f64>,
     ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_derivatives(&self.unit.scene)?;
         let index = |reference| Ok(self.variable(reference, "Real")?.0);
         let inputs = knowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
         let outputs = unknowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let direction: Vec<(usize, f64)> = inputs.into_iter().zip(direction.iter()).collect();
         let Self { unit, simulation, derivatives, .. } = self;
-        unit.interface.find_derivatives(simulation, derivatives, &inputs)?;
-        let mut changes = Vec::new();
-        for output in outputs {
-            let mut change = 0.0;
-            for (&input, share) in inputs.iter().zip(direction.iter()) {
-                change += share * unit.interface.derivative(simulation, derivatives, [output, input])?;
-            }
-            changes.push(change);
-        }
-        Ok(changes)
+        Ok(unit.interface.derivatives(simulation, derivatives, (&outputs, &direction))?)
     }
 
     /// `fmi2GetRealOutputDerivatives`: of order 1.
@@ -181,14 +175,13 @@ impl Instance {
         references: Items<Reference>,
         orders: Items<i32>,
     ) -> Result<Vec<f64>, Refusal> {
-        self.unit.interface.check_rates(&self.unit.scene)?;
         let mut rates = Vec::new();
         for (reference, order) in references.iter().zip(orders.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
             if order != 1 {
                 return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
             }
-            rates.push(self.unit.interface.rate(&mut self.simulation, &mut self.derivatives, index)?);
+            rates.push(self.unit.interface.rate(&self.simulation, index)?);
         }
         Ok(rates)
     }

@@ -163,7 +163,7 @@ macro_rules! breakage_rules {
             pub(in crate::bond) fn check(&self, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
                 $(<$file::$rule>::check(&self.$name, self, formulation, wrong);)+
                 if self.rules(formulation).is_empty() {
-                    let message = format!("no limit found; {} or no table is right", LIMITS.concat().join(", "));
+                    let message = format!("expected {} or no table, found no limit", LIMITS.concat().join(", "));
                     wrong.push(KeyError { key: "breakage", message });
                 }
             }

@@ -77,19 +77,19 @@ impl Breakage for MohrCoulomb {
             wrong,
             angle >= std::f64::consts::FRAC_PI_2,
             "breakage.mohr_coulomb.friction_angle",
-            "an angle of π/2 or more found; radians from 0 to below π/2 are right",
+            "expected radians from 0 to below π/2, found an angle of π/2 or more",
         );
         KeyError::add(
             wrong,
             table.tensile_strength.get() * libm::sin(angle) > cohesion * libm::cos(angle),
             "breakage.mohr_coulomb.tensile_strength",
-            "above cohesion/tan(friction_angle), where the shear limit ends; at most that is right",
+            "expected at most cohesion/tan(friction_angle), where the shear limit ends, found more",
         );
         KeyError::add(
             wrong,
             formulation.is_engine(),
             "breakage.mohr_coulomb",
-            "found with engine_exact, which has the engine's limits only",
+            "expected a limit of the engine, as engine_exact has no other, found this one",
         );
     }
 

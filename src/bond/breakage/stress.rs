@@ -102,34 +102,34 @@ impl Breakage for ByStress {
         add(
             own.tension_ratio.is_some() && no_normal,
             "breakage.tension_ratio",
-            "found without max_normal_stress, which it multiplies",
+            "expected max_normal_stress beside it, which it multiplies, found none",
         );
         add(
             own.friction_angle.is_some() && no_shear,
             "breakage.friction_angle",
-            "found without max_shear_stress, which it raises",
+            "expected max_shear_stress beside it, which it raises, found none",
         );
         add(
             own.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
             "breakage.friction_angle",
-            "an angle of π/2 or more found; radians from 0 to below π/2 are right",
+            "expected radians from 0 to below π/2, found an angle of π/2 or more",
         );
         add(
             own.compression_breaks.is_some() && no_normal,
             "breakage.compression_breaks",
-            "found without max_normal_stress, to which it belongs",
+            "expected max_normal_stress beside it, to which it belongs, found none",
         );
         let exact = formulation.is_engine();
         add(
             exact && own.compression_breaks == Some(false),
             "breakage.compression_breaks",
-            "false found; in engine_exact compression always breaks",
+            "expected true, as compression always breaks in engine_exact, found false",
         );
         let by_distance = all.distance.max_distance.is_some();
         add(
             exact && own.has_limit() && by_distance,
             "breakage.max_distance",
-            "found beside a largest stress; engine_exact looks at one of them",
+            "expected one limit, as engine_exact looks at one, found a largest stress beside it",
         );
     }
 

@@ -4,7 +4,6 @@
 
 pub mod componentwise;
 pub mod opposing;
-pub mod split;
 pub mod viscous;
 
 use super::elasticity::Parts;
@@ -35,11 +34,6 @@ macro_rules! damping_models {
             /// Whether it is made of dashpots, which a scheme can let see the rates at the end of the step.
             pub fn is_dashpots(&self) -> bool {
                 match self { $(Self::$row(_) => <$file::$model as Model>::IS_DASHPOTS,)+ }
-            }
-
-            /// The dashpots that are integrated by themselves instead of acting as forces, if they are.
-            pub fn split(&self) -> Option<viscous::Viscous> {
-                match self { $(Self::$row(keys) => <$file::$model as Model>::split(keys),)+ }
             }
 
             /// Whether the engine has it.
@@ -77,10 +71,6 @@ pub trait Model {
     const IS_THE_ENGINES: bool = false;
     /// The model that its keys mean.
     fn of(keys: &Self::Keys) -> Self::Form;
-    /// The dashpots that its keys want to be integrated by themselves instead of acting as forces ([`split`]).
-    fn split(_keys: &Self::Keys) -> Option<viscous::Viscous> {
-        None
-    }
 }
 
 /// A damping model, in numbers.
@@ -146,8 +136,8 @@ impl<N: Number> Damped<N> {
         let twist = self.torsion + self.bending;
         DampingLoad {
             force: self.normal + self.shear,
-            torque_i: couple.scaled(pair.share_i) + twist,
-            torque_j: couple.scaled(pair.share_j) - twist,
+            torque_i: couple * pair.share_i + twist,
+            torque_j: couple * pair.share_j - twist,
         }
     }
 }

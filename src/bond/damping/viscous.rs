@@ -6,17 +6,19 @@ use crate::bond::part_keys::PartKeys;
 use crate::bond::{Coefficients, Elastic, Motion, Pair};
 use crate::number::Number;
 use crate::quantity::NonNegative;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
-/// How dashpots are integrated in time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integration {
-    /// As forces, which see the rates that `[run] scheme` says.
-    #[default]
-    Scheme,
-    /// By themselves, pair by pair, before and after each time step ([`super::split`]).
-    Split,
+/// A key that scenes had.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gone {}
+
+impl<'de> Deserialize<'de> for Gone {
+    fn deserialize<D: Deserializer<'de>>(_: D) -> Result<Self, D::Error> {
+        Err(serde::de::Error::custom(
+            "not a key any more: dashpots act as forces in every scheme; leave it out, and where they make the time step too short take a \
+             smaller damping ratio, or damping.opposing",
+        ))
+    }
 }
 
 /// `[bond.<name>.damping.viscous]`
@@ -31,9 +33,8 @@ pub struct Keys {
     pub normal_torque: Option<NonNegative>,
     /// ζ of the bending torque.
     pub tangential_torque: Option<NonNegative>,
-    /// How they are integrated; `"scheme"` where absent.
-    #[serde(default)]
-    pub integration: Integration,
+    /// Refused.
+    pub integration: Option<Gone>,
 }
 
 impl Keys {
@@ -45,10 +46,9 @@ impl Keys {
 }
 
 impl From<PartKeys<NonNegative>> for Keys {
-    /// Dashpots that are integrated as forces.
     fn from(ratios: PartKeys<NonNegative>) -> Self {
         let PartKeys { normal_force, tangential_force, normal_torque, tangential_torque } = ratios;
-        Self { normal_force, tangential_force, normal_torque, tangential_torque, integration: Integration::Scheme }
+        Self { normal_force, tangential_force, normal_torque, tangential_torque, integration: None }
     }
 }
 
@@ -85,46 +85,39 @@ impl Model for Viscous {
     fn of(keys: &Self::Keys) -> Self {
         Self { ratios: keys.parts(NonNegative::get) }
     }
-
-    fn split(keys: &Self::Keys) -> Option<Self> {
-        (keys.integration == Integration::Split).then(|| Self::of(keys))
-    }
 }
 
 /// 2 ζ √(K M), from 1/M. A part without damping takes neither root nor division.
 #[inline(always)]
-pub(super) fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
+fn dashpot<N: Number>(ratio: f64, stiffness: N, inverse_mass: N) -> N {
     if ratio == 0.0 {
         return N::zero();
     }
     let moves = inverse_mass.greater(N::zero());
     let square = stiffness / N::select(moves, inverse_mass, N::splat(1.0));
-    N::select(moves, square, N::zero()).sqrt().scaled(N::splat(2.0 * ratio))
+    N::select(moves, square, N::zero()).sqrt() * N::splat(2.0 * ratio)
 }
 
 /// 1/m_i, 1/m_j, 1/I_i, 1/I_j of a pair.
 #[inline(always)]
-pub(super) fn lightness<N: Number>(pair: &Pair<N>) -> [N; 4] {
+fn lightness<N: Number>(pair: &Pair<N>) -> [N; 4] {
     let one = N::splat(1.0);
     [one / pair.mass_i, one / pair.mass_j, one / pair.inertia_i, one / pair.inertia_j]
 }
 
 /// 1/M of the parts of a bond between two bodies, from 1/m and 1/I of both and the arms of both.
 #[inline(always)]
-pub(super) fn inverse_masses<N: Number>(
-    [along_i, along_j, about_i, about_j]: [N; 4],
-    [arm_i, arm_j]: [N; 2],
-) -> Parts<N> {
+fn inverse_masses<N: Number>([along_i, along_j, about_i, about_j]: [N; 4], [arm_i, arm_j]: [N; 2]) -> Parts<N> {
     let along = along_i + along_j;
-    let across = along + (arm_i * arm_i).scaled(about_i) + (arm_j * arm_j).scaled(about_j);
+    let across = along + (arm_i * arm_i) * about_i + (arm_j * arm_j) * about_j;
     let turning = about_i + about_j;
     [along, across, turning, turning]
 }
 
 /// Arms of both bodies of a bond of this length \[m\].
 #[inline(always)]
-pub(super) fn arms<N: Number>(pair: &Pair<N>, distance: N) -> [N; 2] {
-    [distance.scaled(pair.share_i), distance.scaled(pair.share_j)]
+fn arms<N: Number>(pair: &Pair<N>, distance: N) -> [N; 2] {
+    [distance * pair.share_i, distance * pair.share_j]
 }
 
 impl Damping for Viscous {
@@ -143,11 +136,11 @@ impl Damping for Viscous {
         let [normal, shear, torsion, bending] = self.ratios;
         let axial = law.normal_stiffness(elastic.compression) * section.area;
         Damped {
-            normal: motion.axis * -motion.normal_velocity.scaled(dashpot(normal, axial, along)),
+            normal: motion.axis * -(motion.normal_velocity * dashpot(normal, axial, along)),
             shear: motion.slip * -dashpot(shear, law.elastic.shear * section.area, across),
             torsion: motion.axis
-                * -motion.twist_rate.scaled(dashpot(torsion, law.elastic.torsion * section.polar, turning)),
-            bending: motion.bending_rate.scaled(-dashpot(bending, law.elastic.bending * section.axial, turning)),
+                * -(motion.twist_rate * dashpot(torsion, law.elastic.torsion * section.polar, turning)),
+            bending: motion.bending_rate * -dashpot(bending, law.elastic.bending * section.axial, turning),
         }
     }
 

@@ -31,9 +31,6 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct EngineExact;
 
-/// The type that does all that can be asked.
-pub(super) type Whole = EngineExact;
-
 /// Goes to the type: it always relaxes, if only by 0, and needs rates.
 pub(super) fn visit<V: TakeFormulation>(_asked: Asked, visitor: V) -> V::Output {
     visitor.take::<EngineExact>()

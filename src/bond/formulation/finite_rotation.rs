@@ -44,9 +44,6 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteRotation<const RELAXING: bool, const RATES: bool = false>;
 
-/// The type that does all that can be asked.
-pub(super) type Whole = FiniteRotation<true, true>;
-
 /// Goes from what is asked to the type: it needs no rates itself.
 pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
     match (asked.relaxation, asked.rates) {
@@ -90,7 +87,7 @@ impl<N: Number> End<N> {
     /// φ: rotation vector from the carried axis to the bond's \[rad\].
     #[inline(always)]
     fn rotation(&self) -> Vector<N> {
-        self.tangent * self.ratio.scaled(N::splat(2.0))
+        self.tangent * (self.ratio * N::splat(2.0))
     }
 
     /// Torque on the body from ∂U/∂φ and from the torsion, with which a turn about the axis is resisted \[N m\].
@@ -235,7 +232,7 @@ impl<N: Number> Strains<N> {
             ends: [i, j],
             twist,
             twisted: twist - free_twist,
-            sheared: rotation_i.scaled(pair.share_i) + rotation_j.scaled(pair.share_j),
+            sheared: rotation_i * pair.share_i + rotation_j * pair.share_j,
             bent: rotation_i - rotation_j,
         }
     }
@@ -339,15 +336,15 @@ impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotatio
         let Strains { ends: [i, j], twisted, sheared, bent, .. } = &strains;
 
         let compression = reference - motion.distance;
-        let normal = compression.scaled(law.normal_stiffness(compression) * section.area);
+        let normal = compression * (law.normal_stiffness(compression) * section.area);
         let shear_stiffness = law.elastic.shear * section.area * length * length;
         let bending_stiffness = law.elastic.bending * section.axial;
-        let torsion = twisted.scaled(law.elastic.torsion * section.polar);
-        let bending = bent.scaled(bending_stiffness);
-        let shearing = sheared.scaled(shear_stiffness);
+        let torsion = *twisted * (law.elastic.torsion * section.polar);
+        let bending = *bent * bending_stiffness;
+        let shearing = *sheared * shear_stiffness;
 
-        let torque_i = i.torque(shearing.scaled(pair.share_i) + bending, torsion, axis);
-        let torque_j = j.torque(shearing.scaled(pair.share_j) - bending, -torsion, axis);
+        let torque_i = i.torque(shearing * pair.share_i + bending, torsion, axis);
+        let torque_j = j.torque(shearing * pair.share_j - bending, -torsion, axis);
         // U does not change when the pair is turned as a whole: d × F + T_i + T_j = 0.
         let force = axis * normal + axis.cross(torque_i + torque_j) * motion.per_distance;
 
@@ -361,7 +358,7 @@ impl<const RELAXING: bool, const WITH_RATES: bool> Formulation for FiniteRotatio
         Elastic {
             compression,
             normal,
-            shear: axis.cross(*sheared).scaled(law.elastic.shear * section.area * length),
+            shear: axis.cross(*sheared) * (law.elastic.shear * section.area * length),
             torsion,
             bending,
             force,

@@ -31,9 +31,6 @@ use crate::number::{Number, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct Incremental<const RELAXING: bool>;
 
-/// The type that does all that can be asked.
-pub(super) type Whole = Incremental<true>;
-
 /// Goes from what is asked to the type: it needs rates itself.
 pub(super) fn visit<V: TakeFormulation>(asked: Asked, visitor: V) -> V::Output {
     match asked.relaxation {

@@ -34,11 +34,6 @@ macro_rules! formulations {
             pub fn visit<V: TakeFormulation>(self, asked: Asked, visitor: V) -> V::Output {
                 match self { $(Self::$row => $name::visit(asked, visitor),)+ }
             }
-
-            /// Goes from the row of the list to the type that does all that can be asked.
-            pub fn visit_whole<V: TakeFormulation>(self, visitor: V) -> V::Output {
-                match self { $(Self::$row => visitor.take::<$name::Whole>(),)+ }
-            }
         }
     };
 }
@@ -69,6 +64,11 @@ pub struct Asked {
     pub relaxation: bool,
     /// The rates, which damping uses.
     pub rates: bool,
+}
+
+impl Asked {
+    /// All that can be asked.
+    pub const ALL: Self = Self { relaxation: true, rates: true };
 }
 
 /// What is to be done with a formulation once its type is known.

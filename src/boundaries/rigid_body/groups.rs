@@ -27,23 +27,11 @@ pub(crate) fn place_groups(scene: &Scene, bodies: &[Option<RigidBody>], state: &
     }
 }
 
-/// Gives the particles of groups the motion that their boundary has, where they stand.
-pub(crate) fn give_motions(scene: &Scene, bodies: &[Option<RigidBody>], state: &mut State) {
-    let State { boundaries, particles, .. } = state;
-    for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&*boundaries) {
-        give_led_motion(boundary, body.as_ref(), moved, particles);
-    }
-}
-
 /// Gives the particles of a group that does not turn the velocity of their boundary.
 fn give_velocity(moved: &BoundaryState, members: &[u32], particles: &mut Particles) {
     for &member in members {
         let slot = particles.slot[member as usize] as usize;
-        let kept = particles.velocity[slot][1];
         particles.velocity[slot][..3].copy_from_slice(&moved.velocity);
-        if particles.plane_rows {
-            particles.velocity[slot][1] = kept;
-        }
     }
 }
 
@@ -70,9 +58,6 @@ fn give_motion(moved: &BoundaryState, members: &[u32], particles: &mut Particles
         let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
         particles.velocity[slot][..3].copy_from_slice(&(velocity + spin.cross(arm)).to_array());
         particles.angular_velocity[slot][..3].copy_from_slice(&spin.to_array());
-        if particles.plane_rows {
-            particles.velocity[slot][1] = spin.y;
-        }
     }
 }
 
@@ -99,20 +84,6 @@ pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f6
 /// The larger of two numbers, or the second if it is NaN.
 fn larger(most: f64, one: f64) -> f64 {
     if one > most || one.is_nan() { one } else { most }
-}
-
-/// Gives the particles of a boundary that is led the motion that it has.
-pub(crate) fn give_led_motion(
-    boundary: &Boundary,
-    body: Option<&RigidBody>,
-    moved: &BoundaryState,
-    particles: &mut Particles,
-) {
-    let members = boundary.shape.members();
-    if body.is_some_and(|body| body.turning != Turning::Still) {
-        return give_motion(moved, members, particles);
-    }
-    give_velocity(moved, members, particles);
 }
 
 /// Gives the spheres of a group the motion that it has after a kick.

@@ -1,10 +1,11 @@
 //! Half kicks of rigid bodies.
 
 use super::{Motion, RigidBody};
-use crate::boundaries::implicit::{self, Triangle};
+use crate::boundaries::{implicit, inertia};
 use crate::geometry::Quaternion;
 use crate::number::Vector;
 use crate::state::BoundaryState;
+use nalgebra::{Matrix6, Vector6};
 
 /// What half a kick makes of the free axes.
 struct Kick {
@@ -55,15 +56,12 @@ impl RigidBody {
     fn kicked(&self, moved: &BoundaryState, step: f64) -> Kick {
         let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
         let before = Vector::from(inertial.angular_momentum);
-        // Most bodies have nothing added. The stored numbers say so at once; a comparison of freshly computed ones would have to
-        // wait for them.
-        let nothing = inertial.stiffness == [0.0; 21] && inertial.damping == [0.0; 21];
-        let added = if nothing {
-            [0.0; 21]
+        let added = if self.is_implicit() {
+            implicit::added(&inertial.stiffness.into(), &inertial.damping.into(), self.freedoms(), step)
         } else {
-            implicit::added(&inertial.stiffness, &inertial.damping, self.freedoms(), step)
+            Matrix6::zeros()
         };
-        if nothing || added == [0.0; 21] {
+        if added == Matrix6::zeros() {
             let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
             let velocity = self.along_free(moved.velocity) + self.along_free(inertial.load) * per_mass;
             let momentum = before + self.twist(moved, step);
@@ -71,50 +69,25 @@ impl RigidBody {
         }
         let [shift, turn, impulse] = self.kicked_implicitly(moved, &added, step);
         let velocity = self.along_free(moved.velocity) + shift;
-        let momentum = before + self.about_free(self.inertia.turned(orientation).times(turn).to_array());
+        let momentum =
+            before + self.about_free(inertia::times(&inertia::turned(&self.inertia, orientation), turn).to_array());
         let [x, y, z] = impulse.to_array();
         let [a, b, c] = (momentum - before - self.twist(moved, step)).to_array();
         Kick { motion: [velocity, self.spin(orientation, momentum)], momentum, added: [x, y, z, a, b, c] }
     }
 
-    /// The change of velocity that half a kick with this load gives a body that does not turn: in proportion to the load.
-    pub(crate) fn shift(&self, moved: &BoundaryState, load: [f64; 3], step: f64) -> [f64; 3] {
-        let mut alone = BoundaryState { velocity: [0.0; 3], ..*moved };
-        (alone.inertial.load, alone.inertial.couple, alone.inertial.angular_momentum) = (load, [0.0; 3], [0.0; 3]);
-        self.kicked(&alone, step).motion[0].to_array()
-    }
-
-    /// Stiffness and damping of the springs and dashpots to the ground along an axis \[N/m, N s/m\].
-    pub(crate) fn ground(&self, axis: usize) -> [f64; 2] {
-        [self.stiffness[axis], self.damping[axis]]
-    }
-
     /// The change of velocity and of angular velocity by half a kick, and the impulse of what is added to the mass.
-    fn kicked_implicitly(&self, moved: &BoundaryState, added: &Triangle, step: f64) -> [Vector; 3] {
+    fn kicked_implicitly(&self, moved: &BoundaryState, added: &Matrix6<f64>, step: f64) -> [Vector; 3] {
         let free = self.freedoms();
-        let mut matrix = *added;
-        let inertia = self.inertia.turned(Quaternion::from(moved.orientation));
-        for row in 0..6 {
-            let held = if free[row] { 0.0 } else { 1.0 };
-            for column in 0..=row {
-                let own = match (row, column) {
-                    (0..3, _) if row == column => self.mass,
-                    (3..6, 3..6) => inertia.0[row - 3][column - 3],
-                    _ => 0.0,
-                };
-                let both = free[row] && free[column];
-                matrix[row * (row + 1) / 2 + column] += if both {
-                    own
-                } else if row == column {
-                    held
-                } else {
-                    0.0
-                };
-            }
-        }
+        let mut own = Matrix6::from_diagonal_element(self.mass);
+        own.fixed_view_mut::<3, 3>(3, 3)
+            .copy_from(&inertia::turned(&self.inertia, Quaternion::from(moved.orientation)));
+        let held = |row: usize, column: usize| if row == column { 1.0 } else { 0.0 };
+        let own =
+            own.map_with_location(|row, column, part| if free[row] && free[column] { part } else { held(row, column) });
         let force = self.along_free(moved.inertial.load) * (0.5 * step);
         let [[x, y, z], [a, b, c]] = [force, self.twist(moved, step)].map(Vector::to_array);
-        let [x, y, z, a, b, c] = implicit::solve(matrix, [x, y, z, a, b, c]);
+        let [x, y, z, a, b, c] = implicit::solve(own + added, &Vector6::new(x, y, z, a, b, c)).into();
         let shift = Vector::new(x, y, z);
         [shift, Vector::new(a, b, c), shift * self.mass - force]
     }

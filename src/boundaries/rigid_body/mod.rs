@@ -3,15 +3,15 @@
 mod groups;
 mod kick;
 
-pub(crate) use groups::{coming_speed, give_led_motion, give_motions, kick_again, place_groups};
+pub(crate) use groups::{coming_speed, kick_again, place_groups};
 
-use super::implicit::{self, Triangle};
-use super::inertia::Matrix;
+use super::inertia;
 use crate::geometry::Quaternion;
 use crate::geometry::rotation::vector_near;
 use crate::number::Vector;
 use crate::scene::{Boundary, Scene};
 use crate::state::{BoundaryState, Orientation};
+use nalgebra::{Matrix3, Matrix6, Vector6};
 
 /// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
 const ITERATIONS: usize = 40;
@@ -42,9 +42,9 @@ pub(crate) struct RigidBody {
     /// Mass centre at time 0, from the reference point \[m\].
     pub offset: Vector,
     /// Inertia about the reference point in the orientation of time 0 \[kg m²\].
-    inertia: Matrix,
+    inertia: Matrix3<f64>,
     /// Its inverse.
-    inverse: Matrix,
+    inverse: Matrix3<f64>,
     /// Which of x, y, z are free.
     pub moves: [bool; 3],
     /// How it turns.
@@ -83,8 +83,8 @@ impl RigidBody {
             members: members.to_vec(),
             mass: 0.0,
             offset: Vector::zero(),
-            inertia: Matrix::default(),
-            inverse: Matrix::default(),
+            inertia: Matrix3::zeros(),
+            inverse: Matrix3::zeros(),
             moves,
             turning,
             farthest: 0.0,
@@ -102,26 +102,26 @@ impl RigidBody {
             let arm = Vector::from(particle.position) - boundary.reference.into();
             body.mass += mass;
             body.offset += arm * mass;
-            body.inertia.add_particle(mass, particle.inertia(), arm);
+            inertia::add_particle(&mut body.inertia, mass, particle.inertia(), arm);
             body.farthest = body.farthest.max(arm.length());
             body.smallest = body.smallest.min(radius);
             body.largest = body.largest.max(radius);
         }
         body.offset = body.offset * (1.0 / body.mass);
-        body.inverse = body.inertia.inverse();
+        body.inverse = body.inertia.try_inverse().unwrap_or_default();
         Some(body)
     }
 
     /// Takes over what the scene gives for a surface.
     fn fill_surface(&mut self, scene: &Scene, boundary: &Boundary) {
         let crate::scene::Body { mass, centre, inertia, .. } = boundary.body;
-        (self.mass, self.inertia) = (mass, Matrix(inertia));
+        (self.mass, self.inertia) = (mass, inertia.into());
         if !self.is_free() {
             return;
         }
         self.offset = Vector::from(centre) - boundary.reference.into();
-        self.inertia.add_point(mass, self.offset);
-        self.inverse = self.inertia.inverse();
+        inertia::add_particle(&mut self.inertia, mass, 0.0, self.offset);
+        self.inverse = self.inertia.try_inverse().unwrap_or_default();
         self.smallest = scene.particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
     }
 
@@ -154,10 +154,10 @@ impl RigidBody {
         match self.turning {
             Turning::Still | Turning::Led => Vector::zero(),
             Turning::About(axis) => {
-                let share = momentum.to_array()[axis] / self.inertia.0[axis][axis];
+                let share = momentum.to_array()[axis] / self.inertia[(axis, axis)];
                 Vector::from([0, 1, 2].map(|k| if k == axis { share } else { 0.0 }))
             }
-            Turning::Freely => orientation.turn(self.inverse.times(orientation.conjugate().turn(momentum))),
+            Turning::Freely => orientation.turn(inertia::times(&self.inverse, orientation.conjugate().turn(momentum))),
         }
     }
 
@@ -187,12 +187,8 @@ impl RigidBody {
     }
 
     /// Starts the sum of what resists its motion with springs and dashpots to the ground.
-    pub(crate) fn supports(&self) -> [Triangle; 2] {
-        [self.stiffness, self.damping].map(|parts| {
-            let mut block = [0.0; 21];
-            implicit::add_diagonal(&mut block, parts);
-            block
-        })
+    pub(crate) fn supports(&self) -> [Matrix6<f64>; 2] {
+        [self.stiffness, self.damping].map(|parts| Matrix6::from_diagonal(&Vector6::from(parts)))
     }
 
     /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].
@@ -229,7 +225,7 @@ impl RigidBody {
         for _ in 0..ITERATIONS {
             let turned = orientation.turned(mean, step);
             // The angular velocity afterwards, carried back by the turn: what the body itself sees.
-            let seen = self.inverse.times(turned.conjugate().turn(momentum));
+            let seen = inertia::times(&self.inverse, turned.conjugate().turn(momentum));
             let next = (before + orientation.turn(seen)) * 0.5;
             let change = (next - mean).length();
             mean = next;
@@ -242,15 +238,15 @@ impl RigidBody {
 
     /// The acceleration that unit forces and moments give to its free axes: 1/mass \[1/kg\] and the inverse of the
     /// inertia in global axes \[1/(kg m²)\].
-    pub(crate) fn mobility(&self, moved: &BoundaryState) -> [[f64; 6]; 6] {
-        let mut mobility = [[0.0; 6]; 6];
+    pub(crate) fn mobility(&self, moved: &BoundaryState) -> Matrix6<f64> {
+        let mut mobility = Matrix6::zeros();
         let orientation = Quaternion::from(moved.orientation);
         for axis in 0..3 {
-            mobility[axis][axis] = if self.moves[axis] { 1.0 / self.mass } else { 0.0 };
+            mobility[(axis, axis)] = if self.moves[axis] { 1.0 / self.mass } else { 0.0 };
             let unit = Vector::from([0, 1, 2].map(|k| f64::from(u8::from(k == axis))));
             let spin = self.spin(orientation, self.about_free(unit.to_array())).to_array();
             for (k, part) in spin.into_iter().enumerate() {
-                mobility[3 + k][3 + axis] = part;
+                mobility[(3 + k, 3 + axis)] = part;
             }
         }
         mobility

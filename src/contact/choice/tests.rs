@@ -3,7 +3,9 @@
 use super::*;
 use crate::contact::fixtures::{contact, corners, every_law, properties, with_pair};
 use crate::contact::tangential::turned_history;
-use crate::contact::{Contact, Law, NoKeys, Offset, PairProperties, Reaction};
+use crate::contact::{
+    Contact, Law, NoKeys, Offset, PairProperties, Reaction, TangentialModel, cohesion, normal, rolling, tangential,
+};
 use crate::number::{Row, Vector};
 use crate::quantity::Restitution;
 
@@ -101,10 +103,10 @@ fn force_is_the_slope_of_the_energy(law: &Law, row: &[f64]) {
 #[test]
 fn names_are_those_of_the_files() {
     let axes = [
-        ("normal", NormalChoice::NAMES),
-        ("tangential", TangentialChoice::NAMES),
-        ("rolling", RollingChoice::NAMES),
-        ("cohesion", CohesionChoice::NAMES),
+        ("normal", normal::STANDARD.iter().map(|row| row.name()).collect::<Vec<_>>()),
+        ("tangential", tangential::STANDARD.iter().map(|row| row.name()).collect()),
+        ("rolling", rolling::STANDARD.iter().map(|row| row.name()).collect()),
+        ("cohesion", cohesion::STANDARD.iter().map(|row| row.name()).collect()),
     ];
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/contact");
     for (axis, names) in axes {
@@ -117,7 +119,8 @@ fn names_are_those_of_the_files() {
 #[test]
 fn says_which_property_is_missing_and_where() {
     let bare = PairProperties { friction: None, ..properties() };
-    let choice = LawChoice { tangential: TangentialChoice::History(NoKeys {}), ..every_law()[0] };
+    let choice =
+        LawChoice { tangential: TangentialModel::of::<tangential::history::History>(NoKeys {}), ..every_law()[0] };
     let missing = with_pair(&bare, |pair| choice.coefficients(pair)).unwrap_err();
     assert_eq!(missing, [Missing { table: "pair.soft.soft".into(), key: "friction" }]);
 }
@@ -125,10 +128,9 @@ fn says_which_property_is_missing_and_where() {
 #[test]
 fn a_dashpot_stretches_its_spring_backwards_unless_it_acts_in_full_at_touch_or_the_scene_says_no() {
     let stretches = |eepa: bool, backward_spring: Option<bool>| {
-        let choice =
-            every_law().into_iter().find(|choice| matches!(choice.normal, NormalChoice::Eepa(_)) == eepa).unwrap();
+        let choice = every_law().into_iter().find(|choice| (choice.normal.name() == "eepa") == eepa).unwrap();
         let keys = turned_history::Keys { backward_spring, ..Default::default() };
-        let tangential = TangentialChoice::TurnedHistory(keys);
+        let tangential = TangentialModel::of::<tangential::turned_history::TurnedHistory>(keys);
         let choice = LawChoice { tangential, switches: Switches::of(false, true), ..choice };
         let undamped = LawChoice { switches: Switches::of(false, false), ..choice };
         assert!(!undamped.stretches_backwards());

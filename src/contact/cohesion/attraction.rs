@@ -23,8 +23,6 @@ coefficients! {
 }
 
 impl CohesionForm for Attraction {
-    const ACTIVE: bool = true;
-
     #[inline(always)]
     fn force<N: Number>(law: Attraction<N>, contact: &Contact<N>) -> N {
         -(law.on_section * contact.section_area + law.on_overlap * contact.section_radius * contact.overlap)

@@ -5,13 +5,8 @@ pub mod none;
 pub mod sjkr;
 pub mod sjkr2;
 
-use super::Cohesion;
-use crate::choices::choices;
+use super::CohesionRow;
 
-choices! {
-    /// `[contact.<law>.cohesion.<model>]`
-    CohesionChoice of Cohesion, taken by TakeCohesion:
-    none::None,
-    sjkr::Sjkr,
-    sjkr2::Sjkr2,
-}
+/// The cohesion sub-models of the program.
+pub(crate) const STANDARD: &[&CohesionRow] =
+    &[CohesionRow::of::<none::None>(), CohesionRow::of::<sjkr::Sjkr>(), CohesionRow::of::<sjkr2::Sjkr2>()];

@@ -9,15 +9,12 @@ coefficients! {
 }
 
 impl Cohesion for None {
+    const NAME: &'static str = "none";
     type Keys = NoKeys;
     type Form = Self;
 
     fn between(_pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         Ok(Self::new())
-    }
-
-    fn reduces_friction(_keys: &NoKeys) -> bool {
-        false
     }
 }
 
@@ -27,11 +24,6 @@ impl CohesionForm for None {
 
     #[inline(always)]
     fn force<N: Number>(_law: None<N>, _contact: &Contact<N>) -> N {
-        N::zero()
-    }
-
-    #[inline(always)]
-    fn seen_by_friction<N: Number>(_law: None<N>, _force: N) -> N {
         N::zero()
     }
 }

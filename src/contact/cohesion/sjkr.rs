@@ -26,7 +26,7 @@ use serde::Deserialize;
 pub struct Sjkr;
 
 /// `[contact.<law>.cohesion.<model>]` of both SJKR models.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// Whether the attraction lowers the limit of friction.
@@ -42,6 +42,7 @@ impl Keys {
 }
 
 impl Cohesion for Sjkr {
+    const NAME: &'static str = "sjkr";
     type Keys = Keys;
     type Form = Attraction;
 

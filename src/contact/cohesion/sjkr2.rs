@@ -28,6 +28,7 @@ use std::f64::consts::PI;
 pub struct Sjkr2;
 
 impl Cohesion for Sjkr2 {
+    const NAME: &'static str = "sjkr2";
     type Keys = Keys;
     type Form = Attraction;
 

@@ -1,28 +1,29 @@
 //! A law does what its sub-models do, one after another.
 
 use super::*;
-use crate::contact::cohesion::{CohesionChoice, sjkr};
+use crate::contact::cohesion::sjkr;
 use crate::contact::fixtures::{assert_close, contact, every_law, properties, with_pair};
-use crate::contact::normal::{NormalChoice, hooke_stiffness};
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
-use crate::contact::{NoKeys, PairProperties};
+use crate::contact::normal::hooke_stiffness;
+use crate::contact::{
+    CohesionModel, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel, cohesion, normal, rolling,
+    tangential,
+};
 use crate::quantity::NonNegative;
 
 /// Friction without memory.
-const NO_HISTORY: TangentialChoice = TangentialChoice::NoHistory(NoKeys {});
+const NO_HISTORY: TangentialModel = TangentialModel::fixed::<tangential::no_history::NoHistory>(&NoKeys {});
 /// Friction with a spring.
-const HISTORY: TangentialChoice = TangentialChoice::History(NoKeys {});
+const HISTORY: TangentialModel = TangentialModel::fixed::<tangential::history::History>(&NoKeys {});
 /// No friction.
-const SMOOTH: TangentialChoice = TangentialChoice::None(NoKeys {});
+const SMOOTH: TangentialModel = TangentialModel::fixed::<tangential::none::None>(&NoKeys {});
 
 /// Hooke with everything: k_n δ = 100/16384 N, γ_n v_n = −12 N (m* g_n = 24 kg/s, v_n = −½ m/s), c A = 21 N.
-fn whole(tangential: TangentialChoice, switches: Switches, tangential_reduce: bool) -> LawChoice {
+fn whole(tangential: TangentialModel, switches: Switches, tangential_reduce: bool) -> LawChoice {
     LawChoice {
-        normal: NormalChoice::HookeStiffness(hooke_stiffness::Keys::default()),
+        normal: NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys::default()),
         tangential,
-        rolling: RollingChoice::Cdt(NoKeys {}),
-        cohesion: CohesionChoice::Sjkr(sjkr::Keys { tangential_reduce }),
+        rolling: RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
+        cohesion: CohesionModel::of::<cohesion::sjkr::Sjkr>(sjkr::Keys { tangential_reduce }),
         switches,
         scheme: Scheme::Engine,
     }
@@ -94,8 +95,8 @@ fn asks_only_for_properties_that_are_used() {
         ..PairProperties::default()
     };
     let choice = LawChoice {
-        rolling: RollingChoice::None(NoKeys {}),
-        cohesion: CohesionChoice::None(NoKeys {}),
+        rolling: RollingModel::of::<rolling::none::None>(NoKeys {}),
+        cohesion: CohesionModel::of::<cohesion::none::None>(NoKeys {}),
         ..whole(SMOOTH, Switches::of(false, true), false)
     };
     assert!(with_pair(&bare, |pair| choice.coefficients(pair)).is_ok());

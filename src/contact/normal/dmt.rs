@@ -56,6 +56,7 @@ coefficients! {
 }
 
 impl Normal for Dmt {
+    const NAME: &'static str = "dmt";
     type Keys = Keys;
     type Form = Self;
 

@@ -92,7 +92,7 @@ pub enum AdhesionKind {
 }
 
 /// `[contact.<law>.normal.eepa]`
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// n, 1 or 1.5.
@@ -108,6 +108,7 @@ pub struct Keys {
 }
 
 impl Normal for Eepa {
+    const NAME: &'static str = "eepa";
     type Keys = Keys;
     type Form = Self;
     const ONSET: Onset = Onset::Constant;
@@ -145,16 +146,16 @@ impl Normal for Eepa {
     fn objection(keys: &Keys) -> Option<Objection> {
         let table = "normal";
         if ![1.0, 1.5].contains(&keys.overlap_exponent) {
-            let reason = "another number found; 1 or 1.5 is right";
+            let reason = "expected 1 or 1.5, found another number";
             return Some(Objection { table, key: "overlap_exponent", reason });
         }
         if ![1.0, 1.5, 2.0, 3.0, 5.0].contains(&keys.adhesion_exponent) {
-            let reason = "another number found; 1, 1.5, 2, 3 or 5 is right";
+            let reason = "expected 1, 1.5, 2, 3 or 5, found another number";
             return Some(Objection { table, key: "adhesion_exponent", reason });
         }
         let linear = keys.overlap_exponent == 1.0 && keys.adhesion_exponent == 1.0;
-        let reason = "\"fixed\" found, whose plastic overlap is right for linear branches alone; \
-                      overlap_exponent = 1 and adhesion_exponent = 1, or \"patch\", is right";
+        let reason = "expected overlap_exponent = 1 and adhesion_exponent = 1, or \"patch\", found \"fixed\", whose \
+                      plastic overlap holds for linear branches alone";
         (keys.adhesion == AdhesionKind::Fixed && !linear).then_some(Objection { table, key: "adhesion", reason })
     }
 }

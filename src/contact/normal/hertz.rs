@@ -28,6 +28,7 @@ use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset
 pub struct Hertz;
 
 impl Normal for Hertz {
+    const NAME: &'static str = "hertz";
     type Keys = NoKeys;
     type Form = Hertzian;
     const ONSET: Onset = Onset::FourthRoot;

@@ -25,6 +25,7 @@ use crate::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset
 pub struct HertzStiffness;
 
 impl Normal for HertzStiffness {
+    const NAME: &'static str = "hertz_stiffness";
     type Keys = NoKeys;
     type Form = Hertzian;
     const ONSET: Onset = Onset::SquareRoot;

@@ -35,19 +35,18 @@ impl NormalForm for Hertzian {
     /// a and √(a m*).
     #[inline(always)]
     fn roots<N: Number>(overlap: N, radius: N, mass: N) -> Roots<N> {
-        let contact_radius = overlap.scaled(radius).sqrt();
-        [contact_radius, contact_radius.scaled(mass).sqrt()]
+        let contact_radius = (overlap * radius).sqrt();
+        [contact_radius, (contact_radius * mass).sqrt()]
     }
 
     #[inline(always)]
     fn response_at<N: Number>(law: Hertzian<N>, contact: &Contact<N>, [contact_radius, root]: Roots<N>) -> Response<N> {
-        let loaded_mass = contact_radius.scaled(contact.mass);
+        let loaded_mass = contact_radius * contact.mass;
         Response {
-            normal_stiffness: contact_radius.scaled(law.normal_stiffness),
-            normal_damping: root.scaled(law.normal_root_damping) + loaded_mass.scaled(law.normal_mass_damping),
-            tangential_stiffness: contact_radius.scaled(law.tangential_stiffness),
-            tangential_damping: root.scaled(law.tangential_root_damping)
-                + loaded_mass.scaled(law.tangential_mass_damping),
+            normal_stiffness: contact_radius * law.normal_stiffness,
+            normal_damping: root * law.normal_root_damping + loaded_mass * law.normal_mass_damping,
+            tangential_stiffness: contact_radius * law.tangential_stiffness,
+            tangential_damping: root * law.tangential_root_damping + loaded_mass * law.tangential_mass_damping,
         }
     }
 

@@ -39,7 +39,7 @@ coefficients! {
 }
 
 /// `[contact.<law>.normal.hooke]`
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// V, the impact speed at which spring and Hertz contact store the same \[m/s\].
@@ -53,6 +53,7 @@ pub(super) fn stiffness(youngs_modulus: f64, squared_velocity: f64, radius: f64,
 }
 
 impl Normal for Hooke {
+    const NAME: &'static str = "hooke";
     type Keys = Keys;
     type Form = Self;
     const ONSET: Onset = Onset::Constant;

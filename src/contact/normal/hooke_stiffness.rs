@@ -42,7 +42,7 @@ coefficients! {
 }
 
 /// `[contact.<law>.normal.hooke_stiffness]`
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// Whether damping is given absolutely, rather than for each effective mass.
@@ -51,6 +51,7 @@ pub struct Keys {
 }
 
 impl Normal for HookeStiffness {
+    const NAME: &'static str = "hooke_stiffness";
     type Keys = Keys;
     type Form = Self;
     const ONSET: Onset = Onset::Constant;

@@ -44,6 +44,7 @@ coefficients! {
 }
 
 impl Normal for HookeViscous {
+    const NAME: &'static str = "hooke_viscous";
     type Keys = hooke::Keys;
     type Form = Self;
 

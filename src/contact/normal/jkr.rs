@@ -123,6 +123,7 @@ impl Jkr {
 }
 
 impl Normal for Jkr {
+    const NAME: &'static str = "jkr";
     type Keys = Keys;
     type Form = Self;
 

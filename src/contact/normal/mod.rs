@@ -11,28 +11,16 @@ pub mod hooke_viscous;
 pub mod jkr;
 pub mod sticky;
 
-use super::Normal;
-use crate::choices::choices;
+use super::NormalRow;
 
-choices! {
-    /// `[contact.<law>.normal.<model>]`
-    NormalChoice of Normal, taken by TakeNormal:
-    dmt::Dmt,
-    eepa::Eepa,
-    hertz::Hertz,
-    hertz_stiffness::HertzStiffness,
-    hooke::Hooke,
-    hooke_stiffness::HookeStiffness,
-    hooke_viscous::HookeViscous,
-    jkr::Jkr,
-}
-
-impl NormalChoice {
-    /// What the damping follows, if the model is one of the adhesive elastic spheres.
-    pub fn sticky(&self) -> Option<sticky::DampingKind> {
-        match self {
-            Self::Dmt(keys) | Self::Jkr(keys) => Some(keys.damping),
-            _ => None,
-        }
-    }
-}
+/// The normal sub-models of the program.
+pub(crate) const STANDARD: &[&NormalRow] = &[
+    NormalRow::of::<dmt::Dmt>(),
+    NormalRow::of::<eepa::Eepa>(),
+    NormalRow::of::<hertz::Hertz>(),
+    NormalRow::of::<hertz_stiffness::HertzStiffness>(),
+    NormalRow::of::<hooke::Hooke>(),
+    NormalRow::of::<hooke_stiffness::HookeStiffness>(),
+    NormalRow::of::<hooke_viscous::HookeViscous>(),
+    NormalRow::of::<jkr::Jkr>(),
+];

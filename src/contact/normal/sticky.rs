@@ -18,7 +18,7 @@ pub enum DampingKind {
 }
 
 /// `[contact.<law>.normal.<model>]` of `jkr` and `dmt`.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// What damping follows.

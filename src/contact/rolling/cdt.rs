@@ -30,6 +30,7 @@ coefficients! {
 }
 
 impl Rolling for Cdt {
+    const NAME: &'static str = "cdt";
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const TAKES_OVERLAP: bool = true;

@@ -61,6 +61,7 @@ fn stiffness<N: Number>(rolling_friction: N, contact: &Contact<N>, response: &Re
 }
 
 impl Rolling for Epsd {
+    const NAME: &'static str = "epsd";
     type Keys = Keys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> = Some(rocking::HISTORY);

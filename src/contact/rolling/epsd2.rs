@@ -42,6 +42,7 @@ fn stiffness<N: Number>(contact: &Contact<N>, response: &Response<N>) -> N {
 }
 
 impl Rolling for Epsd2 {
+    const NAME: &'static str = "epsd2";
     type Keys = Keys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> = Some(rocking::HISTORY);

@@ -6,14 +6,12 @@ pub mod epsd2;
 pub mod none;
 pub mod rocking;
 
-use super::Rolling;
-use crate::choices::choices;
+use super::RollingRow;
 
-choices! {
-    /// `[contact.<law>.rolling.<model>]`
-    RollingChoice of Rolling, taken by TakeRolling:
-    none::None,
-    cdt::Cdt,
-    epsd::Epsd,
-    epsd2::Epsd2,
-}
+/// The rolling sub-models of the program.
+pub(crate) const STANDARD: &[&RollingRow] = &[
+    RollingRow::of::<none::None>(),
+    RollingRow::of::<cdt::Cdt>(),
+    RollingRow::of::<epsd::Epsd>(),
+    RollingRow::of::<epsd2::Epsd2>(),
+];

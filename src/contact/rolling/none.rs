@@ -9,6 +9,7 @@ coefficients! {
 }
 
 impl Rolling for None {
+    const NAME: &'static str = "none";
     type Keys = NoKeys;
     const ACTIVE: bool = false;
     const NEEDS: Needs = Needs::NONE;

@@ -13,7 +13,7 @@ pub(super) const HISTORY: HistoryRow =
 pub(super) const NEEDS: Needs = Needs { torque: true, spin: true, bodies: true, ..Needs::NONE };
 
 /// `[contact.<law>.rolling.<model>]` of models with a spring.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// Whether spin about the normal is resisted, too.

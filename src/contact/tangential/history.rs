@@ -35,6 +35,7 @@ coefficients! {
 }
 
 impl Tangential for History {
+    const NAME: &'static str = "history";
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> =
@@ -58,7 +59,7 @@ impl Tangential for History {
         let response = &normal.response;
         let grown = Vector::of_row(history) + contact.slip * step;
         let spring = grown - contact.normal * grown.dot(contact.normal);
-        let limit = normal.seen.abs().scaled(law.friction);
+        let limit = normal.seen.abs() * law.friction;
         let stiffness = response.tangential_stiffness;
         let square = stiffness * stiffness * spring.dot(spring);
         let sliding = square.greater(limit * limit);

@@ -6,15 +6,13 @@ pub mod none;
 pub mod rescaled;
 pub mod turned_history;
 
-use super::Tangential;
-use crate::choices::choices;
+use super::TangentialRow;
 
-choices! {
-    /// `[contact.<law>.tangential.<model>]`
-    TangentialChoice of Tangential, taken by TakeTangential:
-    none::None,
-    history::History,
-    no_history::NoHistory,
-    rescaled::Rescaled,
-    turned_history::TurnedHistory,
-}
+/// The tangential sub-models of the program.
+pub(crate) const STANDARD: &[&TangentialRow] = &[
+    TangentialRow::of::<none::None>(),
+    TangentialRow::of::<history::History>(),
+    TangentialRow::of::<no_history::NoHistory>(),
+    TangentialRow::of::<rescaled::Rescaled>(),
+    TangentialRow::of::<turned_history::TurnedHistory>(),
+];

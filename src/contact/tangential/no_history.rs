@@ -27,6 +27,7 @@ coefficients! {
 }
 
 impl Tangential for NoHistory {
+    const NAME: &'static str = "no_history";
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const HAS_SPRING: bool = false;

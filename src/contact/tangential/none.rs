@@ -9,6 +9,7 @@ coefficients! {
 }
 
 impl Tangential for None {
+    const NAME: &'static str = "none";
     type Keys = NoKeys;
     const ACTIVE: bool = false;
     const HAS_SPRING: bool = false;

@@ -35,6 +35,7 @@ coefficients! {
 }
 
 impl Tangential for Rescaled {
+    const NAME: &'static str = "rescaled";
     type Keys = NoKeys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> = Some(HistoryRow {

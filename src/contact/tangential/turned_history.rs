@@ -52,7 +52,7 @@ coefficients! {
 }
 
 /// `[contact.<law>.tangential.turned_history]`
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Keys {
     /// Whether the spring shortens with its stiffness when a contact shrinks.
@@ -65,6 +65,7 @@ pub struct Keys {
 }
 
 impl Tangential for TurnedHistory {
+    const NAME: &'static str = "turned_history";
     type Keys = Keys;
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> = Some(HistoryRow {

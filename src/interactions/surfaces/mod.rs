@@ -8,17 +8,15 @@ mod features;
 mod history;
 mod nodes;
 mod plane;
-mod slopes;
 mod sphere;
 
 use super::ahead::{Ahead, Link};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
-use crate::batches::{Along, BatchLaw, Batches, Bodies, Entries};
+use crate::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::coefficients::{CoefficientTable, Partners};
 use crate::contact::Response;
-use crate::dual::Dual;
 use crate::lanes::{Shared, Width};
 use crate::number::Vector;
 use crate::run_error::{Cause, RunError};
@@ -26,11 +24,9 @@ use crate::scene::{Boundary, Scene, Shape};
 use crate::state::ledger::Source;
 use crate::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
 use crate::surface::{self, Deforming};
-use crate::tangent::Tangent;
 use crate::threads::{CHUNK, Context};
 use features::{FeatureContacts, Spare};
 use plane::{AtPlane, Plane, PlaneList};
-use slopes::PlaneSlopes;
 use sphere::{Load, Loaded};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError, RwLock};
@@ -43,7 +39,7 @@ pub(crate) struct SurfacePass {
     /// The surfaces, in the order of their lists.
     surfaces: Vec<AtSurface>,
     /// Working space of a step.
-    room: Mutex<Room>,
+    workspace: Mutex<Workspace>,
 }
 
 /// One surface and one contact law that meet.
@@ -78,9 +74,9 @@ enum Touched {
     Nodes(RwLock<Box<Deforming>>),
 }
 
-/// Working space of a step, kept from one step to the next.
+/// Working arrays of a step, kept from one step to the next.
 #[derive(Default)]
-struct Room {
+struct Workspace {
     /// What the lists store.
     entries: Vec<Entries>,
     /// Loads of each piece on each surface, piece by piece.
@@ -105,8 +101,6 @@ struct Work<'a> {
     particles: Loaded<'a>,
     /// The threads.
     context: &'a Context<'a>,
-    /// What is followed.
-    tangents: Option<&'a Mutex<&'a mut [Tangent]>>,
 }
 
 impl AtSurface {
@@ -156,12 +150,8 @@ impl AtSurface {
                 let [from, to] =
                     [slots.start, slots.end].map(|end| bodies.particle.partition_point(|&slot| (slot as usize) < end));
                 let step = work.context.step;
-                let followed = work.tangents.map(|tangents| {
-                    self.followed(PlaneSlopes::of(self, &bodies, list.boundary), tangents, Dual::constant(step))
-                });
                 let batches = self.batches(bodies, work.entries[self.index], (step, work.context.width));
-                let along = followed.as_ref().map(|followed| followed as &dyn Along);
-                let load = self.run(&Batches { along, ..batches }, from..to);
+                let load = self.run(&batches, from..to);
                 Load { conveying_power: -bodies.plane.conveying.dot(load.force.into()), ..load }
             }
             Touched::Features(_) | Touched::Nodes(_) => self.piece_at_features(work, slots, contacts),
@@ -200,7 +190,6 @@ impl AtSurface {
             uniform: self.table.uniform_with(self.material),
             step,
             width,
-            along: None,
         }
     }
 
@@ -238,36 +227,35 @@ impl SurfacePass {
             AtSurface::of(scene, index, (&scene.boundaries[boundary as usize], law as usize))
         };
         let surfaces: Vec<AtSurface> = meetings.iter().enumerate().map(surface).collect();
-        (!surfaces.is_empty()).then(|| Self { surfaces, room: Mutex::default() })
+        (!surfaces.is_empty()).then(|| Self { surfaces, workspace: Mutex::default() })
     }
 }
 
-impl SurfacePass {
-    /// Evaluates the laws on all contacts, with their slopes.
-    fn evaluate(&self, state: &mut State, context: &Context, followed: &mut [Tangent]) -> Result<(), RunError> {
-        let (follows, followed) = (!followed.is_empty(), Mutex::new(followed));
+impl Pass for SurfacePass {
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         self.surfaces.iter().try_for_each(|surface| surface.follow(state))?;
-        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
-        let (room, count) = (&mut *room, self.surfaces.len());
+        let mut workspace = self.workspace.lock().unwrap_or_else(PoisonError::into_inner);
+        let (workspace, count) = (&mut *workspace, self.surfaces.len());
         let pieces = state.particles.len().div_ceil(PIECE);
-        room.entries.clear();
+        workspace.entries.clear();
         let lists = state.walls.iter_mut();
-        room.entries.extend(lists.map(|it| Entries::of(&mut it.flags, &mut it.history, &mut it.pair_constant)));
-        room.loads.clear();
-        room.loads.resize(pieces * count, Load::default());
-        room.contacts.resize_with(pieces * count, FeatureContacts::default);
-        room.spare.resize_with(count, Spare::default);
+        workspace.entries.extend(
+            lists.map(|it| Entries::of(&mut it.flags, it.history.rows(), it.history.all_mut(), &mut it.pair_constant)),
+        );
+        workspace.loads.clear();
+        workspace.loads.resize(pieces * count, Load::default());
+        workspace.contacts.resize_with(pieces * count, FeatureContacts::default);
+        workspace.spare.resize_with(count, Spare::default);
         let particles = state.particles.len();
         let work = Work {
             walls: &state.walls,
-            entries: &room.entries,
+            entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
             particles: Loaded::of(&mut state.particles),
             context,
-            tangents: follows.then_some(&followed),
         };
-        let (loads, contacts) = (Shared::new(&mut room.loads), Shared::new(&mut room.contacts));
+        let (loads, contacts) = (Shared::new(&mut workspace.loads), Shared::new(&mut workspace.contacts));
         let evaluate = |piece: usize| {
             let slots = piece * PIECE..((piece + 1) * PIECE).min(particles);
             for (place, surface) in (piece * count..).zip(&self.surfaces) {
@@ -275,38 +263,18 @@ impl SurfacePass {
                 unsafe { *loads.at(place) = surface.piece(&work, slots.clone(), contacts.at(place)) };
             }
         };
-        // Slopes of the loads on a boundary are summed as they are found.
-        if work.tangents.is_some() {
-            (0..pieces).for_each(evaluate);
-        } else {
-            context.each(pieces, evaluate);
-        }
+        context.each(pieces, evaluate);
         let mut result = Ok(());
         for (place, surface) in self.surfaces.iter().enumerate() {
             if surface.has_features() {
-                let found = || room.contacts.iter().skip(place).step_by(count);
-                let (list, spare) = (&mut state.walls[surface.index], &mut room.spare[place]);
+                let found = || workspace.contacts.iter().skip(place).step_by(count);
+                let (list, spare) = (&mut state.walls[surface.index], &mut workspace.spare[place]);
                 features::replace(list, surface.kept_rows, spare, found());
                 surface.load_nodes(state, found().map(FeatureContacts::held));
             }
-            result = result.and(surface.book(state, room.loads.iter().skip(place).step_by(count)));
+            result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
         result
-    }
-}
-
-impl Pass for SurfacePass {
-    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        self.evaluate(state, context, &mut [])
-    }
-
-    fn apply_with_slopes(
-        &self,
-        state: &mut State,
-        followed: &mut [Tangent],
-        context: &Context,
-    ) -> Result<(), RunError> {
-        self.evaluate(state, context, followed)
     }
 
     fn check(&self, state: &State) -> Result<(), StateFault> {

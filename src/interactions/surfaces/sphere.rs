@@ -2,11 +2,9 @@
 
 use crate::batches::{ContactGeometry, Lost};
 use crate::contact::{Contact, Needs};
-use crate::interactions::pairs::plane_velocities;
 use crate::lanes::{Lane, Shared, vector};
 use crate::number::{Number, Vector, add, subtract};
-use crate::state::{Particles, Row, plane_rows};
-use crate::tangent::Moving;
+use crate::state::{Particles, Row};
 use std::f64::consts::PI;
 
 /// A sphere that touches a surface.
@@ -24,7 +22,7 @@ impl<N: Number> SphereAt<N> {
     /// Arm at the particle: to half an overlap behind the surface, where the loads act \[m\].
     #[inline(always)]
     pub(super) fn arm(&self) -> N {
-        self.radius - (self.radius - self.distance).scaled(N::splat(0.5))
+        self.radius - (self.radius - self.distance) * N::splat(0.5)
     }
 
     /// Area of the circle in which the sphere stands in the surface \[m²\].
@@ -98,8 +96,6 @@ pub(super) struct Loaded<'a> {
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
-    /// Whether all these are plane rows (`state::plane_rows`).
-    plane_rows: bool,
 }
 
 impl<'a> Loaded<'a> {
@@ -112,7 +108,6 @@ impl<'a> Loaded<'a> {
     /// The particles of a state that is looked at alone: nothing is added to them.
     pub(super) fn looking(particles: &'a Particles) -> Self {
         Self {
-            plane_rows: particles.plane_rows,
             position: &particles.position,
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
@@ -122,21 +117,12 @@ impl<'a> Loaded<'a> {
         }
     }
 
-    /// How they move.
-    pub(super) fn moving(&self) -> Moving<'a> {
-        Moving::of(self.position, self.velocity, self.angular_velocity)
-    }
-
     /// Velocities and, where there is torque, angular velocities of some particles.
     ///
     /// # Safety
     /// `slots` points to [`Lane::WIDTH`] slots of particles.
     #[inline(always)]
     pub(super) unsafe fn motion<N: Lane, const TORQUE: bool>(&self, slots: *const u32) -> [[N; 4]; 2] {
-        if self.plane_rows {
-            // SAFETY: the caller's promise.
-            return plane_velocities(unsafe { N::load_rows(self.velocity.as_ptr(), slots) });
-        }
         // SAFETY: the caller's promise.
         unsafe {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), slots) } else { [N::zero(); 4] };
@@ -146,9 +132,7 @@ impl<'a> Loaded<'a> {
 
     /// Position, velocity and angular velocity of a particle.
     pub(super) fn body(&self, slot: usize) -> [Row; 3] {
-        let (velocity, spin) = (self.velocity[slot], self.angular_velocity[slot]);
-        let [velocity, spin] = if self.plane_rows { plane_rows::motion(velocity, spin) } else { [velocity, spin] };
-        [self.position[slot], velocity, spin]
+        [self.position[slot], self.velocity[slot], self.angular_velocity[slot]]
     }
 
     /// Adds what a contact does to its particle and to the surface: force on the particle \[N\], n × friction \[N\] and rolling
@@ -167,21 +151,13 @@ impl<'a> Loaded<'a> {
     ) {
         // SAFETY: the caller's promise.
         unsafe {
-            let mut torque = [0.0; 4];
+            add(self.force.at(slot), force);
             if needs.torque {
-                torque = couple.map(|part| -(part * arm));
+                let mut torque = couple.map(|part| -(part * arm));
                 if needs.spin {
                     subtract(&mut torque, rolling);
                 }
-            }
-            if !self.plane_rows {
-                add(self.force.at(slot), force);
-                if needs.torque {
-                    add(self.torque.at(slot), &torque);
-                }
-            } else {
-                add(self.force.at(slot), &plane_rows::load(*force, torque));
-                plane_rows::mark_any(self.torque.at(slot), force, &torque);
+                add(self.torque.at(slot), &torque);
             }
         }
         let point = Vector::from(self.position[slot]) - normal * arm;

@@ -4,6 +4,8 @@ use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
 use crate::interface::{Quantity, Value, Variability};
 use crate::motion::Seen;
 use crate::scene::{InputCourse, Scene};
+use crate::state::State;
+use crate::step::Input;
 
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
@@ -12,7 +14,7 @@ const fn given<const FIRST: usize>() -> Option<Write> {
         set_rate: |simulation, at, rate| simulation.set_input_rate(at.boundary, FIRST + at.axis(), rate),
         held: |state, at| state.boundaries[at.boundary.index()].target[FIRST + at.axis()],
         start: |scene, at| scene.boundaries[at.boundary.index()].axes[FIRST + at.axis()].first_input(),
-        axis: |at| Some((at.boundary, FIRST + at.axis())),
+        input: |at| Input::Axis(at.boundary, FIRST + at.axis()),
     })
 }
 
@@ -62,6 +64,16 @@ fn mass(scene: &Scene, at: At) -> f64 {
     let members = boundary.shape.members().iter();
     let particles = members.filter_map(|&member| scene.particles.get(member as usize));
     particles.map(crate::scene::Particle::mass).sum::<f64>() + boundary.body.mass
+}
+
+/// Rate of the force on a boundary: what it changed by in the last time step, over its length \[N/s\].
+fn force_rate(state: &State, at: At) -> f64 {
+    state.boundaries[at.boundary.index()].rates(state.clock.last_step)[0][at.axis()]
+}
+
+/// Rate of the moment \[N m/s\].
+fn moment_rate(state: &State, at: At) -> f64 {
+    state.boundaries[at.boundary.index()].rates(state.clock.last_step)[1][at.axis()]
 }
 
 /// Variables of each boundary, inputs first.
@@ -142,8 +154,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         follows_inputs_at_start: false,
         exists: |scene, at| moves_by_itself(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).displacement[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].displacement[at.axis()]),
-        has_rate: true,
+        rate: Some(|state, at| state.boundaries[at.boundary.index()].velocity[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -162,7 +173,6 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         follows_inputs_at_start: false,
         exists: |scene, at| is_free(scene, at, 0),
         read: |now, at| Value::Real(now.boundary(at).velocity[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].velocity[at.axis()]),
         ..OF_AXIS
     },
     Row {
@@ -179,8 +189,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "force of the particles on {boundary} along {axis}",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).force[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].force[at.axis()]),
-        has_rate: true,
+        rate: Some(force_rate),
         ..OF_AXIS
     },
     Row {
@@ -188,8 +197,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "moment of the particles on {boundary} about {axis} through its moved reference point",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).moment[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].moment[at.axis()]),
-        has_rate: true,
+        rate: Some(moment_rate),
         ..OF_AXIS
     },
     Row {
@@ -205,7 +213,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "force of the particles on {boundary} along {axis}, mean over the last communication step",
         quantity: Quantity::Force,
         read: |now, at| Value::Real(now.boundary(at).mean_force[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_force[at.axis()]),
+        rate: Some(force_rate),
         ..OF_AXIS
     },
     Row {
@@ -223,7 +231,7 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         description: "moment of the particles on {boundary} about {axis}, mean over the last communication step",
         quantity: Quantity::Torque,
         read: |now, at| Value::Real(now.boundary(at).mean_moment[at.axis()]),
-        slopes: Some(|all, at| all[at.boundary.index()].mean_moment[at.axis()]),
+        rate: Some(moment_rate),
         ..OF_AXIS
     },
     Row {
@@ -278,7 +286,7 @@ pub(super) static OF_NODES: [Row; 3] = [
             set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node(), at.axis()), rate),
             held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |it| it.target[at.node()][at.axis()]),
             start: |_, _| 0.0,
-            axis: |_| None,
+            input: |at| Input::Node(at.boundary, at.node(), at.axis()),
         }),
         read: |now, at| now.node(at, |nodes| &nodes.target),
         ..OF_NODE

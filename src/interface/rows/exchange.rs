@@ -3,6 +3,7 @@
 use super::row::{COUNT, Each, OUTPUT, Row, Write, count};
 use crate::exchange::{Amount, Outside};
 use crate::interface::{Quantity, Value};
+use crate::step::Input;
 
 /// The rate of an insertion, as it is given.
 pub(super) const RATE: Row = Row {
@@ -15,7 +16,7 @@ pub(super) const RATE: Row = Row {
         set_rate: |simulation, at, rate| simulation.set_insertion_rate_of_rate(at.place(), rate),
         held: |state, at| state.exchange.as_ref().map_or(0.0, |exchange| exchange.feeds[at.place()].rate),
         start: |scene, at| scene.insertions[at.place()].rate().unwrap_or(0.0),
-        axis: |_| None,
+        input: |at| Input::Rate(at.place()),
     }),
     read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place()].rate)),
     ..OUTPUT

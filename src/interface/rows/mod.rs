@@ -16,7 +16,7 @@ use boundaries::{OF_BOUNDARIES, OF_NODES};
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use regions::OF_REGIONS;
 use row::Each;
-pub(super) use row::{At, Present, ReadSlopes, Row};
+pub(super) use row::{At, Present, ReadRate, Row};
 use scene::{OF_LOSSES, OF_SCENE};
 
 /// Where a variable's row stands, and which of the row's variables it is.
@@ -78,6 +78,11 @@ impl Source {
     /// The node that it is of, from 0.
     pub(super) fn node(&self) -> Option<usize> {
         (self.row.each == Each::Node).then_some(self.at.node())
+    }
+
+    /// Whether it is of a boundary and not of one of its nodes.
+    pub(super) fn is_of_boundary(&self) -> bool {
+        matches!(self.row.each, Each::Boundary | Each::Axis)
     }
 
     /// The variable.

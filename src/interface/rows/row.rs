@@ -5,7 +5,7 @@ use crate::interface::{Findings, Quantity, Value, Variability};
 use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use crate::state::{BondList, BoundaryState, Exchange, Nodes, State};
-use crate::step::{BoundaryDerivatives, Simulation};
+use crate::step::{Input, Simulation};
 
 /// Names of the axes in variables.
 pub(in crate::interface) const AXES: [&str; 3] = ["x", "y", "z"];
@@ -153,12 +153,12 @@ pub(in crate::interface) struct Write {
     pub(in crate::interface) held: fn(&State, At) -> f64,
     /// The value before anything is given.
     pub(super) start: fn(&Scene, At) -> f64,
-    /// Which of the axes of its boundary: along x, y, z, then about them; none where it is of something else.
-    pub(in crate::interface) axis: fn(At) -> Option<(BoundaryIndex, usize)>,
+    /// Which input of the simulation it is.
+    pub(in crate::interface) input: fn(At) -> Input,
 }
 
-/// Reads how a variable of a boundary changes with inputs.
-pub(in crate::interface) type ReadSlopes = fn(&[BoundaryDerivatives], At) -> f64;
+/// Reads a rate at the present time, per second.
+pub(in crate::interface) type ReadRate = fn(&State, At) -> f64;
 
 /// A kind of variable.
 pub(in crate::interface) struct Row {
@@ -184,10 +184,8 @@ pub(in crate::interface) struct Row {
     pub(in crate::interface) write: Option<Write>,
     /// Its present value.
     pub(in crate::interface) read: fn(Present, At) -> Value,
-    /// How it changes with inputs, where that is followed.
-    pub(in crate::interface) slopes: Option<ReadSlopes>,
-    /// Whether its rate is known.
-    pub(in crate::interface) has_rate: bool,
+    /// Its rate, where that is known.
+    pub(in crate::interface) rate: Option<ReadRate>,
 }
 
 /// What most rows have in common: an output that every scene has.
@@ -203,8 +201,7 @@ pub(in crate::interface) const OUTPUT: Row = Row {
     constant: None,
     write: None,
     read: |_, _| Value::Real(0.0),
-    slopes: None,
-    has_rate: false,
+    rate: None,
 };
 
 /// An output of each boundary and axis.

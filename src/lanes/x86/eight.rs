@@ -1,7 +1,7 @@
 //! Eight numbers in an AVX-512 register.
 
 use super::{negation, operators};
-use crate::lanes::{Lane, Work};
+use crate::lanes::Lane;
 use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -154,12 +154,6 @@ unsafe fn row_pair(rows: *const Row, low: u32, high: u32) -> __m512d {
 
 impl Lane for Eight {
     const WIDTH: usize = 8;
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        // SAFETY: see `splat`.
-        unsafe { super::within_eight(work) }
-    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

@@ -1,7 +1,7 @@
 //! Four numbers in an AVX register.
 
 use super::{negation, operators};
-use crate::lanes::{Lane, Work};
+use crate::lanes::Lane;
 use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -121,12 +121,6 @@ const fn halves_of_four() -> [[u32; 8]; 16] {
 
 impl Lane for Four {
     const WIDTH: usize = 4;
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        // SAFETY: see `splat`.
-        unsafe { super::within_four(work) }
-    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

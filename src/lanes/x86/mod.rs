@@ -8,7 +8,7 @@ pub use eight::Eight;
 pub use four::Four;
 pub use two::Two;
 
-use super::{Kernel, Work};
+use super::Kernel;
 use std::arch::x86_64::*;
 
 /// Runs a kernel with AVX2.
@@ -27,24 +27,6 @@ pub(super) unsafe fn run_four<K: Kernel>(kernel: K) {
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,popcnt")]
 pub(super) unsafe fn run_eight<K: Kernel>(kernel: K) {
     kernel.run::<Eight>();
-}
-
-/// Does something with AVX2.
-///
-/// # Safety
-/// As for [`run_four`].
-#[target_feature(enable = "avx2,popcnt")]
-unsafe fn within_four<W: Work>(work: W) -> W::Output {
-    work.run()
-}
-
-/// Does something with AVX-512.
-///
-/// # Safety
-/// As for [`run_eight`].
-#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,popcnt")]
-unsafe fn within_eight<W: Work>(work: W) -> W::Output {
-    work.run()
 }
 
 /// Which of eight numbers are equal to another, a bit for each, the first one lowest.

@@ -1,7 +1,7 @@
 //! Two numbers in an SSE2 register, which every x86-64 processor has.
 
 use super::{negation, operators};
-use crate::lanes::{Lane, Work, compact_one_by_one};
+use crate::lanes::{Lane, compact_one_by_one};
 use crate::number::{Number, Row};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -68,11 +68,6 @@ impl Number for Two {
 
 impl Lane for Two {
     const WIDTH: usize = 2;
-
-    #[inline(always)]
-    fn within<W: Work>(work: W) -> W::Output {
-        work.run()
-    }
 
     #[inline(always)]
     unsafe fn load_rows(rows: *const Row, index: *const u32) -> [Self; 4] {

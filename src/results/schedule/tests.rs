@@ -1,11 +1,11 @@
 //! Communication points stand where readers expect them, wherever a run begins.
 
 use super::*;
-use crate::scene::Output;
+use crate::scene::{Output, SceneDraft};
 
 /// The schedule of these outputs.
 fn of(output: Output, end: f64) -> Result<Schedule, Refusal> {
-    Schedule::new(&Scene { output, ..Scene::default() }, "scene.toml", end)
+    Schedule::new(&SceneDraft { output, ..SceneDraft::default() }.build().unwrap(), "scene.toml", end)
 }
 
 /// A schedule with these intervals of history and frames.
@@ -68,15 +68,18 @@ fn what_was_written_follows_from_the_time() {
 fn counts_that_nobody_can_mean_are_refused() {
     let frames = |interval| of(Output { frame_interval: Some(interval), ..Output::default() }, 1e-3);
     let told = frames(1e-300).unwrap_err().to_string();
-    let expected =
-        "scene.toml, [output] frame_interval: 1e-300 s gives 1.000e297 frames up to t = 0.001 s; at most 1e6 are right";
+    let expected = "scene.toml, [output] frame_interval: expected at most 1e6 frames up to t = 0.001 s, found 1.000e297, one \
+         every 1e-300 s";
     assert_eq!(told, expected);
     assert!(frames(1e-9).is_ok());
     let rows = |interval| of(Output { history_interval: Some(interval), ..Output::default() }, 1.0);
     assert!(rows(1e-12).is_err() && rows(1e-8).is_ok());
     let run = crate::scene::Run { step: Step::Given(1e-30), ..Default::default() };
-    let told = Schedule::new(&Scene { run, ..Scene::default() }, "scene.toml", 1.0).unwrap_err().to_string();
-    assert!(told.starts_with("scene.toml, [run] step: 1e-30 s gives 1.000e30 time steps"), "{told}");
+    let told = Schedule::new(&SceneDraft { run, ..SceneDraft::default() }.build().unwrap(), "scene.toml", 1.0)
+        .unwrap_err()
+        .to_string();
+    assert!(told.starts_with("scene.toml, [run] step: expected at most "), "{told}");
+    assert!(told.ends_with("time steps up to t = 1 s, found 1.000e30 of 1e-30 s"), "{told}");
 }
 
 #[test]
@@ -123,4 +126,47 @@ fn a_frame_is_due_at_the_first_point_from_outside_that_is_not_before_it() {
     let each = FrameSchedule { series: None };
     assert_eq!(each.due(0.35, last), Some(Frame { number: 4, time: 0.35 }));
     assert_eq!(each.due(0.3, last), None);
+}
+
+/// The next of a row of numbers that look random (Numerical Recipes' 64-bit congruence), from 0 to 1.
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[test]
+fn a_schedule_gets_on_row_by_row_up_to_the_most_rows_there_may_be() {
+    let mut seed = 1;
+    for round in 0..200 {
+        // Decimal intervals, as people write them, and any other.
+        let digits = (random(&mut seed) * 12.0).floor() - 9.0;
+        let decimal = format!("{}e{digits}", 1 + round % 9).parse::<f64>().unwrap();
+        let interval = if round % 2 == 0 { decimal } else { decimal * (1.0 + random(&mut seed)) };
+        let frames = (round % 3 == 0).then_some(1000.0 * interval);
+        let schedule = schedule(interval, frames, 1e8 * interval);
+        for _ in 0..20 {
+            let count = (random(&mut seed) * 99_999_000.0) as u64;
+            let series = Series::every(interval);
+            let mut time = series.time(count);
+            assert_eq!(schedule.point_of(time), Ok(time));
+            for row in 1..200 {
+                let point = schedule.after(time).unwrap();
+                assert!(point.time > time && point.interval > 0.5 * interval, "{interval} s: {time} s, then {point:?}");
+                assert!(point.due.history);
+                assert_eq!(schedule.rows_until(point.time), count + row + 1, "{interval} s, {point:?}");
+                time = point.time;
+            }
+        }
+        assert_eq!(schedule.rows_until(schedule.end()), 100_000_001);
+    }
+}
+
+#[test]
+fn a_schedule_passes_the_rows_where_it_once_stood_still() {
+    let schedule = schedule(1e-5, None, 128.001);
+    let mut time = schedule.point_of(127.9999).unwrap();
+    for _ in 0..50 {
+        time = schedule.after(time).unwrap().time;
+    }
+    assert_eq!(time, schedule.point_of(128.0004).unwrap());
 }

@@ -3,7 +3,7 @@
 use crate::document::{Faults, Mistake};
 use crate::motion::Axis;
 use crate::quantity::{NonNegative, Positive};
-use crate::scene::{AxisMotion, Body};
+use crate::scene::{AxisMotion, Body, Boundary};
 use crate::scene_file::tables::{BoundaryTable, Inertia, Supports};
 use crate::surface::Surface;
 
@@ -39,9 +39,6 @@ pub(super) fn body(
             senseless(key, format!("forces do not move {}", AxisMotion::WORDS[axis]));
         }
     }
-    if shape.members().is_empty() {
-        lacks(written, axes, shape, (table, faults));
-    }
     Body {
         mass: written.mass.map_or(0.0, Positive::get),
         centre: written.centre.map_or(reference, |centre| centre.0),
@@ -52,16 +49,20 @@ pub(super) fn body(
 }
 
 /// Reports what a surface lacks that forces are to move.
-fn lacks(written: &BoundaryTable, axes: &[AxisMotion; 6], shape: &dyn Surface, (table, faults): (&str, &mut Faults)) {
+pub(super) fn lacks(boundary: &Boundary, table: &str, faults: &mut Faults) {
+    let Boundary { shape, axes, body, .. } = boundary;
+    if !shape.members().is_empty() {
+        return;
+    }
     let mut missing = |key: &str, axis: usize| {
         let right = format!("a {} that forces move ({}) needs it", shape.key(), AxisMotion::WORDS[axis]);
         faults.add(table, key, Mistake::Missing { right });
     };
     let free = |range: std::ops::Range<usize>| range.into_iter().find(|axis| axes[*axis].is_free());
-    if let Some(axis) = free(0..3).filter(|_| written.mass.is_none()) {
+    if let Some(axis) = free(0..3).filter(|_| body.mass == 0.0) {
         missing("mass", axis);
     }
-    if let Some(axis) = free(3..6).filter(|_| written.inertia.is_none()) {
+    if let Some(axis) = free(3..6).filter(|_| body.inertia == [[0.0; 3]; 3]) {
         missing("inertia", axis);
     }
 }

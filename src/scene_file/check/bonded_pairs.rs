@@ -5,19 +5,19 @@ use crate::bond::creation::Moment;
 use crate::document::Mistake;
 use crate::packing::overlaps::for_each_overlap;
 use crate::quantity::BoundaryIndex;
-use crate::scene::{Bond, Particle, Scene};
+use crate::scene::{Bond, Particle, SceneDraft};
 
 /// Which pairs are bonded at the start, so that their overlap is not a mistake.
 pub(super) struct Bonded<'a> {
     /// The scene.
-    scene: &'a Scene,
+    scene: &'a SceneDraft,
     /// Listed pairs, the lower index first, ascending.
     listed: Vec<[u32; 2]>,
 }
 
 impl<'a> Bonded<'a> {
     /// Those of a scene.
-    pub(super) fn of(scene: &'a Scene) -> Self {
+    pub(super) fn of(scene: &'a SceneDraft) -> Self {
         let pairs = scene.bonds.iter().flat_map(|bond| &bond.pairs);
         let mut listed: Vec<[u32; 2]> = pairs.map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
         listed.sort_unstable();
@@ -37,13 +37,13 @@ impl<'a> Bonded<'a> {
 }
 
 /// Reports bond laws that bond no pair at the start, although they make their bonds then.
-pub(super) fn idle(scene: &Scene) -> Vec<Finding> {
+pub(super) fn idle(scene: &SceneDraft) -> Vec<Finding> {
     let waiting = |bond: &&Bond| bond.create.bonds_near_pairs(&Moment::START);
     scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
 }
 
 /// Whether this law bonds no particle to its plane.
-fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
+fn idle_at_plane(scene: &SceneDraft, bond: &Bond, distance: f64, plane: BoundaryIndex) -> Option<Finding> {
     let plane = scene.boundaries.get(plane.index())?.shape.plane()?;
     let members = scene.particles.iter().filter(|particle| bond.between.contains(&particle.set));
     let away = |particle: &Particle| 2.0 * plane.height(particle.position);
@@ -51,14 +51,16 @@ fn idle_at_plane(scene: &Scene, bond: &Bond, distance: f64, plane: BoundaryIndex
     if closest.is_some_and(|closest| closest < distance) {
         return None;
     }
-    let found = closest.map_or_else(|| "no centre".to_owned(), |closest| format!("{closest:.3e}"));
-    let what = format!("bonds nobody to the plane; {found} is the closest, twice the distance of its centre");
-    let mistake = Mistake::Senseless { what, right: "more than that is right".to_owned() };
+    let right = closest.map_or_else(
+        || "a particle in front of the plane".to_owned(),
+        |closest| format!("a distance above {closest:.3e}, twice that of the closest centre from the plane"),
+    );
+    let mistake = Mistake::Wrong { found: format!("{distance:.3e}"), right };
     Some(Finding::at(format!("bond.{}", bond.name), "create_distance", mistake))
 }
 
 /// Whether this law bonds no pair.
-fn idle_law(scene: &Scene, bond: &Bond) -> Option<Finding> {
+fn idle_law(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
     let distance = bond.create_distance?;
     if let Some(plane) = bond.plane {
         return idle_at_plane(scene, bond, distance, plane);

@@ -9,7 +9,7 @@ use crate::document::{Document, Faults};
 use crate::import::REPORTED;
 use crate::quantity::{BoundaryIndex, SetIndex};
 use crate::scene::Source;
-use crate::scene::{Bond, Run, Step};
+use crate::scene::{Bond, Particle, Run, SceneDraft, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -26,8 +26,7 @@ pub(super) fn bonds(
         given_step(keys, &table, run.step, faults);
         let between = between(keys, document, &table, written, born, faults);
         if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
-            let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane,".to_owned());
-            faults.add(&table, "create", Mistake::Wrong { found, right });
+            faults.add(&table, "create", listed_at_plane());
             continue;
         }
         let pairs = listed(keys, document, source, &table, born, faults);
@@ -51,22 +50,43 @@ pub(super) fn bonds(
                 create_distance: keys.create_distance.map(crate::quantity::Positive::get),
                 pairs,
             };
-            outside_sets(&bond, &table, born, faults);
+            outside_sets(&bond, &table, &born.particles, faults);
             bonds.push(bond);
         }
     }
     bonds
 }
 
+/// Reports what speaks against the bond laws of a draft.
+pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
+    for bond in &draft.bonds {
+        let table = format!("bond.{}", bond.name);
+        given_step(&bond.keys, &table, draft.run.step, faults);
+        if bond.plane.is_some() && !bond.create.needs_distance() {
+            faults.add(&table, "create", listed_at_plane());
+        }
+        for error in bond.keys.law(draft.run.scheme.predicts()).err().unwrap_or_default() {
+            faults.add(&table, error.key, Mistake::Refused { message: error.message });
+        }
+        outside_sets(bond, &table, &draft.particles, faults);
+    }
+}
+
+/// Pairs cannot be listed where one of the two bodies is a plane.
+fn listed_at_plane() -> Mistake {
+    let (found, right) = ("listed pairs".to_owned(), "a distance, as one of the two is a plane".to_owned());
+    Mistake::Wrong { found, right }
+}
+
 /// Refuses `"auto"` where a bond needs to know the step, and a step above its relaxation times.
 fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
     match (step, keys.needs_given_step(), keys.shortest_relaxation()) {
         (Step::Automatic { .. }, Some(reason), _) => {
-            let what = format!("\"auto\" does not go with [{table}]: {reason}");
-            faults.add("run", "step", Mistake::Senseless { what, right: "a step in seconds is right".to_owned() });
+            let found = format!("\"auto\" beside [{table}]: {reason}");
+            faults.add("run", "step", Mistake::Wrong { found, right: "a step in seconds".to_owned() });
         }
         (Step::Given(step), _, Some(shortest)) if step > shortest => {
-            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}],");
+            let right = format!("{shortest:?} or less, the shortest relaxation time of [{table}]");
             faults.add("run", "step", Mistake::Wrong { found: format!("{step:?}"), right });
         }
         _ => {}
@@ -103,7 +123,7 @@ fn between(
             }
             Some(_) => Mistake::Wrong {
                 found: format!("\"{name}\""),
-                right: "two particle sets, or a particle set and a plane that neither turns nor conveys,".to_owned(),
+                right: "two particle sets, or a particle set and a plane that neither turns nor conveys".to_owned(),
             },
             None => Mistake::UnknownName { found: name.clone(), kind: "particle set", known: born.sets.clone() },
         };
@@ -153,8 +173,8 @@ fn listed(
     sorted.sort_unstable();
     if let Some([a, b]) = sorted.windows(2).find(|two| two[0] == two[1]).map(|two| two[0]) {
         let id = |index: u32| born.particles[index as usize].id.0;
-        let (what, right) = (format!("{} and {} are bonded twice", id(a), id(b)), "once is right".to_owned());
-        faults.add(table, key, Mistake::Senseless { what, right });
+        let (found, right) = (format!("{} and {} twice", id(a), id(b)), "each pair once".to_owned());
+        faults.add(table, key, Mistake::Wrong { found, right });
     }
     (faults.count() == before).then_some(pairs)
 }
@@ -183,24 +203,25 @@ fn from_file(file: &str, source: &Source, table: &str, faults: &mut Faults) -> O
 }
 
 /// Reports listed pairs that are not of the two sets, or further apart than the law allows.
-fn outside_sets(bond: &Bond, table: &str, born: &Born, faults: &mut Faults) {
-    let particle = |index: u32| &born.particles[index as usize];
+fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut Faults) {
+    let particle = |index: u32| &particles[index as usize];
     let strange = bond.pairs.iter().find(|[a, b]| !bond.joins(particle(*a).set, particle(*b).set));
     if let Some([a, b]) = strange {
         let found = format!("the pair of {} and {}", particle(*a).id.0, particle(*b).id.0);
         let right = "pairs of the two sets in between".to_owned();
         faults.add(table, "create", Mistake::Wrong { found, right });
     }
-    let far = |pair: &&[u32; 2]| bond.create_distance.is_some_and(|most| distance(born, **pair) >= most);
+    let far = |pair: &&[u32; 2]| bond.create_distance.is_some_and(|most| distance(particles, **pair) >= most);
     if let Some([a, b]) = bond.pairs.iter().find(far) {
-        let found = format!("{:.3e} between {} and {}", distance(born, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
-        let right = "listed pairs nearer than that".to_owned();
+        let found =
+            format!("{:.3e} between {} and {}", distance(particles, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
+        let right = "listed pairs nearer than this distance".to_owned();
         faults.add(table, "create_distance", Mistake::Wrong { found, right });
     }
 }
 
 /// Distance of two centres \[m\].
-fn distance(born: &Born, [a, b]: [u32; 2]) -> f64 {
-    let (p, q) = (born.particles[a as usize].position, born.particles[b as usize].position);
+fn distance(particles: &[Particle], [a, b]: [u32; 2]) -> f64 {
+    let (p, q) = (particles[a as usize].position, particles[b as usize].position);
     (0..3).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum::<f64>().sqrt()
 }

@@ -11,7 +11,7 @@ use crate::document::Faults;
 use crate::document::Mistake;
 use crate::quantity::MaterialIndex;
 use crate::scene::Source;
-use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion};
+use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion, SceneDraft};
 use crate::scene_file::tables::BoundaryTable;
 use crate::surface::{Around, Files, Selection, Shape, Surface};
 
@@ -31,42 +31,71 @@ pub(super) fn boundaries(
         owners.claim(shape.members(), &table, born, faults);
         let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
         let axes = motion::axes(&boundary.motion, source, &table, faults);
-        motion::check(&axes, &*shape, boundary.reference.is_some(), &table, faults);
-        let driven = nodes(boundary.nodes, &axes, &*shape, &table, faults);
+        motion::reference(&axes, boundary.reference.is_some(), &table, faults);
+        let driven = boundary.nodes != NodeMotion::Rigid;
         if boundary.input.is_some() && !driven && !axes.iter().any(|axis| axis.takes_place()) {
             let (what, right) = ("no axis is driven by displacement".to_owned(), "leave input out".to_owned());
             faults.add(&table, "input", Mistake::Senseless { what, right });
         }
         let input = boundary.input.unwrap_or_default();
-        if input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {
-            let what = format!("quadratic motion of {}", if driven { "nodes" } else { "rotations" });
-            let right = "ramp, smooth or hold; quadratic is for displacements of the whole boundary".to_owned();
-            faults.add(&table, "input", Mistake::Senseless { what, right });
-        }
         let body = body::body(boundary, &axes, (&*shape, reference), &table, faults);
         // What moves and turns by forces does so about its mass centre.
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
         let nodes = boundary.nodes;
-        boundaries.push(Boundary { name: name.clone(), shape, axes, nodes, input, reference, body });
+        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body };
+        alone(&boundary, faults);
+        boundaries.push(boundary);
     }
     boundaries
 }
 
-/// Whether the outside moves the nodes of a boundary; reports those that are not there, or that move with axes.
-fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) -> bool {
+/// Reports what speaks against the boundaries of a draft.
+pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
+    let mut owner: Vec<Option<&str>> = vec![None; draft.particles.len()];
+    for boundary in &draft.boundaries {
+        alone(boundary, faults);
+        let mut taken = boundary.shape.members().iter().filter_map(|&member| {
+            owner[member as usize].replace(&boundary.name).map(|other| (member, other.to_owned()))
+        });
+        if let Some((member, other)) = taken.next() {
+            let (id, other) = (draft.particles[member as usize].id.0, format!("[boundary.{other}]"));
+            faults.add(&format!("boundary.{}", boundary.name), "particles", Mistake::Taken { id, other });
+        }
+        taken.for_each(drop);
+    }
+}
+
+/// Reports what a boundary cannot be or do, whatever stands beside it.
+fn alone(boundary: &Boundary, faults: &mut Faults) {
+    let (table, shape, axes) = (format!("boundary.{}", boundary.name), &*boundary.shape, &boundary.axes);
+    motion::check(axes, shape, &table, faults);
+    nodes(boundary.nodes, axes, shape, &table, faults);
+    let driven = boundary.nodes != NodeMotion::Rigid;
+    if boundary.input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {
+        let found = format!(
+            "\"quadratic\", which is for displacements of the whole boundary, with driven {}",
+            if driven { "nodes" } else { "rotations" }
+        );
+        let right = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
+        faults.add(&table, "input", Mistake::Wrong { found, right });
+    }
+    body::lacks(boundary, &table, faults);
+}
+
+/// Reports nodes that the outside moves and that are not there, or that move with axes.
+fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
     if motion == NodeMotion::Rigid {
-        return false;
+        return;
     }
     if shape.vertices().is_empty() {
-        let (what, right) = (format!("a {} has no nodes", shape.key()), "a mesh has nodes".to_owned());
-        faults.add(table, "nodes", Mistake::Senseless { what, right });
+        let (found, right) = (format!("a {}, which has none", shape.key()), "a mesh, which has nodes".to_owned());
+        faults.add(table, "nodes", Mistake::Wrong { found, right });
     } else if let Some(axis) = axes.iter().position(|axis| !axis.is_fixed() || axis.conveys() != 0.0) {
         let what = format!("driven nodes, and {} moves, too", AxisMotion::WORDS[axis]);
         let right = "leave motion out: the displacements of the nodes say it all".to_owned();
         faults.add(table, "nodes", Mistake::Senseless { what, right });
     }
-    true
 }
 
 /// The shape of a boundary.

@@ -5,35 +5,13 @@ use super::finding::Finding;
 use crate::bond::creation::ContactPolicy;
 use crate::contact::{Law, MaterialPair, Missing};
 use crate::document::Mistake;
-use crate::document::{SceneError, SceneErrors};
 use crate::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Bond, Boundary, ContactLaw, Outside, Particle, Scene, plane_objections};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
 use std::collections::BTreeSet;
 
-impl Scene {
-    /// Whether the scene can be run: laws have their properties, particles are where they may be.
-    ///
-    /// Scenes from a file have been asked already.
-    pub fn check(&self) -> Result<(), SceneErrors> {
-        let list: Vec<SceneError> = [laws(self), places(self)]
-            .into_iter()
-            .flatten()
-            .map(|Finding { table, key, mistake, .. }| SceneError {
-                file: String::new(),
-                line: None,
-                table,
-                key,
-                mistake,
-            })
-            .collect();
-        if list.is_empty() { Ok(()) } else { Err(SceneErrors { list }) }
-    }
-}
-
 /// Whether each two materials that can touch have a law, and the law its properties.
-pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
+pub(super) fn laws(scene: &SceneDraft) -> Vec<Finding> {
     let mut findings: Vec<Finding> = scene.contacts.iter().filter_map(objection).collect();
-    findings.extend(scene.bonds.iter().filter_map(|bond| cannot_be_split(scene, bond)));
     if scene.contacts.is_empty() {
         return findings;
     }
@@ -61,7 +39,7 @@ pub(super) fn laws(scene: &Scene) -> Vec<Finding> {
 }
 
 /// Pairs of materials (the first not after the second) of bodies that can touch.
-fn touching(scene: &Scene) -> Vec<(usize, usize)> {
+fn touching(scene: &SceneDraft) -> Vec<(usize, usize)> {
     let count = scene.materials.len();
     let mut particles = vec![0_usize; count];
     for particle in &scene.particles {
@@ -84,32 +62,22 @@ fn touching(scene: &Scene) -> Vec<(usize, usize)> {
 }
 
 /// What speaks against a law where a bond suppresses contacts: its normal force must be one that an offset can be taken from.
-fn cannot_be_suppressed(scene: &Scene, law: &ContactLaw) -> Option<Finding> {
+fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding> {
     let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
-    if Law::of(&law.choice()).takes_offset() {
+    let composed = Law::of(&law.choice());
+    if composed.takes_offset() {
         return None;
     }
+    let (kind, model, why) = match composed.presses() {
+        false => ("normal", law.normal.name(), "adheres or remembers"),
+        true => ("cohesion", law.cohesion.name(), "acts beyond touch or remembers"),
+    };
     let message = format!(
-        "a policy that suppresses contacts found, but the normal model of [contact.{}], {}, adheres or remembers; \
-         \"parallel\", or another normal model, is right",
+        "expected \"parallel\", or another {kind} model of [contact.{}] than {model}, which {why}, found \
+         a policy that suppresses contacts",
         law.name,
-        law.normal.name()
     );
     Some(Finding::at(format!("bond.{}", bond.name), "contact", Mistake::Refused { message }))
-}
-
-/// What speaks against dashpots that are integrated by themselves: the bonded bodies must be particles, or led.
-fn cannot_be_split(scene: &Scene, bond: &Bond) -> Option<Finding> {
-    bond.law.split?;
-    let moves = |boundary: &&Boundary| boundary.axes.iter().any(|axis| axis.is_free() || axis.servo().is_some());
-    let boundary = scene.held_by(bond).find(moves)?;
-    let message = format!(
-        "\"split\" found, but forces or a servo move [boundary.{}], which may be bonded; \"scheme\", or a boundary that is driven, \
-         prescribed or fixed, is right",
-        boundary.name
-    );
-    let key = "damping.viscous.integration";
-    Some(Finding::at(format!("bond.{}", bond.name), key, Mistake::Refused { message }))
 }
 
 /// What speaks against the combination of a law's sub-models and switches.
@@ -129,7 +97,7 @@ fn objection(law: &ContactLaw) -> Option<Finding> {
 }
 
 /// Whether the particles are where they may be.
-pub(super) fn places(scene: &Scene) -> Vec<Finding> {
+pub(super) fn places(scene: &SceneDraft) -> Vec<Finding> {
     let mut findings = Vec::new();
     outside(scene, &mut findings);
     findings.extend(numbers(scene));
@@ -144,7 +112,7 @@ pub(super) fn places(scene: &Scene) -> Vec<Finding> {
 const COARSE: f64 = 1e-6;
 
 /// Particles whose mass or inertia no number holds, or which are so far away that numbers do not resolve their radius.
-fn numbers(scene: &Scene) -> Vec<Finding> {
+fn numbers(scene: &SceneDraft) -> Vec<Finding> {
     let holds = |value: f64| value.is_normal();
     let light = |particle: &&Particle| !holds(particle.mass()) || !holds(particle.inertia());
     let far = |particle: &&Particle| {
@@ -157,22 +125,21 @@ fn numbers(scene: &Scene) -> Vec<Finding> {
     let mut findings = Vec::new();
     if let Some(particle) = scene.particles.iter().find(light) {
         let (id, radius, mass, density) = (particle.id.0, particle.radius, particle.mass(), particle.density);
-        let what =
-            format!("particle {id} of radius {radius:?} m and density {density:?} kg/m³ has a mass of {mass:?} kg");
-        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308) are right".to_owned();
-        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+        let found = format!("{mass:?} kg of particle {id} of radius {radius:?} m and density {density:?} kg/m³");
+        let right = "a mass and a moment of inertia that 64 bits hold (about 1e-308 to 1e308)".to_owned();
+        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
     }
     if let Some(particle) = scene.particles.iter().find(far) {
         let (id, position, radius) = (particle.id.0, particle.position, particle.radius);
-        let what = format!("particle {id} of radius {radius:?} m is at {position:?} m, where numbers are too coarse");
-        let right = format!("at most {:.1e} m from the origin is right", COARSE * radius / f64::EPSILON);
-        findings.push(Finding::at(table(particle), "", Mistake::Senseless { what, right }));
+        let found = format!("particle {id} of radius {radius:?} m at {position:?} m, where numbers are too coarse");
+        let right = format!("particles at most {:.1e} m from the origin", COARSE * radius / f64::EPSILON);
+        findings.push(Finding::at(table(particle), "", Mistake::Wrong { found, right }));
     }
     findings
 }
 
 /// Particles outside the domain.
-fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
+fn outside(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let Some([lower, upper]) = scene.domain.filter(|_| scene.outside == Outside::Stop) else { return };
     let inside = |position: &[f64; 3]| (0..3).all(|axis| (lower[axis]..=upper[axis]).contains(&position[axis]));
     let mut lost = scene.particles.iter().filter(|particle| !inside(&particle.position));
@@ -184,7 +151,7 @@ fn outside(scene: &Scene, findings: &mut Vec<Finding>) {
 }
 
 /// Particles behind surfaces or too deep in them.
-fn surfaces(scene: &Scene, findings: &mut Vec<Finding>) {
+fn surfaces(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let permitted = scene.run.max_overlap;
     let fixed_groups = fixed_groups(scene);
     for boundary in &scene.boundaries {
@@ -221,7 +188,7 @@ fn is_fixed(boundary: &Boundary) -> bool {
 }
 
 /// Whether each particle belongs to a group that does not move; such a group may be built into a fixed plane.
-fn fixed_groups(scene: &Scene) -> Vec<bool> {
+fn fixed_groups(scene: &SceneDraft) -> Vec<bool> {
     let mut fixed = vec![false; scene.particles.len()];
     for boundary in scene.boundaries.iter().filter(|boundary| is_fixed(boundary)) {
         boundary.shape.members().iter().for_each(|member| fixed[*member as usize] = true);
@@ -238,12 +205,12 @@ fn note((worst, id, count): &mut (f64, u32, usize), value: f64, of: u32) {
 }
 
 /// Whether two materials have a contact law.
-fn governed(scene: &Scene, a: usize, b: usize) -> bool {
+fn governed(scene: &SceneDraft, a: usize, b: usize) -> bool {
     scene.contacts.iter().any(|law| law.between[a * scene.materials.len() + b])
 }
 
 /// The rigid group of each particle, counted from 1; 0 for free ones.
-fn rigid_groups(scene: &Scene) -> Vec<u32> {
+fn rigid_groups(scene: &SceneDraft) -> Vec<u32> {
     let mut group = vec![0; scene.particles.len()];
     for (number, boundary) in (1..).zip(&scene.boundaries) {
         boundary.shape.members().iter().for_each(|member| group[*member as usize] = number);
@@ -252,7 +219,7 @@ fn rigid_groups(scene: &Scene) -> Vec<u32> {
 }
 
 /// Particles too deep in one another.
-fn overlaps(scene: &Scene, findings: &mut Vec<Finding>) {
+fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     if scene.contacts.is_empty() {
         return;
     }

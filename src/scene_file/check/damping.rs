@@ -32,9 +32,9 @@ pub(super) fn damping(written: &RawTables, materials: &[Material], born: &Born, 
         let all = damping.particles.is_none();
         let newcomers = if all { [damping.linear.get(), damping.angular.get()] } else { [0.0; 2] };
         if all && damping.scale.is_some() && !written.insertions.is_empty() {
-            let what = "a scale, which particles that come later have none of".to_owned();
-            let right = "particles = .. that names those to be damped, or no scale, is right".to_owned();
-            faults.add(&table, "scale", Mistake::Senseless { what, right });
+            let found = "a scale, which particles that come later have none of".to_owned();
+            let right = "particles = .. that names those to be damped, or no scale".to_owned();
+            faults.add(&table, "scale", Mistake::Wrong { found, right });
         }
         let gravity = written.gravity.0 != [0.0; 3];
         let gravity_damped = said(damping.gravity_damped, gravity, &table, "gravity_damped", faults);
@@ -82,9 +82,11 @@ fn scales(
         Some(ScaleTable { material: None, radius_divisor: None, column: Some(column) }) => {
             from_column(column, members, table, born, faults)
         }
-        Some(_) => {
-            let right = "one of material, radius_divisor, column is right".to_owned();
-            faults.add(table, "scale", Mistake::Senseless { what: "not one kind of scale".to_owned(), right });
+        Some(scale) => {
+            let right = "one of material, radius_divisor and column".to_owned();
+            let given = scale.material.is_some() || scale.radius_divisor.is_some() || scale.column.is_some();
+            let found = if given { "several" } else { "none" }.to_owned();
+            faults.add(table, "scale", Mistake::Wrong { found, right });
             Vec::new()
         }
     }
@@ -102,9 +104,9 @@ fn from_column(column: &str, members: &[u32], table: &str, born: &Born, faults: 
         }
     }
     for (name, _) in born.sets.iter().zip(lacking).filter(|(_, lacking)| *lacking) {
-        let what = format!("[particles.{name}] has no column {column}");
-        let right = "every set that is damped needs it in its file".to_owned();
-        faults.add(table, "scale.column", Mistake::Senseless { what, right });
+        let found = format!("none in [particles.{name}]");
+        let right = format!("a column {column} in the file of every set that is damped");
+        faults.add(table, "scale.column", Mistake::Wrong { found, right });
     }
     if let Some(factor) = factors.iter().find(|factor| **factor < 0.0) {
         let (found, right) = (format!("{factor:?} in column {column}"), "factors of 0 or above".to_owned());

@@ -6,7 +6,7 @@ use crate::contact::Material;
 use crate::document::{Faults, Mistake};
 use crate::exchange::Amount;
 use crate::packing::generator::{generator_after, uniform};
-use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, Scene};
+use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, SceneDraft};
 
 /// What a scene has of particles that come and go.
 pub(super) struct Parts {
@@ -55,25 +55,25 @@ fn names(written: &RawTables, faults: &mut Faults) {
     let mut told: Vec<(&str, &String)> = boundaries.chain(regions).collect();
     for (kind, name) in insertions.chain(outlets).chain(meters) {
         if let Some((other, _)) = told.iter().find(|(_, known)| *known == name) {
-            let (what, right) = (format!("[{other}.{name}] has this name"), "a name of its own is right".to_owned());
-            faults.add(&format!("{kind}.{name}"), "", Mistake::Senseless { what, right });
+            let (found, right) = (format!("that of [{other}.{name}]"), "a name of its own".to_owned());
+            faults.add(&format!("{kind}.{name}"), "", Mistake::Wrong { found, right });
         }
         told.push((kind, name));
     }
 }
 
 /// What speaks against particles that come and go in this scene.
-pub(super) fn objections(scene: &Scene) -> Vec<Finding> {
+pub(super) fn objections(scene: &SceneDraft) -> Vec<Finding> {
     scene.insertions.iter().flat_map(|insertion| of_insertion(scene, insertion)).collect()
 }
 
 /// What speaks against an insertion.
-fn of_insertion(scene: &Scene, insertion: &Insertion) -> Vec<Finding> {
+fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
     let (mut findings, table) = (Vec::new(), format!("insertion.{}", insertion.name));
     let ([least, most], region) = (insertion.sizes.bounds(), &scene.regions[insertion.region]);
     let mut random = generator_after(scene.run.seed, &table, 0);
     if region.shape.place(most, &mut || uniform(&mut random)).is_none() {
-        let found = format!("[region.{}], which is too narrow for a sphere of radius {most:?} m,", region.name);
+        let found = format!("[region.{}], which is too narrow for a sphere of radius {most:?} m", region.name);
         let right = "a region that holds the largest sphere whole".to_owned();
         findings.push(Finding::at(table.clone(), "region", Mistake::Wrong { found, right }));
     }
@@ -82,14 +82,14 @@ fn of_insertion(scene: &Scene, insertion: &Insertion) -> Vec<Finding> {
         mass.is_normal() && (0.4 * mass * radius * radius).is_normal()
     };
     if !holds(least) || !holds(most) {
-        let what = format!("spheres of radius {least:?} to {most:?} m have a mass or inertia that no number holds");
-        let right = "radii whose mass and moment of inertia 64 bits hold are right".to_owned();
-        findings.push(Finding::at(table.clone(), "sizes", Mistake::Senseless { what, right }));
+        let found = format!("spheres of radius {least:?} to {most:?} m");
+        let right = "radii whose mass and moment of inertia 64 bits hold".to_owned();
+        findings.push(Finding::at(table.clone(), "sizes", Mistake::Wrong { found, right }));
     }
     if let Amount::Mass(mass) = insertion.amount
         && mass < insertion.mass(least)
     {
-        let found = format!("{mass:?} kg, less than the smallest sphere has,");
+        let found = format!("{mass:?} kg, less than the smallest sphere has");
         let right = format!("{:?} kg or more", insertion.mass(least));
         findings.push(Finding::at(table.clone(), "mass", Mistake::Wrong { found, right }));
     }
@@ -99,8 +99,8 @@ fn of_insertion(scene: &Scene, insertion: &Insertion) -> Vec<Finding> {
     {
         let [low, high] = region.shape.bounds();
         if (0..3).any(|axis| low[axis] < lower[axis] || high[axis] > upper[axis]) {
-            let found = format!("[region.{}], which reaches beyond [domain],", region.name);
-            let right = "a region inside of it".to_owned();
+            let found = format!("[region.{}], which reaches beyond it", region.name);
+            let right = "a region inside of [domain]".to_owned();
             findings.push(Finding::at(table, "region", Mistake::Wrong { found, right }));
         }
     }

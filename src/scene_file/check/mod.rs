@@ -17,13 +17,14 @@ pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
 mod tables;
+mod values;
 
 use super::tables::{RunTable, StepKey};
 use crate::document::{Document, Faults, Mistake, SceneErrors};
 use crate::packing::PackingProgress;
 use crate::parameters;
 use crate::region;
-use crate::scene::{Output, Region, Run, Scene, Source, Step};
+use crate::scene::{Models, Output, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::surface::Files;
 use finding::Finding;
 use raw_tables::RawTables;
@@ -33,9 +34,10 @@ pub(super) fn scene(
     source: &Source,
     document: &Document,
     mut faults: Faults,
+    models: &Models,
     tell: &mut dyn FnMut(PackingProgress),
 ) -> Result<Scene, SceneErrors> {
-    let written = RawTables::read(document, &mut faults);
+    let written = RawTables::read(document, models, &mut faults);
     faults.so_far()?;
     let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
     let materials = contacts::materials(&written);
@@ -53,7 +55,7 @@ pub(super) fn scene(
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
-    let mut scene = Scene {
+    let mut draft = SceneDraft {
         bonds,
         run,
         gravity: written.gravity.0,
@@ -75,16 +77,38 @@ pub(super) fn scene(
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
     };
-    scene.parameters = parameters::of_scene(&scene, document);
-    if let Some([found, right]) = scene.stiffness_objection() {
+    draft.parameters = parameters::of_scene(&draft, document);
+    relations(&draft, document, &mut faults);
+    faults.finish().map(|()| Scene::of_checked(draft))
+}
+
+impl SceneDraft {
+    /// The scene, if it can be run: every number is one that its key takes, every index points at something, laws have their
+    /// properties, particles are where they may be, boundaries can do what they are to do. Otherwise all mistakes, each with the table
+    /// and the key that a scene file would have it in.
+    pub fn build(self) -> Result<Scene, SceneErrors> {
+        let document = Document::parse("", "")?;
+        let mut faults = Faults::new(&document);
+        values::check(&self, &mut faults);
+        faults.so_far()?;
+        boundaries::check(&self, &mut faults);
+        bonds::check(&self, &mut faults);
+        motion::damping(&self.boundaries, &self.damping, &mut faults);
+        relations(&self, &document, &mut faults);
+        faults.finish().map(|()| Scene::of_checked(self))
+    }
+}
+
+/// Reports what the parts of a scene are not to each other.
+fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
+    if let Some([found, right]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Wrong { found, right });
     }
     let found =
-        consistency::laws(&scene).into_iter().chain(consistency::places(&scene)).chain(exchange::objections(&scene));
+        consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
     for finding in found {
-        report(finding, document, &mut faults);
+        report(finding, document, faults);
     }
-    faults.finish().map(|()| scene)
 }
 
 /// Reports a mistake in the scene, at the line of its table in the text.
@@ -107,16 +131,16 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
     let defaults = Run::default();
     let accuracy = table.accuracy.unwrap_or(defaults.accuracy);
     if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
-        let (what, right) = ("a given step has no safety", "step = \"auto\", or leave safety out");
+        let (what, right) = ("a given step has no safety", "write step = \"auto\", or leave safety out");
         faults.add("run", "safety", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
         let (what, right) =
-            ("an automatic step is never above the stable one", "a given step, or leave allow_unstable out");
+            ("an automatic step is never above the stable one", "give a step, or leave allow_unstable out");
         faults.add("run", "allow_unstable", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     if table.plane_particles.is_some() && table.plane.is_none() {
-        let (what, right) = ("plane_particles needs a plane", "plane = \"xz\" beside it, or leave it out");
+        let (what, right) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
         faults.add("run", "plane_particles", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
     }
     Run {
@@ -137,6 +161,10 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::quantity::Fraction::get),
         max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::quantity::NonNegative::get),
         plane: table.plane,
+        central_derivatives: table.central_derivatives.unwrap_or(defaults.central_derivatives),
+        derivative_displacement: table
+            .derivative_displacement
+            .map_or(defaults.derivative_displacement, crate::quantity::Positive::get),
     }
 }
 

@@ -19,51 +19,52 @@ pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Fau
         faults.add(table, "motion", Mistake::Senseless { what, right });
     }
     for axis in twice {
-        let what = format!("axis {} is named twice", AxisMotion::WORDS[axis]);
-        let right = "an axis is fixed, conveying, driven, prescribed, free, loaded or servo".to_owned();
-        faults.add(table, "motion", Mistake::Senseless { what, right });
+        let found = format!("{} twice", AxisMotion::WORDS[axis]);
+        let right = "each axis once: fixed, conveying, driven, prescribed, free, loaded or servo".to_owned();
+        faults.add(table, "motion", Mistake::Wrong { found, right });
     }
     axes
 }
 
-/// Reports what the axes of a boundary cannot do together, or not with its shape. `referred`: the scene gives its
-/// point of reference.
-pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, referred: bool, table: &str, faults: &mut Faults) {
-    let mut refuse = |what: String, right: &str| {
-        faults.add(table, "motion", Mistake::Senseless { what, right: right.to_owned() });
-    };
+/// Reports what the axes of a boundary cannot do together, or not with its shape.
+pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
-        let what = format!("{}: {}s that turn are not there", AxisMotion::WORDS[axis], shape.key());
-        return refuse(what, "a group of particles turns");
+        let found = format!("{} of a {}", AxisMotion::WORDS[axis], shape.key());
+        faults.add(table, "motion", Mistake::Wrong { found, right: "rotations of a shape that turns".to_owned() });
+        return;
     }
     if let Some(axis) = (3..6).find(|&axis| axes[axis].servo().is_some()) {
-        let what = format!("{} is a servo, which reaches forces only", AxisMotion::WORDS[axis]);
-        return refuse(what, "servos along x, y or z are right");
+        let found = format!("one about {}, and a servo reaches forces only", AxisMotion::WORDS[axis]);
+        faults.add(table, "motion", Mistake::Wrong { found, right: "servos along x, y or z".to_owned() });
+        return;
     }
     conveying(axes, shape, table, faults);
     rotations(axes, table, faults);
-    reference(axes, referred, table, faults);
 }
 
 /// A surface that runs in itself has one, and runs along it.
 fn conveying(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
     let Some(axis) = axes.iter().position(|motion| matches!(motion, AxisMotion::Conveying(_))) else { return };
     let velocity = Vector::from([0, 1, 2].map(|axis| axes[axis].conveys()));
-    let (what, right) = if let Some(axis) = (3..6).find(|&axis| axes[axis].conveys() != 0.0) {
-        (format!("{} conveys", AxisMotion::WORDS[axis]), "velocities along x, y or z are right")
+    let mistake = if let Some(axis) = (3..6).find(|&axis| axes[axis].conveys() != 0.0) {
+        let found = format!("one about {}", AxisMotion::WORDS[axis]);
+        Mistake::Wrong { found, right: "velocities along x, y or z".to_owned() }
     } else if !shape.members().is_empty() {
-        (format!("{} conveys, and a group has no surface of its own", AxisMotion::WORDS[axis]), "a surface conveys")
+        let found = format!("a group, which has no surface of its own to convey along {}", AxisMotion::WORDS[axis]);
+        Mistake::Wrong { found, right: "a surface".to_owned() }
     } else if velocity == Vector::zero() {
-        (format!("{} conveys at 0 m/s", AxisMotion::WORDS[axis]), "leave it out")
+        let what = format!("{} conveys at 0 m/s", AxisMotion::WORDS[axis]);
+        Mistake::Senseless { what, right: "leave it out".to_owned() }
     } else if shape
         .plane()
         .is_some_and(|plane| velocity.cross(plane.normal.into()).length() < ALONG * velocity.length())
     {
-        ("it conveys along its normal".to_owned(), "a velocity along the plane is right")
+        let found = "one along its normal".to_owned();
+        Mistake::Wrong { found, right: "a velocity along the plane".to_owned() }
     } else {
         return;
     };
-    faults.add(table, "motion.conveying", Mistake::Senseless { what, right: right.to_owned() });
+    faults.add(table, "motion.conveying", mistake);
 }
 
 /// Rotations go together where the group has one law of turning.
@@ -73,21 +74,18 @@ fn rotations(axes: &[AxisMotion; 6], table: &str, faults: &mut Faults) {
     let driven = count(AxisMotion::is_driven);
     let prescribed = count(AxisMotion::is_prescribed);
     let scheduled = count(|motion| !motion.is_steady());
-    let (what, right) = match (free, driven, prescribed) {
+    let (found, right) = match (free, driven, prescribed) {
         (0, 0, 2..) if scheduled > 0 => {
-            ("a schedule turns about one axis and something about another", "one prescribed rotation is right")
+            ("a schedule about one axis and something else about another", "one prescribed rotation")
         }
-        (2, 0, 0) => ("two rotations are free and one is fixed", "one free rotation or all three are right"),
+        (2, 0, 0) => ("two free rotations", "one free rotation or all three"),
         (1.., 1.., _) | (1.., _, 1..) => {
-            ("some rotations are free and others are not", "free rotations with the others fixed are right")
+            ("free rotations beside others that are driven or prescribed", "free rotations with the others fixed")
         }
-        (_, 1.., 1..) => (
-            "some rotations are driven and others prescribed",
-            "driven or prescribed ones with the others fixed are right",
-        ),
+        (_, 1.., 1..) => ("driven and prescribed rotations", "driven or prescribed rotations with the others fixed"),
         _ => return,
     };
-    faults.add(table, "motion", Mistake::Senseless { what: what.to_owned(), right: right.to_owned() });
+    faults.add(table, "motion", Mistake::Wrong { found: found.to_owned(), right: right.to_owned() });
 }
 
 /// Whether a body moves and turns, and does one of it by forces: then it turns about its mass centre.
@@ -98,8 +96,8 @@ pub(super) fn turns_about_its_centre(axes: &[AxisMotion; 6]) -> bool {
     any(along, free) && any(about, held) || any(about, free) && any(along, held)
 }
 
-/// A body that moves and turns, and does one of it freely, does so about its mass centre.
-fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
+/// A body that moves and turns, and does one of it freely, does so about its mass centre; `referred`: the scene gives another point.
+pub(super) fn reference(axes: &[AxisMotion; 6], referred: bool, table: &str, faults: &mut Faults) {
     if referred && turns_about_its_centre(axes) {
         let what = "what moves and turns, one of both freely, turns about its mass centre".to_owned();
         faults.add(table, "reference", Mistake::Senseless { what, right: "leave it out".to_owned() });
@@ -112,10 +110,9 @@ pub(super) fn damping(boundaries: &[Boundary], damping: &[Damping], faults: &mut
         let members = boundary.shape.members();
         let alike = |each: &[f64]| members.windows(2).all(|two| each[two[0] as usize] == each[two[1] as usize]);
         if let Some(damping) = damping.iter().find(|it| !alike(&it.linear) || !alike(&it.angular)) {
-            let what =
-                format!("[damping.{}] damps its spheres differently, but forces move it as one body", damping.name);
-            let right = "one damping for all of them is right".to_owned();
-            faults.add(&format!("boundary.{}", boundary.name), "motion", Mistake::Senseless { what, right });
+            let found = format!("several in [damping.{}], while forces move the group as one body", damping.name);
+            let right = "one damping for all spheres of a group".to_owned();
+            faults.add(&format!("boundary.{}", boundary.name), "motion", Mistake::Wrong { found, right });
         }
     }
 }

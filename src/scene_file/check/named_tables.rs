@@ -23,7 +23,7 @@ pub(super) fn names(document: &Document, kind: &str, faults: &mut Faults) -> Vec
 }
 
 /// `[A-Za-z_][A-Za-z0-9_]*`
-fn is_name(text: &str) -> bool {
+pub(super) fn is_name(text: &str) -> bool {
     let starts = text.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
     starts && text.chars().all(|character| character.is_ascii_alphanumeric() || character == '_')
 }

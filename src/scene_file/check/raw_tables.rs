@@ -2,22 +2,17 @@
 
 use super::named_tables::{Named, all, names};
 use crate::bond::keys::Keys;
-use crate::contact::PairProperties;
-use crate::contact::cohesion::CohesionChoice;
-use crate::contact::normal::NormalChoice;
-use crate::contact::rolling::RollingChoice;
-use crate::contact::tangential::TangentialChoice;
+use crate::contact::{CohesionModel, Model, ModelRow, NormalModel, PairProperties, RollingModel, TangentialModel};
 use crate::document::Mistake;
 use crate::document::messages;
 use crate::document::{Document, Faults};
 use crate::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::region;
-use crate::scene::{AxisMotion, Output};
+use crate::scene::{AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
 use crate::scene_file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
-use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// The whole text.
@@ -61,13 +56,13 @@ pub(super) struct Law {
     /// What stands in the table itself.
     pub(super) table: ContactTable,
     /// Normal sub-model.
-    pub(super) normal: NormalChoice,
+    pub(super) normal: NormalModel,
     /// Tangential sub-model.
-    pub(super) tangential: TangentialChoice,
+    pub(super) tangential: TangentialModel,
     /// Rolling sub-model.
-    pub(super) rolling: RollingChoice,
+    pub(super) rolling: RollingModel,
     /// Cohesion sub-model.
-    pub(super) cohesion: CohesionChoice,
+    pub(super) cohesion: CohesionModel,
 }
 
 /// How many materials a scene may have: what each two have in common is kept as a square.
@@ -113,7 +108,7 @@ pub(in crate::scene_file) fn files(document: &Document) -> Vec<FileName> {
 
 impl RawTables {
     /// Reads all tables; `None` if any has a mistake.
-    pub(super) fn read(document: &Document, faults: &mut Faults) -> Option<Self> {
+    pub(super) fn read(document: &Document, models: &Models, faults: &mut Faults) -> Option<Self> {
         unknown_tables(document, faults);
         let run = document.read("run", faults);
         let gravity = match document.has("gravity") {
@@ -122,13 +117,13 @@ impl RawTables {
         };
         let count = document.names("material").len();
         if count > MOST_MATERIALS {
-            let (found, right) = (format!("{count} materials"), format!("{MOST_MATERIALS} at most"));
+            let (found, right) = (format!("{count}"), format!("at most {MOST_MATERIALS} materials"));
             faults.add("material", "", Mistake::Wrong { found, right });
             return None;
         }
         let materials = all(document, "material", faults);
         let pairs = pairs(document, faults);
-        let contacts = laws(document, faults);
+        let contacts = laws(document, models, faults);
         let bonds = all(document, "bond", faults);
         let particles = all(document, "particles", faults);
         let boundaries = all(document, "boundary", faults);
@@ -225,26 +220,26 @@ fn asymmetric(document: &Document, a: &str, b: &str, faults: &mut Faults) {
 }
 
 /// All contact laws.
-fn laws(document: &Document, faults: &mut Faults) -> Named<Law> {
+fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law> {
     let mut laws = Vec::new();
     for name in names(document, "contact", faults) {
         let path = format!("contact.{name}");
         let table = document.read(&path, faults);
-        let normal = model(document, &path, "normal", NormalChoice::NAMES, faults);
+        let normal = model(document, &path, "normal", &models.normal, faults);
         if table.is_some() && !document.has(&format!("{path}.normal")) {
             let right = format!("a table [{path}.normal.<model>]");
             faults.add(&path, "normal", Mistake::Missing { right });
         }
-        let tangential = model(document, &path, "tangential", TangentialChoice::NAMES, faults);
-        let rolling = model(document, &path, "rolling", RollingChoice::NAMES, faults);
-        let cohesion = model(document, &path, "cohesion", CohesionChoice::NAMES, faults);
+        let tangential = model(document, &path, "tangential", &models.tangential, faults);
+        let rolling = model(document, &path, "rolling", &models.rolling, faults);
+        let cohesion = model(document, &path, "cohesion", &models.cohesion, faults);
         if let (Some(table), Some(normal)) = (table, normal) {
             let law = Law {
                 table,
                 normal,
-                tangential: tangential.unwrap_or(TangentialChoice::None(Default::default())),
-                rolling: rolling.unwrap_or(RollingChoice::None(Default::default())),
-                cohesion: cohesion.unwrap_or(CohesionChoice::None(Default::default())),
+                tangential: tangential.unwrap_or(SMOOTH),
+                rolling: rolling.unwrap_or(ROLLING_FREELY),
+                cohesion: cohesion.unwrap_or(DRY),
             };
             laws.push((name, law));
         }
@@ -253,13 +248,13 @@ fn laws(document: &Document, faults: &mut Faults) -> Named<Law> {
 }
 
 /// The sub-model of a kind, if the law names one.
-fn model<T: DeserializeOwned>(
+fn model<F>(
     document: &Document,
     law: &str,
     kind: &'static str,
-    known: &[&str],
+    known: &[&'static ModelRow<F>],
     faults: &mut Faults,
-) -> Option<T> {
+) -> Option<Model<F>> {
     let path = format!("{law}.{kind}");
     if !document.has(&path) {
         return None;
@@ -270,16 +265,16 @@ fn model<T: DeserializeOwned>(
         return None;
     }
     let models = document.names(&path);
-    let [model] = &models[..] else {
+    let [name] = &models[..] else {
         let found = if models.is_empty() { "no model".to_owned() } else { models.join(" and ") };
         faults.add(&path, "", Mistake::Wrong { found, right: format!("one {kind} model") });
         return None;
     };
-    if !known.contains(&model.as_str()) {
-        let known = known.iter().map(|&name| name.to_owned()).collect();
-        let table = format!("{path}.{model}");
-        faults.add(&table, "", Mistake::UnknownModel { found: model.clone(), kind, known });
+    let Some(row) = known.iter().find(|row| row.name() == name) else {
+        let known = known.iter().map(|row| row.name().to_owned()).collect();
+        let table = format!("{path}.{name}");
+        faults.add(&table, "", Mistake::UnknownModel { found: name.clone(), kind, known });
         return None;
-    }
-    document.read(&path, faults)
+    };
+    row.read(document, &path, faults)
 }

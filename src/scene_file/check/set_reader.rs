@@ -238,7 +238,7 @@ impl SetReader<'_> {
                 let mistake = match label.parse::<i64>() {
                     Ok(_) => Mistake::Wrong {
                         found: format!("type {label}"),
-                        right: format!("a type named in materials, as materials = {{ {label} = \"..\" }},"),
+                        right: format!("a type named in materials, as materials = {{ {label} = \"..\" }}"),
                     },
                     Err(_) => unknown_material(self.materials, label),
                 };

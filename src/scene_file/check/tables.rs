@@ -23,8 +23,8 @@ pub(super) fn read(
         })
         .map_err(|(line, found, right)| {
             let line = line.map_or_else(String::new, |line| format!(", line {line}"));
-            let found = format!("{}{line}: {found}", keys.file);
-            faults.add(table, "motion.prescribed", Mistake::Wrong { found, right });
+            let message = format!("{}{line}: expected {right}, found {found}", keys.file);
+            faults.add(table, "motion.prescribed", Mistake::Refused { message });
         })
         .ok()
 }
@@ -38,7 +38,7 @@ fn columns(bytes: &[u8], keys: &FileKeys, word: &str) -> Result<(Vec<u64>, [Vec<
     let headers = reader.headers().map_err(|error| unreadable(&error))?.clone();
     let place = |name: &str| {
         let known = headers.iter().collect::<Vec<_>>().join(", ");
-        let missing = || (Some(1), format!("no column {name} among {known}"), format!("a column {name}"));
+        let missing = || (Some(1), known.clone(), format!("a column {name}"));
         headers.iter().position(|header| header == name).ok_or_else(missing)
     };
     let chosen = [place(keys.time.as_deref().unwrap_or("time"))?, place(keys.column.as_deref().unwrap_or(word))?];
@@ -62,7 +62,7 @@ fn unreadable(error: &csv::Error) -> Wrong {
     let line = error.position().map(csv::Position::line);
     match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            (line, format!("{len} columns"), format!("{expected_len}, as in the line of names,"))
+            (line, len.to_string(), format!("{expected_len} columns, as in the line of names"))
         }
         _ => (line, "bytes that are not UTF-8".to_owned(), "a table of comma-separated columns".to_owned()),
     }

@@ -2,6 +2,7 @@
 
 use crate::motion::Axis;
 use crate::quantity::{NonNegative, Triple};
+use nalgebra::Matrix3;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
@@ -26,23 +27,21 @@ impl<'de> Deserialize<'de> for Inertia {
         }
         /// What is right.
         const RIGHT: &str = "[xx, yy, zz] or three rows of a symmetric, positive definite matrix [kg m²]";
-        let rows =
-            match Written::deserialize(deserializer).map_err(|_| D::Error::custom(format!("{RIGHT} is right")))? {
-                Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
-                Written::Rows(rows) => rows.map(|row| row.0),
-            };
-        if is_positive(&rows) {
+        let other = |_| D::Error::custom(format!("expected {RIGHT}, found something else"));
+        let rows = match Written::deserialize(deserializer).map_err(other)? {
+            Written::Moments(Triple([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
+            Written::Rows(rows) => rows.map(|row| row.0),
+        };
+        if is_positive_definite(&rows) {
             Ok(Self(rows))
         } else {
-            Err(D::Error::custom(format!("{rows:?} found; {RIGHT} is right")))
+            Err(D::Error::custom(format!("expected {RIGHT}, found {rows:?}")))
         }
     }
 }
 
-/// Whether a matrix is symmetric and positive definite (Sylvester's criterion).
-fn is_positive(rows: &[[f64; 3]; 3]) -> bool {
-    let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
-    let symmetric = b == d && c == g && f == h;
-    let minor = a * e - b * b;
-    symmetric && a > 0.0 && minor > 0.0 && i * minor - f * (a * f - b * c) + c * (b * f - c * e) > 0.0
+/// Whether a matrix is symmetric and positive definite.
+pub(in crate::scene_file) fn is_positive_definite(rows: &[[f64; 3]; 3]) -> bool {
+    let matrix = Matrix3::from(*rows);
+    matrix == matrix.transpose() && matrix.cholesky().is_some()
 }

@@ -7,7 +7,7 @@ mod values;
 
 pub(super) use crate::quantity::{Corners, Triple};
 pub(super) use crate::surface::Selection;
-pub(super) use body::{Inertia, Supports};
+pub(super) use body::{Inertia, Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{Between, StepKey};
@@ -73,6 +73,10 @@ pub(in crate::scene_file) struct RunTable {
     pub(in crate::scene_file) plane: Option<MotionPlane>,
     /// What they are in it.
     pub(in crate::scene_file) plane_particles: Option<ParticleShape>,
+    /// Whether derivatives are differences of both sides.
+    pub(in crate::scene_file) central_derivatives: Option<bool>,
+    /// How far derivatives displace inputs, over what the program chooses.
+    pub(in crate::scene_file) derivative_displacement: Option<Positive>,
 }
 
 /// `[material.<name>]`

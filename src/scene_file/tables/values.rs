@@ -28,7 +28,7 @@ impl<'de> Deserialize<'de> for StepKey {
             fn visit_f64<E: Error>(self, value: f64) -> Result<StepKey, E> {
                 match Positive::new(value) {
                     Some(step) => Ok(StepKey::Given(step.get())),
-                    None => Err(E::custom(format!("{value:?} found; {RIGHT} is right"))),
+                    None => Err(E::custom(format!("expected {RIGHT}, found {value:?}"))),
                 }
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<StepKey, E> {
@@ -37,7 +37,7 @@ impl<'de> Deserialize<'de> for StepKey {
             fn visit_str<E: Error>(self, word: &str) -> Result<StepKey, E> {
                 match word {
                     "auto" => Ok(StepKey::Automatic),
-                    _ => Err(E::custom(format!("{word:?} found; {RIGHT} is right"))),
+                    _ => Err(E::custom(format!("expected {RIGHT}, found {word:?}"))),
                 }
             }
         }
@@ -81,14 +81,14 @@ impl<'de> Deserialize<'de> for Between {
         let parts = Vec::<Part>::deserialize(deserializer)?;
         let pair = |names: &[String]| match names {
             [a, b] => Ok([a.clone(), b.clone()]),
-            names => Err(D::Error::custom(format!("{} names found; {RIGHT} is right", names.len()))),
+            names => Err(D::Error::custom(format!("expected {RIGHT}, found {} names", names.len()))),
         };
         if parts.iter().all(|part| !part.1) {
             let names: Vec<String> = parts.into_iter().flat_map(|part| part.0).collect();
             return pair(&names).map(|pair| Self(vec![pair]));
         }
         if parts.iter().any(|part| !part.1) {
-            return Err(D::Error::custom(format!("names beside pairs found; {RIGHT} is right")));
+            return Err(D::Error::custom(format!("expected {RIGHT}, found names beside pairs")));
         }
         parts.iter().map(|part| pair(&part.0)).collect::<Result<_, _>>().map(Self)
     }

@@ -2,7 +2,7 @@
 
 use crate::bond::{self, formulation::FormulationChoice};
 use crate::exchange::Amount;
-use crate::scene::{Boundary, Insertion, Output, Scene};
+use crate::scene::{Boundary, Insertion, Output, Scene, SceneDraft};
 use crate::state::{State, StateFault, demand};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -229,7 +229,7 @@ fn course(scene: &Scene) -> u64 {
             hashed.0.update(&number.to_bits().to_le_bytes());
         }
     }
-    let mut rest = Scene { particles: Vec::new(), fingerprint: 0, ..scene.clone() };
+    let mut rest = SceneDraft { particles: Vec::new(), fingerprint: 0, ..SceneDraft::clone(scene) };
     rest.run.end = None;
     rest.run.threads = None;
     rest.run.plane = None;
@@ -242,6 +242,8 @@ fn course(scene: &Scene) -> u64 {
     rest.run.settle_tolerance = defaults.settle_tolerance;
     rest.run.settle_damping = defaults.settle_damping;
     rest.run.max_overlap = defaults.max_overlap;
+    rest.run.central_derivatives = defaults.central_derivatives;
+    rest.run.derivative_displacement = defaults.derivative_displacement;
     let Output { energy, losses, .. } = scene.output;
     rest.output = Output { energy, losses, ..Output::default() };
     // Writing to a fingerprint has no way to fail.

@@ -10,12 +10,12 @@ mod history;
 
 pub use description::Description;
 
-use super::{RunError, Simulation, StateFault, assemble};
+use super::{RunError, Simulation, assemble};
 use crate::bond::creation::Moment;
 use crate::boundaries::{nodes, placing, rigid_body};
 use crate::geometry::Quaternion;
 use crate::scene::Scene;
-use crate::state::State;
+use crate::state::{State, StateFault};
 use std::sync::Arc;
 
 /// Distance over the radius below which a particle of a group is where its group has it.
@@ -72,7 +72,7 @@ impl Simulation {
         simulation.check_room()?;
         simulation.rebuild(&simulation.standing());
         let time = simulation.state.clock.time;
-        simulation.bond(&Moment { number: 0, from: time, to: time }, &simulation.standing());
+        simulation.make_bonds(&Moment { number: 0, from: time, to: time }, &simulation.standing());
         left.extend(simulation.put_bonds(reached, from, &numbers));
         simulation.rebuild(&simulation.standing());
         simulation.start()?;

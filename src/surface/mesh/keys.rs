@@ -32,11 +32,11 @@ impl Keys {
         let mut triangles = match files::read(file, around.file(file)?) {
             Ok(triangles) if !triangles.is_empty() => triangles,
             Ok(_) => {
-                around.refuse(key, format!("no triangle in {file}"), "a surface");
+                around.refuse_file(key, file, "no triangle", "a surface");
                 return None;
             }
             Err((found, right)) => {
-                around.refuse(key, format!("{file}: {found}"), &right);
+                around.refuse_file(key, file, &found, &right);
                 return None;
             }
         };
@@ -49,8 +49,8 @@ impl Keys {
         }
         let lost = triangles.iter().position(|triangle| !triangle.iter().flatten().all(|part| part.is_finite()));
         if let Some(triangle) = lost {
-            let found = format!("{file}: triangle {} with a number that is not finite", triangle + 1);
-            around.refuse(key, found, "finite coordinates");
+            let found = format!("triangle {} with a number that is not finite", triangle + 1);
+            around.refuse_file(key, file, &found, "finite coordinates");
             return None;
         }
         Some(triangles)
@@ -63,8 +63,7 @@ impl Keys {
         for file in &self.joined {
             triangles.extend(self.triangles("mesh.joined", file, around)?);
         }
-        let mut refuse =
-            |found: String, right: &str| around.refuse("mesh.file", format!("{}: {found}", self.file), right);
+        let mut refuse = |found: String, right: &str| around.refuse_file("mesh.file", &self.file, &found, right);
         let mut topology = match Topology::of(&triangles) {
             Ok(topology) => topology,
             Err(triangle) => {
@@ -72,9 +71,15 @@ impl Keys {
                 return None;
             }
         };
+        let farthest = triangles.iter().flatten().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
+        if farthest * f64::EPSILON > topology.tolerance {
+            let found = format!("corners at {farthest:.3e} m, where numbers are too far apart for its triangles");
+            refuse(found, "a surface nearer to the origin");
+            return None;
+        }
         if let (Err(triangle), true) = (topology.turn_alike(), front) {
             let right = if self.sides.is_some() { "sides = 2" } else { "a surface with an inside" };
-            refuse(format!("a surface that has one side only, seen at triangle {triangle},"), right);
+            refuse(format!("a surface that has one side only, seen at triangle {triangle}"), right);
             return None;
         }
         if let Some(found) = faults::found(&topology) {
@@ -87,7 +92,7 @@ impl Keys {
     /// The closed surface around a part of space; what is wrong is reported.
     pub(crate) fn closed(&self, around: &mut dyn Files) -> Option<Shape> {
         if let Some(sides) = self.sides {
-            around.refuse("mesh.sides", sides.to_string(), "a region without sides, which is the inside,");
+            around.refuse("mesh.sides", sides.to_string(), "a region without sides, which is the inside");
             return None;
         }
         let topology = self.topology(true, around)?;
@@ -96,9 +101,8 @@ impl Keys {
             let (count, triangle) =
                 (topology.at_edge[edge].len(), topology.numbers[topology.at_edge[edge][0] as usize]);
             let triangles = if count == 1 { "one triangle".to_owned() } else { format!("{count} triangles") };
-            let found =
-                format!("{}: {triangles} at the edge of triangle {triangle} from {a:?} m to {b:?} m", self.file);
-            around.refuse("mesh.file", found, "a closed surface, two triangles at every edge,");
+            let found = format!("{triangles} at the edge of triangle {triangle} from {a:?} m to {b:?} m");
+            around.refuse_file("mesh.file", &self.file, &found, "a closed surface, two triangles at every edge");
             return None;
         }
         Some(Shape::of(Mesh::of(MaterialIndex(0), topology, Some(1))))

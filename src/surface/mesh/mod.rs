@@ -151,7 +151,7 @@ pub fn of_files(material: MaterialIndex, files: &[Vec<u8>], sides: Option<u8>) -
     let mut triangles = Vec::new();
     for file in files {
         triangles.extend(
-            files::read("mesh.stl", file).map_err(|(found, right)| format!("{found} found; {right} is right"))?,
+            files::read("mesh.stl", file).map_err(|(found, right)| format!("expected {right}, found {found}"))?,
         );
     }
     let topology = Topology::of(&triangles).map_err(|triangle| format!("triangle {triangle} has no area"))?;

@@ -196,7 +196,8 @@ impl Welder {
         let cell = corner.to_array().map(|part| (part / (2.0 * self.tolerance)).floor() as i64);
         let mut near: Option<u32> = None;
         for number in 0..27 {
-            let other = [cell[0] + number % 3 - 1, cell[1] + number / 3 % 3 - 1, cell[2] + number / 9 - 1];
+            let beside = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
+            let other = [0, 1, 2].map(|axis: usize| cell[axis].saturating_add(beside[axis]));
             for &vertex in self.cells.get(&other).into_iter().flatten() {
                 if (self.vertices[vertex as usize] - corner).length() <= self.tolerance {
                     near = Some(near.map_or(vertex, |near| near.min(vertex)));

@@ -67,7 +67,9 @@ impl AtSurface {
         let (count, particles) = (particle.len(), work.particles);
         let entries = match contacts.kept {
             Some(_) => entries.from(0, pair_constant),
-            None => Entries::of(&mut contacts.flags, &mut contacts.history, pair_constant),
+            None => {
+                Entries::of(&mut contacts.flags, contacts.history.rows(), contacts.history.all_mut(), pair_constant)
+            }
         };
         // SAFETY: the entries are those of this piece.
         unsafe { entries.flags.part(0, count) }.fill(0);

@@ -113,14 +113,14 @@ impl AtSurface {
     /// Energy at features of rolling springs, of sticky and of plastic normal forces \[J\].
     pub(in crate::interactions::surfaces) fn held_at_features(&self, state: &State) -> [f64; 3] {
         let (list, law, mut held) = (self.list(state), &self.law.law, [0.0; 3]);
-        if !law.has_rolling() && law.takes_offset() {
+        if !law.has_rolling() && law.presses() {
             return held;
         }
         let own = if law.is_plastic() { 2 } else { 1 };
         self.each(state, Motion::Present, |entry, foot, share, ContactGeometry { contact, .. }| {
             let (row, history) = (self.row(state, list.particle[entry]), records::history(&list.history, entry));
             held[0] += share * law.rolling_energy(row, contact, &history);
-            if !law.takes_offset() {
+            if !law.presses() {
                 held[own] += foot.weight * law.normal_energy(row, contact, 0.0, &history);
             }
         });

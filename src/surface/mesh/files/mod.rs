@@ -49,7 +49,7 @@ fn has_room(each: u64, count: usize) -> Result<(), Wrong> {
 fn add_polygon(corners: &[[f64; 3]], face: usize, triangles: &mut Triangles) -> Result<(), Wrong> {
     let at = |corner: usize| Vector::from(corners[corner % corners.len()]);
     let start = match corners.len() {
-        0..=2 => return Err((format!("face {face} of {} corners", corners.len()), "three or more".to_owned())),
+        0..=2 => return Err((format!("face {face} of {} corners", corners.len()), "three corners or more".to_owned())),
         4 if (at(3) - at(1)).length() < (at(2) - at(0)).length() => 1,
         _ => 0,
     };
@@ -60,7 +60,7 @@ fn add_polygon(corners: &[[f64; 3]], face: usize, triangles: &mut Triangles) -> 
     let flat = |normal: Vector| normal.dot(sum) >= (1.0 - FLAT) * normal.length() * sum.length();
     if corners.len() > 3 && !fan.iter().map(normal).all(flat) {
         let found = format!("face {face}, whose {} corners are not convex in one plane", corners.len());
-        return Err((found, "triangles instead".to_owned()));
+        return Err((found, "triangles".to_owned()));
     }
     triangles.extend(fan.iter().map(|corners| corners.map(Vector::to_array)));
     Ok(())
@@ -100,6 +100,32 @@ mod tests {
         let legacy = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n\
             POLYGONS 1 4\n3 0 1 2\n";
         assert_eq!(read("a.vtk", legacy.as_bytes()).unwrap(), [[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]);
+    }
+
+    #[test]
+    fn files_that_other_programs_wrote_give_the_same_square_of_eight_triangles() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/foreign/meshes");
+        let mut count = 0;
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if name == "readme" {
+                continue;
+            }
+            count += 1;
+            let triangles =
+                read(name, &std::fs::read(&path).unwrap()).unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+            assert_eq!(triangles.len(), 8, "{name}");
+            // Each is half of a square of 0.02 m, and looks along z.
+            for triangle in &triangles {
+                let [a, b, c] = triangle.map(Vector::from);
+                let area = (b - a).cross(c - a) * 0.5;
+                assert!((area - Vector::from([0.0, 0.0, 2e-4])).length() < 1e-10, "{name}: {area:?}");
+            }
+            let sum =
+                triangles.as_flattened().iter().fold([0.0; 3], |sum, it| [0, 1, 2].map(|axis| sum[axis] + it[axis]));
+            assert!(sum.iter().all(|part| part.abs() < 1e-7), "{name}: {sum:?}");
+        }
+        assert!(count > 15, "{count}");
     }
 
     #[test]

@@ -4,7 +4,8 @@ use super::{Triangles, Wrong, add_polygon};
 
 /// The triangles of a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, Wrong> {
-    let text = std::str::from_utf8(bytes).map_err(|_| ("bytes that are not UTF-8".to_owned(), "a text".to_owned()))?;
+    // Names and comments may be written in any encoding.
+    let text = String::from_utf8_lossy(bytes);
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     let mut triangles = Triangles::new();
     let mut face = 0;

@@ -18,9 +18,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, (String, String)> {
     {
         return Ok(bytes[HEAD..].chunks_exact(RECORD).map(binary).collect());
     }
-    let text = std::str::from_utf8(bytes).ok().filter(|text| text.to_ascii_lowercase().contains("vertex"));
-    match (text, declared) {
-        (Some(text), _) => ascii(text),
+    // The name of a solid may be written in any encoding.
+    let text = String::from_utf8_lossy(bytes);
+    let is_text = !bytes.contains(&0) && text.to_ascii_lowercase().contains("vertex");
+    match (Some(text).filter(|_| is_text), declared) {
+        (Some(text), _) => ascii(&text),
         (None, Some(count)) => Err((
             format!("{} bytes with {count} triangles declared", bytes.len()),
             format!("{HEAD} bytes and {RECORD} for each triangle"),
@@ -56,7 +58,10 @@ fn ascii(text: &str) -> Result<Triangles, (String, String)> {
             }
             Some("endloop") => {
                 let [a, b, c] = corners[..] else {
-                    return Err((format!("line {line}: a loop of {} vertices", corners.len()), "three".to_owned()));
+                    return Err((
+                        format!("line {line}: a loop of {} vertices", corners.len()),
+                        "loops of three".to_owned(),
+                    ));
                 };
                 triangles.push([a, b, c]);
                 corners.clear();

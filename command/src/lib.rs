@@ -1,0 +1,474 @@
+//! The command line: parse, call, print.
+//!
+//! A program with sub-models of its own calls [`main_with`]; it checks, runs, settles and exports scenes that name them.
+
+mod chart;
+
+use chart::ChartArguments;
+use clap::{Args, Parser, Subcommand};
+use cograin::bond::keys::FormulationChoice;
+use cograin::export::{PackageError, export, find_library};
+use cograin::report;
+use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
+use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
+use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
+use cograin_verify as verify;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::ffi::c_int;
+use std::fmt::Display;
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
+///
+/// Exit status: 0 done, 1 the work failed, 2 the input was refused.
+#[derive(Parser)]
+#[command(name = "cograin", version)]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The commands.
+#[derive(Subcommand)]
+enum Command {
+    /// Read a scene; say what it uses, how long its time step may be, what it costs and what is risky in it
+    Check(CheckArguments),
+    /// Run a scene to its end and write its results
+    Run(RunArguments),
+    /// Run a scene with damping until it is at rest and write its state
+    Settle(SettleArguments),
+    /// Package a scene as a co-simulation unit
+    Export(ExportArguments),
+    /// Replay reference cases of other engines and compare
+    Verify(VerifyArguments),
+    /// Chart the outputs of a scene over its time step, and recommend one: a table and a picture
+    Chart(ChartArguments),
+}
+
+/// A scene.
+#[derive(Args)]
+struct SceneArguments {
+    /// The scene file
+    scene: PathBuf,
+    /// Another value for a key of the scene, for example pair.glass.glass.friction=0.4; may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<Setting>,
+}
+
+/// How a scene is computed.
+#[derive(Args)]
+struct ComputeArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Number of threads, instead of that in the scene
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+/// `cograin check`
+#[derive(Args)]
+struct CheckArguments {
+    /// The scene and how it is computed.
+    #[command(flatten)]
+    scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
+    /// Print the condensed static stiffness of every boundary instead; the packing should be at rest
+    #[arg(long)]
+    stiffness: bool,
+}
+
+/// `cograin run`
+#[derive(Args)]
+struct RunArguments {
+    /// The scene and how it is computed.
+    #[command(flatten)]
+    scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
+    #[arg(long, value_name = "CHECKPOINT", conflicts_with = "resume")]
+    from: Option<PathBuf>,
+    /// Folder of the results
+    #[arg(short, long, value_name = "DIR", default_value = "output")]
+    output: PathBuf,
+    /// Continue from a checkpoint: this one, or the last one in the folder of the results
+    #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
+    resume: Option<Option<PathBuf>>,
+    /// Replace the results of an earlier run in that folder
+    #[arg(long)]
+    overwrite: bool,
+    /// Table of the driven boundaries' displacements: CSV with `time` and columns named as the unit's inputs
+    #[arg(long, value_name = "CSV")]
+    inputs: Option<PathBuf>,
+}
+
+/// `cograin settle`
+#[derive(Args)]
+struct SettleArguments {
+    /// The scene and how it is computed.
+    #[command(flatten)]
+    scene: ComputeArguments,
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
+    /// File of the settled state
+    #[arg(short, long, value_name = "CHECKPOINT")]
+    output: PathBuf,
+    /// Largest number of time steps
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    steps: u64,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+/// `cograin export`
+#[derive(Args)]
+struct ExportArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
+    #[arg(long, value_name = "CHECKPOINT")]
+    from: Option<PathBuf>,
+    /// The unit's file
+    #[arg(short, long, value_name = "FMU")]
+    output: PathBuf,
+    /// The unit's library, if it is not in the folder of this program
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+/// `cograin verify`
+#[derive(Args)]
+struct VerifyArguments {
+    /// Cases, or folders of cases
+    #[arg(required = true, value_name = "DIR")]
+    folders: Vec<PathBuf>,
+    /// Largest relative error, unless the case is more sensitive
+    #[arg(long, value_name = "ERROR", default_value_t = verify::Options::default().tolerance)]
+    tolerance: f64,
+    /// Folder that gets the trajectories
+    #[arg(long, value_name = "OUT")]
+    write: Option<PathBuf>,
+    /// Run cases of bonds from their start, instead of from each sample to the next
+    #[arg(long)]
+    free: bool,
+    /// Formulation of bonds; all except engine_exact run from the start of a case
+    #[arg(long, value_name = "NAME", default_value = "engine_exact", value_parser = formulation)]
+    formulation: FormulationChoice,
+}
+
+/// A formulation by its name.
+fn formulation(name: &str) -> Result<FormulationChoice, String> {
+    let names = || FormulationChoice::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>().join(", ");
+    FormulationChoice::named(name).ok_or_else(|| format!("expected one of {}, found {name}", names()))
+}
+
+/// How a command ended that did not do its work.
+enum Ending {
+    /// The work failed.
+    Failed(String),
+    /// The input was refused.
+    Refused(String),
+}
+
+impl Ending {
+    /// The work failed for this reason.
+    fn failed(reason: impl Display) -> Self {
+        Self::Failed(reason.to_string())
+    }
+    /// The input was refused for this reason.
+    fn refused(reason: impl Display) -> Self {
+        Self::Refused(reason.to_string())
+    }
+}
+
+impl From<Failure> for Ending {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Refused(refusal) => Self::refused(refusal),
+            failure => Self::failed(failure),
+        }
+    }
+}
+
+/// The whole program, for scenes that may name these sub-models; units carry the library of this name, which `cograin_unit::unit!` makes
+/// with the same sub-models.
+pub fn main_with(models: &Models, library: &str) -> ExitCode {
+    tell_of_full_files();
+    let ended = match Arguments::parse().command {
+        Command::Check(arguments) => check(models, &arguments),
+        Command::Run(arguments) => run(models, &arguments),
+        Command::Settle(arguments) => settle(models, &arguments),
+        Command::Export(arguments) => package(models, library, &arguments),
+        Command::Verify(arguments) => replay(&arguments),
+        Command::Chart(arguments) => chart::chart(models, &arguments),
+    };
+    let (status, reason) = match ended {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Ending::Failed(reason)) => (1, reason),
+        Err(Ending::Refused(reason)) => (2, reason),
+    };
+    // Who closed the standard error does not want to know.
+    let _ = writeln!(std::io::stderr(), "{}", printable(&reason));
+    ExitCode::from(status)
+}
+
+/// Prints a line. A reader that is gone does not want to know more; that a disk is full must be told.
+fn say(line: impl Display) -> Result<(), Ending> {
+    let mut output = std::io::stdout();
+    match writeln!(output, "{}", printable(&line.to_string())).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Ending::failed(format_args!("the standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The text with control characters written out: names come from files, and a terminal would obey them.
+fn printable(text: &str) -> String {
+    let shown = |letter: char| match letter {
+        '\n' => "\n".to_owned(),
+        letter if letter.is_control() => letter.escape_default().to_string(),
+        letter => letter.to_string(),
+    };
+    text.chars().map(shown).collect()
+}
+
+/// Reads a scene, and shows how far its random packings are.
+fn read(models: &Models, arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
+    let bar = bar("{spinner} {msg}  {elapsed}");
+    let result = models.read(&arguments.scene, &arguments.settings, &mut |progress| {
+        if bar.is_hidden() {
+            return;
+        }
+        bar.set_message(match progress {
+            PackingProgress::Placing { set, placed, count } => format!("[{set}] {placed} of {count} spheres placed"),
+            PackingProgress::Pushing { set, rounds, overlap } => {
+                format!("[{set}] packing: {rounds} rounds, largest overlap {overlap:.1e} of the radius")
+            }
+        });
+    });
+    bar.finish_and_clear();
+    result.map_err(Ending::refused)
+}
+
+/// Files that a command reads: the scene, those that it names, and others.
+fn files_read(scene: &Path, source: &Source, others: &[&Option<PathBuf>]) -> Vec<PathBuf> {
+    let folder = scene.parent().unwrap_or(Path::new(""));
+    let named = source.files.keys().map(|file| folder.join(file));
+    let others = others.iter().filter_map(|path| (*path).clone());
+    std::iter::once(scene.to_owned()).chain(named).chain(others).collect()
+}
+
+/// What happens to a file that is there.
+fn earlier_file(overwrite: bool) -> EarlierFile {
+    if overwrite { EarlierFile::Replace } else { EarlierFile::Keep }
+}
+
+/// Reads a scene to be computed here. Its files are needed no more when the work begins.
+fn read_to_run(models: &Models, arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
+    let (scene, source) = read(models, &arguments.scene)?;
+    let scene = match arguments.threads {
+        Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
+        None => scene,
+    };
+    Ok((Arc::new(scene), source))
+}
+
+/// `cograin check`
+fn check(models: &Models, arguments: &CheckArguments) -> Result<(), Ending> {
+    let (scene, source) = read_to_run(models, &arguments.scene)?;
+    if arguments.stiffness {
+        return say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
+    }
+    let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
+    say(report)
+}
+
+/// `cograin run`
+fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
+    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[]);
+    refuse_to_replace(&arguments.output, &read).map_err(Ending::refused)?;
+    source.files.clear();
+    let start = match &arguments.resume {
+        None => arguments.from.clone().map_or(Start::Scene, Start::From),
+        Some(None) => Start::LastCheckpoint,
+        Some(Some(path)) => Start::Checkpoint(path.clone()),
+    };
+    if start == Start::LastCheckpoint && arguments.overwrite {
+        return Err(Ending::refused(
+            "expected one of --resume and --overwrite, found both: --overwrite replaces the results that --resume \
+             goes on with",
+        ));
+    }
+    let stop = stop_at_interruption()?;
+    let order = RunOrder {
+        scene: &scene,
+        scene_name: &source.name,
+        folder: &arguments.output,
+        start: &start,
+        earlier_results: if arguments.overwrite { EarlierResults::Replace } else { EarlierResults::Keep },
+        inputs: arguments.inputs.as_deref(),
+        stop: &stop,
+    };
+    let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
+    let result = cograin::run::run(order, &mut |progress: Progress| {
+        if bar.is_hidden() {
+            return;
+        }
+        let share = (progress.time - progress.start) / (progress.end - progress.start);
+        bar.set_position((share * BAR_LENGTH as f64) as u64);
+        bar.set_message(format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
+    });
+    bar.finish_and_clear();
+    say(result?)
+}
+
+/// `cograin settle`
+fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
+    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+    let read = files_read(&arguments.scene.scene.scene, &source, &[&arguments.from]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
+    source.files.clear();
+    let stop = stop_at_interruption()?;
+    let order = SettleOrder {
+        scene: &scene,
+        scene_name: &source.name,
+        from: arguments.from.as_deref(),
+        checkpoint: &arguments.output,
+        most_steps: arguments.steps,
+        stop: &stop,
+    };
+    let bar = bar("{spinner} {msg}  {elapsed}");
+    let result = cograin::run::settle(order, &mut |progress: SettleProgress| {
+        if bar.is_hidden() {
+            return;
+        }
+        let SettleProgress { steps, ratio, tolerance } = progress;
+        bar.set_message(format!("{steps} steps, unbalanced force {ratio:.2e}, {tolerance:.0e} asked for"));
+    });
+    bar.finish_and_clear();
+    let settled = result?;
+    let kind = if settled.contacts > 0 { "contact" } else { "bond" };
+    say(format_args!(
+        "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {} contacts, \
+         kinetic energy {:.3e} J",
+        settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
+    ))?;
+    say_left_behind(&settled.left_behind)
+}
+
+/// `cograin export`
+fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Result<(), Ending> {
+    let (scene, source) = read(models, &arguments.scene)?;
+    let scene = Arc::new(scene);
+    let library = find_library(library, arguments.library.as_deref()).map_err(Ending::failed)?;
+    let read = files_read(&arguments.scene.scene, &source, &[&arguments.from, &Some(library.clone())]);
+    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
+    let begun = match &arguments.from {
+        Some(path) => {
+            let checkpoint = Checkpoint::read(path).map_err(Ending::refused)?;
+            Some(checkpoint.taken_over(&scene).map_err(Ending::refused)?)
+        }
+        None => None,
+    };
+    let state = begun.as_ref().map(|begun| begun.simulation.state());
+    let exported = export(&source, &scene, state, &library, &arguments.output);
+    exported.map_err(|error| match error {
+        PackageError::Library(error) => Ending::refused(error),
+        error => Ending::failed(error),
+    })?;
+    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind))
+}
+
+/// Prints what could not be taken over from the checkpoint of another scene.
+fn say_left_behind(left_behind: &[String]) -> Result<(), Ending> {
+    left_behind.iter().try_for_each(|left| say(format_args!("not taken along: {left}")))
+}
+
+/// `cograin verify`
+fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
+    let options = verify::Options {
+        tolerance: arguments.tolerance,
+        write: arguments.write.clone(),
+        free: arguments.free,
+        formulation: arguments.formulation,
+    };
+    let cases = verify::find(&arguments.folders).map_err(Ending::refused)?;
+    let reports: Vec<_> = cases.par_iter().with_max_len(1).map(|case| verify::replay(case, &options)).collect();
+    let mut failed = 0;
+    for report in reports {
+        let report = report.map_err(Ending::refused)?;
+        failed += usize::from(!report.passed());
+        say(report)?;
+    }
+    if failed > 0 { Err(Ending::failed(format_args!("{failed} of {} cases failed", cases.len()))) } else { Ok(()) }
+}
+
+/// Parts of a progress bar.
+const BAR_LENGTH: u64 = 10_000;
+
+/// Time between two drawings of a progress bar while nothing is told.
+const BAR_PAUSE: Duration = Duration::from_millis(500);
+
+/// A progress bar; invisible where the standard error is not a terminal.
+fn bar(template: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(BAR_LENGTH).with_style(style);
+    bar.enable_steady_tick(BAR_PAUSE);
+    bar
+}
+
+/// Lets the first Ctrl-C, or another request to end, end the work in good order, and the second at once: all files are whole at any
+/// time. A request that the caller has chosen to ignore, as `nohup` does, stays ignored.
+fn stop_at_interruption() -> Result<Arc<AtomicBool>, Ending> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in STOPPING {
+        if is_ignored(signal) {
+            continue;
+        }
+        signal_hook::flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Ending::failed)?;
+        signal_hook::flag::register(signal, Arc::clone(&stop)).map_err(Ending::failed)?;
+    }
+    Ok(stop)
+}
+
+/// Lets the system tell by an error that a file may not grow further, instead of ending the program.
+fn tell_of_full_files() {
+    // Where this cannot be had, the program ends as it did.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
+/// Requests to end.
+#[cfg(unix)]
+const STOPPING: [c_int; 3] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP];
+
+/// Requests to end.
+#[cfg(not(unix))]
+const STOPPING: [c_int; 2] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM];
+
+/// Whether the caller has chosen to ignore a signal, where the system tells.
+fn is_ignored(signal: c_int) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| u64::from_str_radix(line.strip_prefix("SigIgn:")?.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}

@@ -1,0 +1,112 @@
+//! The sub-models that scenes may name.
+
+use crate::contact::{
+    self, Cohesion, CohesionModel, CohesionRow, ModelRow, Normal, NormalRow, Rolling, RollingModel, RollingRow,
+    Tangential, TangentialModel, TangentialRow,
+};
+
+/// The sub-models that scenes may name: those of the program, and those that another crate adds.
+///
+/// ```
+/// use cograin::contact::normal::hertz::Hertz;
+/// use cograin::scene::Models;
+///
+/// // Any type that implements `cograin::contact::Normal` is added like this.
+/// let models = Models::standard().with_normal::<Hertz>();
+/// assert!(models.normal_names().contains(&"hertz"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Models {
+    /// Normal sub-models.
+    pub(crate) normal: Vec<&'static NormalRow>,
+    /// Tangential sub-models.
+    pub(crate) tangential: Vec<&'static TangentialRow>,
+    /// Rolling sub-models.
+    pub(crate) rolling: Vec<&'static RollingRow>,
+    /// Cohesion sub-models.
+    pub(crate) cohesion: Vec<&'static CohesionRow>,
+}
+
+impl Default for Models {
+    fn default() -> Self {
+        Self::standard()
+    }
+}
+
+impl Models {
+    /// Those of the program.
+    pub fn standard() -> Self {
+        Self {
+            normal: contact::normal::STANDARD.to_vec(),
+            tangential: contact::tangential::STANDARD.to_vec(),
+            rolling: contact::rolling::STANDARD.to_vec(),
+            cohesion: contact::cohesion::STANDARD.to_vec(),
+        }
+    }
+
+    /// The same and a normal sub-model, in place of one of the same name.
+    pub fn with_normal<M: Normal>(mut self) -> Self {
+        put(&mut self.normal, NormalRow::of::<M>());
+        self
+    }
+
+    /// The same and a tangential sub-model, in place of one of the same name.
+    pub fn with_tangential<M: Tangential>(mut self) -> Self {
+        put(&mut self.tangential, TangentialRow::of::<M>());
+        self
+    }
+
+    /// The same and a rolling sub-model, in place of one of the same name.
+    pub fn with_rolling<M: Rolling>(mut self) -> Self {
+        put(&mut self.rolling, RollingRow::of::<M>());
+        self
+    }
+
+    /// The same and a cohesion sub-model, in place of one of the same name.
+    pub fn with_cohesion<M: Cohesion>(mut self) -> Self {
+        put(&mut self.cohesion, CohesionRow::of::<M>());
+        self
+    }
+
+    /// Names of the normal sub-models.
+    pub fn normal_names(&self) -> Vec<&'static str> {
+        names(&self.normal)
+    }
+
+    /// Names of the tangential sub-models.
+    pub fn tangential_names(&self) -> Vec<&'static str> {
+        names(&self.tangential)
+    }
+
+    /// Names of the rolling sub-models.
+    pub fn rolling_names(&self) -> Vec<&'static str> {
+        names(&self.rolling)
+    }
+
+    /// Names of the cohesion sub-models.
+    pub fn cohesion_names(&self) -> Vec<&'static str> {
+        names(&self.cohesion)
+    }
+}
+
+/// Adds a row to others, in place of that of the same name.
+fn put<F>(rows: &mut Vec<&'static ModelRow<F>>, row: &'static ModelRow<F>) {
+    rows.retain(|other| other.name() != row.name());
+    rows.push(row);
+}
+
+/// The names of sub-models.
+fn names<F>(rows: &[&'static ModelRow<F>]) -> Vec<&'static str> {
+    rows.iter().map(|row| row.name()).collect()
+}
+
+/// No friction.
+pub(crate) const SMOOTH: TangentialModel =
+    TangentialModel::fixed::<contact::tangential::none::None>(&contact::NoKeys {});
+
+/// No resistance against rolling.
+pub(crate) const ROLLING_FREELY: RollingModel =
+    RollingModel::fixed::<contact::rolling::none::None>(&contact::NoKeys {});
+
+/// No attraction.
+pub(crate) const DRY: CohesionModel = CohesionModel::fixed::<contact::cohesion::none::None>(&contact::NoKeys {});
