@@ -3,9 +3,9 @@
 mod ahead;
 pub(crate) mod batches;
 pub(crate) mod coefficients;
-pub(crate) mod contacts;
 mod listed;
 mod pairs;
+pub(crate) mod particles;
 mod pass;
 mod records;
 pub(crate) mod suppression;

@@ -7,7 +7,7 @@ use crate::engine::boundaries::course;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};
-use crate::engine::contacts::contacts::ContactPass;
+use crate::engine::contacts::particles::ContactPass;
 use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
 use crate::engine::neighbours;
