@@ -85,8 +85,8 @@ impl LawChoice {
             return Some(Objection {
                 table: "cohesion",
                 key: "",
-                reason: "an attraction beyond touch found beside a normal model that keeps a number of each pair, where its reach is \
-                         kept; hertz, hertz_stiffness or hooke_stiffness is right",
+                reason: "expected the normal model hertz, hertz_stiffness or hooke_stiffness beside an attraction beyond touch, \
+                         found one that keeps a number of each pair, where the reach of the attraction is kept",
             });
         }
         if adhesion == Adhesion::BeyondTouch && self.rolling.row().does.takes_overlap {
