@@ -1,11 +1,11 @@
-//! The schema of the state: a number that differs when any struct or enumeration of `src/state` does. A saved state carries it, so that a
+//! The schema of the state: a number that differs when any struct or enumeration of `src/engine/state` does. A saved state carries it, so that a
 //! program with other fields refuses the state in words.
 
 use std::path::PathBuf;
 use std::{env, fs};
 
 /// Where the state is defined.
-const FOLDER: &str = "src/state";
+const FOLDER: &str = "src/engine/state";
 
 fn main() {
     println!("cargo::rerun-if-changed={FOLDER}");

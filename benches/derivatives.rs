@@ -8,7 +8,7 @@
 
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
-use cograin::step::{Input, Simulation};
+use cograin::simulation::{Input, Simulation};
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -90,7 +90,7 @@ fn tell(source: &Source, step: f64, boundary: &str, steps: u32) {
     let [mut plain, mut asked] = [(); 2].map(|()| Simulation::new(Arc::clone(&scene)).expect("the scene starts"));
     let length = f64::from(steps) * step;
     let advance = |simulation: &mut Simulation| {
-        simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
+        simulation.advance_or_roll_back(length).unwrap_or_else(|error| panic!("{error}"));
     };
     let ask = |simulation: &mut Simulation| {
         let mut read = |simulation: &Simulation| simulation.state().boundaries[place].force.to_vec();

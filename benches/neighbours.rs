@@ -6,7 +6,7 @@
 //! mixtures: `benches/mixtures.py`.
 
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;

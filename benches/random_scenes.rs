@@ -4,6 +4,10 @@
 
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
 
+#[path = "../tests/support/mod.rs"]
+#[allow(dead_code, reason = "the tests use more of it")]
+mod support;
+
 #[path = "../tests/random_scenes/compare.rs"]
 mod compare;
 #[path = "../tests/random_scenes/scenes.rs"]

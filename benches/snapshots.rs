@@ -3,8 +3,8 @@
 //! `cargo bench --bench snapshots`
 
 use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::hint::black_box;

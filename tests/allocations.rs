@@ -2,7 +2,7 @@
 //! and on two. Planes once asked five times a step.
 
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;

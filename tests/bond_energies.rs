@@ -1,17 +1,9 @@
 //! Where the energy of bonds and contacts is: elastic, taken by damping and relaxation, released by breakage.
 
+use crate::support::start;
 use cograin::interface::Interface;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
-use std::sync::Arc;
-
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// The value of a variable.
 fn value(simulation: &Simulation, name: &str) -> f64 {
@@ -56,7 +48,7 @@ energy = true
 /// That chain.
 fn chain(formulation: &str, step: f64, speed: f64, more: &str) -> Simulation {
     let text = CHAIN.replace("FORMULATION", formulation).replace("STEP", &format!("{step:?}"));
-    simulation(&text.replace("SPEED", &format!("{speed:?}")).replace("MORE", more))
+    start(&text.replace("SPEED", &format!("{speed:?}")).replace("MORE", more))
 }
 
 /// Kinetic and elastic energy, and what left the bonds.
@@ -131,7 +123,7 @@ fn what_damping_takes_is_the_work_that_is_not_stored() {
                        tangential_torque = 0.3 } }";
         let at = |step: f64| {
             let text = HANGING.replace("FORMULATION", formulation).replace("STEP", &format!("{step:?}"));
-            let mut simulation = simulation(&text.replace("MORE", damping));
+            let mut simulation = start(&text.replace("MORE", damping));
             simulation.advance(4e-3).expect("it runs");
             let work = simulation.state().ledger.as_ref().expect("a book").work_of(Kind::Applied);
             let bonds = simulation.bonds();
@@ -158,7 +150,7 @@ fn what_opposing_damping_takes_is_what_is_lost() {
                        tangential_torque = 0.3 } }";
         let at = |step: f64| {
             let text = HANGING.replace("FORMULATION", formulation).replace("STEP", &format!("{step:?}"));
-            let mut simulation = simulation(&text.replace("MORE", damping));
+            let mut simulation = start(&text.replace("MORE", damping));
             simulation.advance(4e-3).expect("it runs");
             let whole = value(&simulation, "energy.dissipated");
             let taken = value(&simulation, "bonds.dissipated_energy");
@@ -188,7 +180,7 @@ fn a_damped_bond_that_breaks_books_half_a_step_of_its_last_damping() {
 fn relaxation_is_booked_for_each_bond() {
     let relaxation = "[bond.glue.relaxation]\nnormal_force = 1e-4\ntangential_torque = 1e-4";
     let text = HANGING.replace("FORMULATION", "finite_rotation").replace("STEP", "1e-7").replace("MORE", relaxation);
-    let mut simulation = simulation(&text);
+    let mut simulation = start(&text);
     simulation.advance(1e-4).expect("it runs");
     let taken = value(&simulation, "bonds.dissipated_energy");
     assert!(taken > 0.0);
@@ -234,7 +226,7 @@ energy = true
 /// That scene after 100 µs, and the largest elastic energy on the way.
 fn impact(restitution: f64, velocity: &str) -> (Simulation, f64, f64) {
     let text = IMPACT.replace("RESTITUTION", &format!("{restitution:?}")).replace("VELOCITY", velocity);
-    let mut simulation = simulation(&text);
+    let mut simulation = start(&text);
     let start = simulation.kinetic_energy();
     let largest = (0..1000).fold(0.0_f64, |largest, _| {
         simulation.advance(1e-7).expect("it runs");

@@ -1,9 +1,7 @@
 //! Bonds from lists of other programs, and by distance: the same bonds.
 
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use crate::support::start_with;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// A row of four spheres at a distance of 2 mm, numbered from 11.
 const SCENE: &str = r#"
@@ -32,9 +30,7 @@ fn bonds(create: &str, more: &str, files: &[(&str, &str)]) -> Vec<[u32; 2]> {
     let text = SCENE.replace("CREATE", create).replace("MORE", more);
     let files =
         files.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().into())).collect::<BTreeMap<_, _>>();
-    let source = Source { name: "scene.toml".into(), text, files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let simulation = Simulation::new(Arc::new(scene)).expect("the scene starts");
+    let simulation = start_with(&text, files);
     let id = |index: u32| simulation.scene().particles[index as usize].id.0;
     let mut found: Vec<[u32; 2]> =
         simulation.bonds().iter().map(|bond| [id(bond.first), id(bond.second.expect("a particle"))]).collect();

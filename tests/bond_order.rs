@@ -1,16 +1,8 @@
 //! Who is called i and who j, and in which order bodies are listed, changes nothing.
 
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use crate::support::start;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// Position, velocity and angular velocity of the particle with this number.
 fn body(simulation: &Simulation, id: u32) -> [[f64; 4]; 3] {
@@ -22,7 +14,7 @@ fn body(simulation: &Simulation, id: u32) -> [[f64; 4]; 3] {
 
 /// Two unequal spheres in any motion, with these numbers.
 fn pair(formulation: &str, more: &str, [one, other]: [u32; 2]) -> Simulation {
-    simulation(&format!(
+    start(&format!(
         r#"
 [run]
 step = 2e-7
@@ -97,7 +89,7 @@ fn block(threads: usize, order: &[usize]) -> Simulation {
         format!("{{ id = {id}, position = [{}], radius = {radius:?}, velocity = {fast} }},", position.join(", "))
     };
     let list: String = order.iter().map(|&number| grain(number)).collect();
-    simulation(&format!(
+    start(&format!(
         r#"
 [run]
 step = 2e-7

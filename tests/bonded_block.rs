@@ -1,10 +1,9 @@
 //! A bonded block that breaks: the same bits for threads, lane widths and saved states, and books that close.
 
+use crate::support::start;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
-use std::sync::Arc;
 
 /// A block that is glued to a plane and thrown sideways, half of it faster than the other half.
 const SCENE: &str = r#"
@@ -70,9 +69,7 @@ const FORMULATIONS: [&str; 3] = ["finite_rotation", "incremental", "engine_exact
 fn simulation(threads: usize, formulation: &str) -> Simulation {
     let formulation = format!("formulation = \"{formulation}\"");
     let text = SCENE.replace("THREADS", &threads.to_string()).replace("FORMULATION", &formulation);
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start(&text)
 }
 
 /// Runs some communication steps. Returns how many bonds broke.

@@ -1,10 +1,11 @@
 //! Particles that go where bonds hold them: their bonds go with them, counted by themselves, and every book knows.
 
-use crate::exchange::{begun, scene};
+use crate::exchange::begun;
+use crate::support::scene;
 use cograin::lanes::Width;
 use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A bonded block that flies into an outlet, strikes a plane beside it, and breaks in part; a second one, bonded to a plane that

@@ -1,11 +1,9 @@
 //! Bonds in whole scenes: to planes, and what the outside sees of them.
 
+use crate::support::start;
 use cograin::interface::Interface;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::{Placement, Simulation};
 use cograin::state::Break;
-use cograin::step::{Placement, Simulation};
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// A sphere over a plane that moves, bonded to it.
 const BONDED: &str = r#"
@@ -33,16 +31,9 @@ tangential_stiffness = 4e9
 breakage = { max_distance = 1.21e-3 }
 "#;
 
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap()
-}
-
 /// That scene with a velocity of the sphere and a formulation.
 fn bonded(velocity: &str, formulation: &str) -> Simulation {
-    simulation(&BONDED.replace("VELOCITY", velocity).replace("FORMULATION", formulation))
+    start(&BONDED.replace("VELOCITY", velocity).replace("FORMULATION", formulation))
 }
 
 /// The value of a variable.
@@ -101,7 +92,7 @@ tangential_stiffness = 4e8
 #[test]
 fn a_bond_bent_beyond_half_a_turn_stops_the_run_however_fast_it_is_bent() {
     for speed in [1e2, 1e3, 1e4, 1e5] {
-        let mut turned = simulation(&TURNED.replace("SPEED", &format!("{speed:?}")));
+        let mut turned = start(&TURNED.replace("SPEED", &format!("{speed:?}")));
         turned.advance(3.1 / speed).unwrap();
         let refused = turned.advance(0.2 / speed).err().map(|cause| cause.to_string());
         let told = "the bond of particle 7 and particle 9 is bent beyond half a turn";
@@ -173,7 +164,7 @@ normal_stiffness = 1e9
 tangential_stiffness = 4e8
 breakage = { max_distance = 2.3e-3 }
 "#;
-    let mut simulation = simulation(text);
+    let mut simulation = start(text);
     assert_eq!(simulation.state().particles.damage(), [0.0; 3]);
     simulation.advance(1e-4).unwrap();
     assert_eq!(value(&simulation, "bonds.broken"), 1.0);
@@ -217,7 +208,7 @@ fn broken(mut simulation: Simulation, interval: f64) -> Break {
 
 #[test]
 fn a_bond_that_breaks_tells_which_section_parted() {
-    let Break { time, position, direction, area, .. } = broken(simulation(PARTING), 2e-4);
+    let Break { time, position, direction, area, .. } = broken(start(PARTING), 2e-4);
     // The smaller sphere goes away from the other; a third of the distance is its own.
     let distance = 3e-3 + time;
     let first = [0.1 - 0.6 * time, 0.2, 0.3 - 0.8 * time];
@@ -233,7 +224,7 @@ fn a_bond_that_breaks_tells_which_section_parted() {
 fn a_bond_to_a_plane_parts_at_its_foot() {
     let weak = BONDED.replace("1e10", "1.0").replace("4e9", "1.0");
     let text = weak.replace("VELOCITY", "[0.3, 0.0, 0.2]").replace("FORMULATION", "incremental");
-    let Break { time, position, direction, area, .. } = broken(simulation(&text), 1e-4);
+    let Break { time, position, direction, area, .. } = broken(start(&text), 1e-4);
     assert!((position[0] - 0.3 * time).abs() < 1e-8 && (position[2] + 0.2 * time).abs() < 1e-8, "{position:?}");
     assert!((direction[2] - 1.0).abs() < 1e-9, "{direction:?}");
     assert!((area / (std::f64::consts::PI * 1e-6) - 1.0).abs() < 1e-14, "{area}");

@@ -1,10 +1,9 @@
 //! What crosses a boundary, and where energy goes: balances that hold to rounding whatever happens inside.
 
+use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
-use std::sync::Arc;
 
 /// Grains in a moving, tilted tray, some of them a driven group, damped, pushed and shaken.
 const SCENE: &str = r#"
@@ -56,9 +55,7 @@ energy = true
 
 /// The scene at time 0.
 fn simulation() -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: SCENE.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start(SCENE)
 }
 
 /// Where the inputs go in a communication step.
@@ -148,9 +145,7 @@ fn the_energy_book_closes() {
 #[test]
 fn keeping_the_book_changes_no_bit() {
     let without = SCENE.replace("energy = true", "energy = false");
-    let source = Source { name: "scene.toml".into(), text: without, files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let mut bare = Simulation::new(Arc::new(scene)).expect("the scene starts");
+    let mut bare = start(&without);
     let mut booked = simulation();
     for step in 1..10 {
         drive(&mut bare, step);
@@ -162,9 +157,7 @@ fn keeping_the_book_changes_no_bit() {
 #[test]
 fn a_particle_too_fast_for_the_step_is_refused_before_it_moves() {
     let text = SCENE.replace("velocity = [0.1, 0.05, -0.5]", "velocity = [0.1, 0.05, -500.0]");
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let mut simulation = Simulation::new(Arc::new(scene)).expect("the scene starts");
+    let mut simulation = start(&text);
     let before = simulation.state().particles.position.clone();
     let message = simulation.advance(1e-5).expect_err("half a radius in a step is too much").to_string();
     assert!(message.contains("of its radius in one step at t = 0 s"), "{message}");

@@ -1,10 +1,11 @@
 //! Coefficients of contact laws are state: they can be replaced between communication steps, and are saved and restored.
 
+use crate::support::scene;
 use cograin::contact::PairProperties;
 use cograin::quantity::{MaterialIndex, NonNegative};
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A sphere that slides on a plane with friction µ.
@@ -32,8 +33,7 @@ plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
 material = "a"
 "#
     );
-    let source = Source { name: "sliding".into(), text, files: Default::default() };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    scene(&text)
 }
 
 /// The properties of the scene with another coefficient of friction.

@@ -5,8 +5,8 @@ use cograin::interface::{Derivatives, Interface, Value};
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ fn named(simulation: &Simulation, name: &str) -> BoundaryIndex {
 
 /// Makes a communication step.
 fn advance(simulation: &mut Simulation, length: f64) {
-    simulation.advance_or_return(length).unwrap_or_else(|error| panic!("{error}"));
+    simulation.advance_or_roll_back(length).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// Outputs of a boundary in which the derivatives of each kind stand side by side: forces, then moments.
@@ -375,6 +375,9 @@ fn under_lid(shape: &str) -> Arc<Scene> {
     scene(&changed, &[("lid.obj", SHEET)])
 }
 
+/// A lid: its name, its lines in the scene, where its inputs stand, the one that is displaced, and how far.
+type Case<'a> = (&'a str, &'a str, &'a [(&'a str, f64)], &'a str, f64);
+
 #[test]
 fn lids_of_every_kind_have_the_derivatives_of_their_differences() {
     let mesh = "mesh = { file = \"lid.obj\", sides = 2 }\nmotion = { driven = [\"z\"] }";
@@ -384,7 +387,7 @@ fn lids_of_every_kind_have_the_derivatives_of_their_differences() {
     let down = [("lid.displacement.z", -1.0e-4)];
     let tilted = [("lid.displacement.z", -1.0e-4), ("lid.rotation.y", 1.0e-3)];
     let heavy = "PLANE\nmass = 1.0e-3\nstiffness = { z = 300.0 }\ndamping = { z = 0.5 }\nmotion = { loaded = [\"z\"] }";
-    let cases: [(&str, &str, &[(&str, f64)], &str, f64); 7] = [
+    let cases: [Case; 7] = [
         ("mesh", mesh, &down, "lid.displacement.z", 1.0e-10),
         ("nodes", nodes, &corners, "lid.node[2].displacement.z", 1.0e-10),
         ("turning plane", "PLANE\nmotion = { driven = [\"z\", \"rotation.y\"] }", &tilted, "lid.rotation.y", 1.0e-8),

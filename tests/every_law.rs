@@ -7,7 +7,7 @@
 
 use cograin::lanes::Width;
 use cograin::scene::{Models, Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

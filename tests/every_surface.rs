@@ -4,11 +4,12 @@
 //! Twelve stations stand side by side along x, each a surface under spheres that meet it and each other. High above them a block of
 //! spheres falls: with fewer than 2,000 particles one thread would do all the work.
 
+use crate::support::scene_with;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -167,8 +168,7 @@ energy = true
     );
     let way = "time,x\n0.0,0.0\n0.004,-8e-4\n0.01,2e-4\n";
     let files = BTreeMap::from([("bumps.obj".to_owned(), bumps()), ("way.csv".to_owned(), way.into())]);
-    let source = Source { name: "scene.toml".into(), text, files };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    scene_with(&text, files)
 }
 
 /// Moves all inputs and advances, from one communication step to another. Says of each station whether something pushed it.

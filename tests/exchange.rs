@@ -1,16 +1,11 @@
 //! Particles that come and go: counted, booked, and the same bits whoever works on them and wherever a run is taken up.
 
+use crate::support::scene;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
-
-/// The scene of a text.
-pub(crate) fn scene(text: &str) -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: text.into(), ..Source::default() };
-    Arc::new(Scene::from_source(&source).map_err(|errors| errors.to_string()).unwrap())
-}
 
 /// A feed of spheres of several sizes that fall through a hole in a floor, with friction and rolling, both books kept.
 fn falling(more: &str) -> String {
@@ -229,12 +224,12 @@ fn a_step_that_fails_gives_back_the_rates_and_what_was_there() {
     let mut simulation = begun(&scene, Width::widest());
     for place in 0..10 {
         simulation.set_insertion_rate(0, 100.0 * f64::from(place));
-        simulation.advance_or_return(0.013).unwrap();
+        simulation.advance_or_roll_back(0.013).unwrap();
     }
     let right = simulation.state().fingerprint();
     let stop = Arc::new(std::sync::atomic::AtomicBool::new(true));
     simulation.stop_when(&stop);
-    simulation.advance_or_return(0.013).unwrap_err();
+    simulation.advance_or_roll_back(0.013).unwrap_err();
     assert_eq!(simulation.state().fingerprint(), right);
 }
 
@@ -295,7 +290,7 @@ fn stage(stage: &str) -> Arc<Scene> {
 
 #[test]
 fn what_came_in_one_scene_goes_on_in_the_next() {
-    use cograin::step::Description;
+    use cograin::simulation::Description;
     let (fill, open) = (stage("fill"), stage("open"));
     let mut filled = begun(&fill, Width::widest());
     filled.advance(0.1).unwrap();

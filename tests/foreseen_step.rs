@@ -4,17 +4,9 @@
 //! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
 //! the messages blamed the step where speed or load was the cause.
 
+use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::{Cause, RunError, Simulation};
-use std::sync::Arc;
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
+use cograin::simulation::{Cause, RunError, Simulation};
 
 /// An elastic sphere at rest and a plane that comes at it as this motion says.
 fn plane_hits_sphere(run: &str, motion: &str) -> String {
@@ -228,8 +220,7 @@ fn spheres_that_are_squeezed_slowly_are_not_told_that_they_met_too_fast() {
 #[test]
 fn spheres_with_one_centre_are_told_so() {
     let text = too_soft("max_overlap = 2.0\n").replace("[0.05, 0.0, 0.0]", "[0.0, 0.0, 0.0]").replace("16.0", "0.0");
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    let scene = Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")));
+    let scene = scene(&text);
     let error = Simulation::new(scene).and_then(|mut simulation| simulation.advance(0.01)).expect_err("no direction");
     assert!(error.to_string().contains("the centres of particles 1 and 2 coincide"), "{error}");
 }

@@ -3,11 +3,12 @@
 //! Kernels trust the slots in the lists, and took them from the bytes: six of eight series of 300 such states ended in a
 //! signal. What is tried here goes through the same door as a checkpoint and a state from a host.
 
+use crate::support;
 use cograin::results::{Checkpoint, write_checkpoint};
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::contacts::BONDED;
-use cograin::step::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
@@ -116,8 +117,7 @@ fn scene_with(text: &str) -> Arc<Scene> {
         ("top.csv".to_owned(), block([4, 3, 1], 5.0e-3, 1.99e-3, 100)),
         ("mat.obj".to_owned(), MAT.into()),
     ]);
-    let source = Source { name: "scene.toml".into(), text: text.into(), files };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    support::scene_with(text, files)
 }
 
 /// How a state ended.

@@ -5,7 +5,7 @@
 
 use cograin::run::FrameWriter;
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;

@@ -1,20 +1,14 @@
 //! Groups of particles that forces move, or that turn: against theory, against single particles, and their books.
 
+use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{AxisMotion, InputCourse, Scene, Source};
+use cograin::scene::{AxisMotion, InputCourse};
+use cograin::simulation::{LimiterKind, RunError, Simulation};
 use cograin::state::{BoundaryState, State};
-use cograin::step::{LimiterKind, RunError, Simulation};
 use std::sync::Arc;
 
 /// The first boundary.
 const FIRST: BoundaryIndex = BoundaryIndex(0);
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// The first boundary of a simulation.
 fn group(simulation: &Simulation) -> BoundaryState {

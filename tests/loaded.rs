@@ -1,25 +1,13 @@
 //! Boundaries of any shape that forces move: against theory, at a mass far below that of what they touch, and their books.
 
+use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::ledger::Source as Kind;
-use cograin::step::Simulation;
-use std::sync::Arc;
 
 /// The boundary that forces move: boundaries stand in the order of the text.
 const PLATE: BoundaryIndex = BoundaryIndex(0);
-
-/// A scene.
-fn scene(text: &str) -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
-}
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    Simulation::new(scene(text)).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// Spheres of radius 5 mm in columns between four walls, with a plate on top.
 fn bed(run: &str, law: &str, plate: &str, more: &str) -> String {

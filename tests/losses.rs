@@ -1,18 +1,10 @@
 //! The physical energy book: what each kind of loss takes, by itself, against theory and against the energy that is gone.
 
+use crate::support::start;
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::Loss;
-use cograin::step::Simulation;
-use std::sync::Arc;
-
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// What a loss took \[J\].
 fn lost(simulation: &Simulation, loss: Loss) -> f64 {
@@ -39,7 +31,7 @@ const MASS: f64 = DENSITY * 4.0 / 3.0 * std::f64::consts::PI * RADIUS * RADIUS *
 
 /// A sphere above a plane through the origin.
 fn on_plane(head: &str, law: &str, height: f64, velocity: [f64; 3]) -> Simulation {
-    simulation(&format!(
+    start(&format!(
         r#"
 {head}
 [material.a]
@@ -175,7 +167,7 @@ breakage = { max_normal_stress = 2.0e3 }
 [output]
 losses = true
 "#;
-    let mut simulation = simulation(text);
+    let mut simulation = start(text);
     simulation.advance(1e-3).expect("it runs");
     let list = &simulation.state().bonds[0];
     assert_eq!((list.broken, list.first.len()), (1, 0));
@@ -217,7 +209,7 @@ const LAWS: [(&str, f64); 13] = [
 
 /// Grains that spin and fall on each other and on planes.
 fn grains(step: f64, scheme: &str, law: &str, output: &str) -> Simulation {
-    simulation(&format!(
+    start(&format!(
         r#"
 gravity = [0.5, -0.2, -9.81]
 [run]
@@ -367,7 +359,7 @@ losses = true
         wall("floor", 0.0, [0.0, 0.0, 1.0]),
         wall("roof", 12e-3, [0.0, 0.0, -1.0]),
     ];
-    let mut simulation = simulation(&text.replace("WALLS", &walls.concat()));
+    let mut simulation = start(&text.replace("WALLS", &walls.concat()));
     let start = simulation.kinetic_energy() + simulation.elastic_energy();
     let mut largest = 0.0_f64;
     for _ in 0..100 {

@@ -1,24 +1,16 @@
 //! Boundaries driven by velocity and along tables of files.
 
+use crate::support::{start, start_with};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
-use std::sync::Arc;
+use cograin::simulation::Simulation;
 
 /// The first boundary.
 const FIRST: BoundaryIndex = BoundaryIndex(0);
 
 /// A scene at time 0, with files.
-fn start_with(text: &str, files: &[(&str, &str)]) -> Simulation {
+fn start_beside(text: &str, files: &[(&str, &str)]) -> Simulation {
     let files = files.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())).collect();
-    let source = Source { name: "scene.toml".into(), text: text.into(), files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The same without files.
-fn start(text: &str) -> Simulation {
-    start_with(text, &[])
+    start_with(text, files)
 }
 
 /// Two spheres that lie on a boundary of this shape and motion.
@@ -111,7 +103,7 @@ fn a_table_moves_a_boundary_as_the_file_says() {
     let motion = "motion = { prescribed = { x = { table = \"way.csv\" }, \"rotation.z\" = { table = { file = \"way.csv\", \
                   time = \"t\", column = \"angle\", interpolation = \"smooth\" } } } }";
     let file = "time, t, x, angle\n0.0, 0.0, 0.0, 0.0\n0.001, 0.001, 0.01, 0.5\n0.003, 0.002, 0.0, 0.0\n";
-    let mut simulation = start_with(&lying(&format!("{DISC}{motion}")), &[("way.csv", file)]);
+    let mut simulation = start_beside(&lying(&format!("{DISC}{motion}")), &[("way.csv", file)]);
     simulation.advance(5e-4).expect("it runs");
     let moved = simulation.state().boundaries[0];
     assert_near(moved.displacement[0], 0.005, 1e-12);

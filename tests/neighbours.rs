@@ -1,12 +1,11 @@
 //! Neighbour lists hold what they must, whatever the sizes; motion alone asks for new ones.
 
+use crate::support::start_with;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::sync::Arc;
 
 /// Numbers between 0 and 1 that look random and are the same everywhere.
 struct Numbers(u64);
@@ -22,9 +21,7 @@ impl Numbers {
 /// A simulation of a scene whose particles stand in `bed.csv`.
 fn simulation(text: &str, bed: String) -> Simulation {
     let files = BTreeMap::from([("bed.csv".to_string(), bed.into_bytes())]);
-    let source = Source { name: "scene.toml".into(), text: text.into(), files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start_with(text, files)
 }
 
 /// Spheres of four sizes, 1:20, anywhere in a box: they overlap as they like.

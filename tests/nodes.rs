@@ -3,10 +3,11 @@
 //!
 //! Unless something else is said: radius 5 mm, E = 5 MPa and ν = 0.3 of both, restitution 0.5, friction 0.4, rolling friction 0.1.
 
+use crate::support::scene_with;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::{RunError, Simulation};
 use cograin::state::{Nodes, State};
-use cograin::step::{RunError, Simulation};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
@@ -114,8 +115,7 @@ mesh = {{ file = "sheet.obj", sides = 2 }}
             motion = self.motion,
         );
         let files = BTreeMap::from([("sheet.obj".to_owned(), obj(&self.mesh))]);
-        let source = Source { name: "scene.toml".into(), text, files };
-        Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+        scene_with(&text, files)
     }
 
     /// The scene at time 0.
@@ -567,10 +567,10 @@ fn threads_and_saved_states_change_no_bit() {
 fn a_face_without_area_stops_the_run_in_words_and_the_way_back_leads_to_the_beginning() {
     let mut simulation = rough_stage(6).start();
     drive(&mut simulation, |[x, y, _]| [1e-3 * x, 0.0, 1e-3 * y]);
-    simulation.advance_or_return(1e-5).unwrap_or_else(|error| panic!("{error}"));
+    simulation.advance_or_roll_back(1e-5).unwrap_or_else(|error| panic!("{error}"));
     let before = simulation.state().clone();
     drive(&mut simulation, |[x, _, z]| [-x, 0.0, -z]);
-    let error = simulation.advance_or_return(1e-5).expect_err("a sheet on a line");
+    let error = simulation.advance_or_roll_back(1e-5).expect_err("a sheet on a line");
     assert!(matches!(&error, RunError::Collapsed { boundary, face: 1, .. } if boundary == "sheet"), "{error}");
     let said = error.to_string();
     assert!(said.contains(" without one at t = 0.0000") && said.contains("moved onto a line or a point"), "{said}");

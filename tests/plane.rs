@@ -1,8 +1,9 @@
 //! Scenes of one plane: the bits of the run in three dimensions, discs with a mass and an inertia of their own, an end in words where
 //! a particle leaves the plane.
 
-use cograin::scene::{Scene, Source};
-use cograin::step::{RunError, Simulation};
+use crate::support::read;
+use cograin::scene::Scene;
+use cograin::simulation::{RunError, Simulation};
 use std::sync::Arc;
 
 /// Some spheres of one plane between plates, of which one shakes; a bonded bar that falls among them; a rigid group that is
@@ -70,15 +71,9 @@ motion = { free = ["x", "z", "rotation.y"] }
 losses = true
 "#;
 
-/// The scene of a text.
-fn scene(text: &str) -> Result<Scene, String> {
-    let source = Source { name: "scene.toml".into(), text: text.to_owned(), files: Default::default() };
-    Scene::from_source(&source).map_err(|errors| errors.to_string())
-}
-
 /// The bed with these lines in `[run]`.
 fn bed(run: &str) -> Scene {
-    scene(&BED.replace("RUN", run)).unwrap_or_else(|errors| panic!("{errors}"))
+    read(&BED.replace("RUN", run)).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// The whole state after some communication steps.
@@ -132,7 +127,7 @@ fn a_disc_rolls_down_a_slope_with_its_own_mass_and_inertia() {
     // a = g sin θ / (1 + I/(m r²)): I/(m r²) is 1/2 of a disc about its axis, 2/5 of a sphere.
     let cases = [("plane_particles = \"discs\"", 0.5, 1.0 / 100.0 * 1200.0), ("", 0.4, 4.0 / 3000.0 * 1200.0)];
     for (word, share, mass) in cases {
-        let scene = scene(&rolling(&format!("plane = \"xz\"\n{word}"))).unwrap();
+        let scene = read(&rolling(&format!("plane = \"xz\"\n{word}"))).unwrap();
         let mut simulation = Simulation::new(Arc::new(scene)).expect("it starts");
         let particles = &simulation.state().particles;
         let [found, inertia] = [particles.velocity[0][3], particles.angular_velocity[0][3]];
@@ -154,7 +149,7 @@ fn a_run_stops_where_a_particle_leaves_the_plane() {
     // A wall that is dragged along y takes the roller along.
     let dragged = |axis: &str| {
         let text = rolling("plane = \"xz\"") + &format!("motion = {{ prescribed = {{ {axis} = 0.1 }} }}\n");
-        let mut simulation = Simulation::new(Arc::new(scene(&text).unwrap())).expect("it starts");
+        let mut simulation = Simulation::new(Arc::new(read(&text).unwrap())).expect("it starts");
         simulation.advance(0.1)
     };
     assert_eq!(dragged("x"), Ok(()));

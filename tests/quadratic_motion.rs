@@ -1,9 +1,8 @@
 //! Boundaries that go through a communication step at constant acceleration, and the slope of the force on them.
 
+use crate::support;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
-use std::sync::Arc;
+use cograin::simulation::Simulation;
 
 /// The first boundary.
 const FLOOR: BoundaryIndex = BoundaryIndex(0);
@@ -41,9 +40,7 @@ input = "{input}"
 "#,
         damping = if held { 0.0 } else { 50.0 }
     );
-    let source = Source { name: "scene.toml".into(), text, files: std::collections::BTreeMap::new() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
+    support::start(&text)
 }
 
 /// Sends the floor to a height \[m\] at an acceleration \[m/s²\] within a communication step \[s\].
@@ -101,13 +98,13 @@ fn an_acceleration_counts_for_one_step_and_goes_with_the_state() {
     let mut simulation = start(false, "quadratic");
     give(&mut simulation, 1.0e-5, 50.0, length);
     let saved = simulation.state().clone();
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     let first = simulation.state().clone();
     simulation.restore(&saved).expect("it is its own state");
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     assert_eq!(simulation.state().boundaries, first.boundaries);
     // A second step without: at constant velocity, or rather at rest.
-    simulation.advance_or_return(length).expect("it runs");
+    simulation.advance_or_roll_back(length).expect("it runs");
     let floor = &simulation.state().boundaries[0];
     assert_eq!((floor.displacement[2], floor.velocity[2], floor.acceleration), (1.0e-5, 0.0, [0.0; 3]));
 }

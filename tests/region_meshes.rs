@@ -1,6 +1,7 @@
 //! Regions inside of meshes: what they say is what boxes of the same shape say, and nothing depends on how the work is shared.
 
-use crate::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, start_with, value};
+use crate::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, value};
+use crate::support::start_with;
 use cograin::averages::{self, Tensor};
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;
@@ -18,7 +19,7 @@ fn alike(scale: f64, corner: Vector) -> String {
 }
 
 /// Compares both regions of a bed.
-fn compare(simulation: &cograin::step::Simulation, wide: bool) {
+fn compare(simulation: &cograin::simulation::Simulation, wide: bool) {
     let [mesh, cuboid] = averages::contents(simulation)[..] else { panic!("two regions") };
     assert!((mesh.solid - cuboid.solid).abs() < 1e-12 * cuboid.solid, "{} {}", mesh.solid, cuboid.solid);
     assert!((mesh.mass - cuboid.mass).abs() < 1e-12 * cuboid.mass);
@@ -74,8 +75,9 @@ fn a_region_in_a_mesh_goes_with_the_boundary_that_it_follows() {
     let region =
         "[region.moving]\nmesh = { file = \"box.obj\", scale = 25.0, offset = [0.0, -0.5, -0.5] }\nfollows = \"lid\"\n";
     let mut simulation = start_with(&format!("{PRESSED}{region}"), mesh_files());
-    let part =
-        |simulation: &cograin::step::Simulation| (1.0 - value(simulation, "moving.porosity")) / (0.01_f64).powi(3);
+    let part = |simulation: &cograin::simulation::Simulation| {
+        (1.0 - value(simulation, "moving.porosity")) / (0.01_f64).powi(3)
+    };
     assert!((part(&simulation) - 2.0 / 3.0 * PI).abs() < 1e-9);
     simulation.set_input(BoundaryIndex(1), 0, 0.004);
     simulation.advance(1e-4).expect("it runs");

@@ -11,31 +11,18 @@
 //! The left side is what the contacts carry (times the volume, tension positive). Its part that is not symmetric is what makes the
 //! particles turn faster, less the couples of the walls: −Σ l × f = Σ T − Σ_walls C.
 
+use crate::support::{start, start_with};
 use cograin::averages::{self, Tensor};
 use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// A vector.
 pub(crate) type Vector = [f64; 3];
-
-/// A scene at time 0, with these files.
-pub(crate) fn start_with(text: &str, files: BTreeMap<String, Vec<u8>>) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
-
-/// A scene at time 0.
-pub(crate) fn start(text: &str) -> Simulation {
-    start_with(text, BTreeMap::new())
-}
 
 /// The present value of an output.
 #[track_caller]

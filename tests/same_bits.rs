@@ -3,12 +3,11 @@
 //! Hashes are of the whole state: positions alone would forgive what has not yet moved them. `every_law.rs` looks at
 //! every law, and at what the platform brings along.
 
+use crate::support::start;
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
-use std::sync::Arc;
 
 /// Two materials, rolling friction and cohesion, a driven floor, damping, a falling cloud that meets it: enough
 /// particles for several threads, and motion enough for new neighbour lists.
@@ -77,9 +76,7 @@ fn simulation(threads: usize) -> Simulation {
 /// The scene with this many threads and this skin.
 fn simulation_with(threads: usize, skin: &str) -> Simulation {
     let text = SCENE.replace("THREADS", &threads.to_string()).replace("SKIN", skin);
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start(&text)
 }
 
 /// Runs some communication steps with a moving floor.

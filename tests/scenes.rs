@@ -373,13 +373,13 @@ fn thousands_of_materials_are_refused_before_memory_is_asked_for() {
 }
 
 #[test]
-fn a_damaged_array_of_a_vtk_file_is_told_in_words() {
+fn damaged_data_of_a_vtk_file_are_told_in_words() {
     let (_, mut source) = Scene::read(&folder("good").join("from_vtu.toml")).unwrap();
     let whole = source.files.values().next().unwrap().clone();
     let file = String::from_utf8(whole).unwrap().replacen("format=\"ascii\">", "format=\"binary\">AAAA", 1);
     *source.files.values_mut().next().unwrap() = file.into_bytes();
     let message = Scene::from_source(&source).unwrap_err().to_string();
-    assert!(message.contains("cut short or damaged"), "{message}");
+    assert!(message.ends_with("found an array of points that is cut short or damaged"), "{message}");
 }
 
 #[test]
@@ -392,5 +392,5 @@ fn bonds_arrive_by_distance_and_by_list() {
         chain.pairs.iter().map(|pair| pair.map(|index| scene.particles[index as usize].id.0)).collect();
     assert_eq!(ids, [[20, 10], [30, 10]]);
     let limits = &chain.law.breakage[..];
-    assert!(matches!(limits, [Rule::ByStress(rule)] if rule.compression_strength == 1e7), "{limits:?}");
+    assert!(matches!(limits, [Rule::StressLimits(rule)] if rule.compression_strength == 1e7), "{limits:?}");
 }

@@ -1,11 +1,12 @@
 //! Schemes of `[run] scheme` and what `accuracy` makes of them: chosen by a word, with the same bits whatever the lane width, the number of threads,
 //! and whether a state was saved on the way.
 
+use crate::support::checked;
 use cograin::contact::Scheme;
 use cograin::lanes::Width;
-use cograin::scene::{Accuracy, Scene, Source, Step};
+use cograin::scene::{Accuracy, Scene, Step};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::sync::Arc;
 
 /// A cloud that falls on a plane, on a turning drum's wall and on itself.
@@ -60,8 +61,7 @@ damping.viscous = { normal_force = 0.2, tangential_force = 0.3, normal_torque = 
 /// The scene with these lines in `[run]`, this tangential model and more tables.
 fn scene(run: &str, tangential: &str, more: &str) -> Scene {
     let text = format!("{SCENE}{more}").replace("RUN", run).replace("TANGENTIAL", tangential);
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    checked(&text)
 }
 
 /// Hash of the state after some communication steps in this lane width; saved and restored on the way, if asked for.
@@ -104,8 +104,7 @@ fn every_scheme_has_the_same_bits_in_every_lane_width_on_any_threads_and_after_a
 fn accuracy_chooses_scheme_and_step_where_the_scene_does_not() {
     let of = |run: &str| {
         let text = SCENE.replace("step = 2.0e-5\n", "").replace("RUN", run).replace("TANGENTIAL", "history");
-        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-        let run = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).run;
+        let run = checked(&text).run;
         let Step::Automatic { safety } = run.step else { panic!("no step is given") };
         (run.accuracy, run.scheme, safety)
     };

@@ -1,25 +1,13 @@
 //! Servos reach a force: as fast as waves allow, without overshoot, gently at an impact, and they keep it.
 
+use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// The plate with the servo: boundaries stand in the order of the text.
 const PLATE: BoundaryIndex = BoundaryIndex(0);
-
-/// A scene.
-fn scene(text: &str) -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
-}
-
-/// A scene at time 0.
-fn start(text: &str) -> Simulation {
-    Simulation::new(scene(text)).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// Radius of the spheres of a block \[m\].
 const RADIUS: f64 = 1e-3;

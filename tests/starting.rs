@@ -4,11 +4,11 @@
 //! or none where it was too far away. Setting one in a scene that began in a reached state shifted the energy book, and
 //! a settled state kept what damping had taken of its bonds.
 
+use crate::support;
 use cograin::interface::{Interface, Value};
-use cograin::scene::{Scene, Source};
+use cograin::scene::Scene;
+use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::step::Simulation;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A row of bonded spheres, held at one end and driven at the other.
@@ -48,8 +48,7 @@ energy = true
 
 /// The scene.
 fn scene() -> Arc<Scene> {
-    let source = Source { name: "scene.toml".into(), text: BEAM.into(), files: BTreeMap::new() };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    support::scene(BEAM)
 }
 
 /// Gives the tip a displacement.
@@ -153,11 +152,11 @@ fn a_communication_step_that_fails_leaves_the_state_of_its_beginning() {
     let mut simulation = Simulation::new(scene()).unwrap();
     for number in 0..100 {
         set(&mut simulation, 1e-7 * f64::from(number % 7));
-        simulation.advance_or_return(2e-6).unwrap();
+        simulation.advance_or_roll_back(2e-6).unwrap();
         if number % 9 == 0 {
             let before = simulation.state().clone();
             set(&mut simulation, 1.0);
-            let error = simulation.advance_or_return(1e-6 * f64::from(5 + number % 5)).unwrap_err();
+            let error = simulation.advance_or_roll_back(1e-6 * f64::from(5 + number % 5)).unwrap_err();
             let mut asked = before.clone();
             asked.boundaries[1].target[2] = 1.0;
             assert!(*simulation.state() == asked, "after {number} steps: {error}");
@@ -170,10 +169,10 @@ fn an_interval_is_stopped_from_outside_and_taken_back() {
     let mut simulation = Simulation::new(scene()).unwrap();
     let stop = Arc::default();
     simulation.stop_when(&stop);
-    simulation.advance_or_return(5e-6).unwrap();
+    simulation.advance_or_roll_back(5e-6).unwrap();
     let before = simulation.state().clone();
     stop.store(true, std::sync::atomic::Ordering::Relaxed);
-    let error = simulation.advance_or_return(1.0).unwrap_err().to_string();
+    let error = simulation.advance_or_roll_back(1.0).unwrap_err().to_string();
     assert!(error.starts_with("stopped at t = "), "{error}");
     assert_eq!(*simulation.state(), before);
 }

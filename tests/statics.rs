@@ -1,20 +1,11 @@
 //! The condensed stiffness of boundaries: against closed forms, and against what the time steps come to when they have
 //! settled.
 
+use crate::support::start;
 use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::statics::{Stiffness, stiffness};
-use cograin::step::Simulation;
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// A simulation of this text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".to_owned(), text: text.to_owned(), files: BTreeMap::new() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// The last boundary of a scene.
 fn last(simulation: &Simulation) -> BoundaryIndex {
@@ -83,7 +74,7 @@ motion = {{ driven = ["x", "z"] }}
 
 #[test]
 fn bonds_in_a_row_are_springs_in_series() {
-    let found = of_last(&simulation(&bonded([1, 1, 6])));
+    let found = of_last(&start(&bonded([1, 1, 6])));
     // five bonds of k_n times their area, pi r²
     let expected = 1.0e10 * std::f64::consts::PI * 1.0e-4 / 5.0;
     let along = found.boundaries[0].matrix[2][2];
@@ -94,7 +85,7 @@ fn bonds_in_a_row_are_springs_in_series() {
 
 #[test]
 fn a_unit_shows_the_stiffness_of_its_boundaries() {
-    let simulation = simulation(&(bonded([1, 1, 6]) + "[output]\nstiffness = true\n"));
+    let simulation = start(&(bonded([1, 1, 6]) + "[output]\nstiffness = true\n"));
     let interface = Interface::of(simulation.scene());
     let expected = of_last(&simulation).boundaries[0].matrix;
     for (axis, name) in ["top.stiffness.x", "top.stiffness.y", "top.stiffness.z"].into_iter().enumerate() {
@@ -106,7 +97,7 @@ fn a_unit_shows_the_stiffness_of_its_boundaries() {
 
 #[test]
 fn a_bonded_block_is_as_stiff_as_it_is_when_time_steps_have_settled() {
-    let mut simulation = simulation(&bonded([2, 2, 4]));
+    let mut simulation = start(&bonded([2, 2, 4]));
     let found = of_last(&simulation);
     for axis in [0, 2] {
         let (condensed, expected) =
@@ -170,7 +161,7 @@ plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
 material = "glass"
 motion = { driven = ["x", "z"] }
 "#;
-    let mut simulation = simulation(text);
+    let mut simulation = start(text);
     // pressed and sheared a little, and left alone
     settled_force(&mut simulation, 2, 2.0e-6, 0.05);
     settled_force(&mut simulation, 0, 1.0e-6, 0.05);
@@ -200,7 +191,7 @@ fn particles_that_nothing_holds_are_told() {
         "[bond.neck]",
         "[particles.dust]\nmaterial = \"ice\"\nlist = [{ position = [1.0, 0.0, 0.0], radius = 0.01 }]\n\n[bond.neck]",
     );
-    let simulation = simulation(&text);
+    let simulation = start(&text);
     let found = of_last(&simulation);
     assert_eq!(found.rattlers, [simulation.scene().particles.len() as u32 - 1]);
 }
@@ -209,7 +200,7 @@ fn particles_that_nothing_holds_are_told() {
 fn what_has_no_static_stiffness_is_refused_by_name() {
     let text =
         bonded([1, 1, 4]).replace("[damping.all]", "[bond.neck.relaxation]\nnormal_force = 1.0\n\n[damping.all]");
-    let simulation = simulation(&text);
+    let simulation = start(&text);
     let error = stiffness(&simulation, &[last(&simulation)]).unwrap_err().to_string();
     assert_eq!(
         error,

@@ -1,18 +1,10 @@
 //! Contacts that a bond suppresses: nothing of them while bonded, and no jump when the bond breaks.
 
+use crate::support::start;
 use cograin::lanes::Width;
-use cograin::scene::{Scene, Source};
+use cograin::simulation::Simulation;
 use cograin::state::State;
 use cograin::state::contacts::{BONDED, RELEASED, TOUCHING, is_resting};
-use cograin::step::Simulation;
-use std::sync::Arc;
-
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
-}
 
 /// Two spheres that overlap by 2 % of their radius and are bonded.
 const PAIR: &str = r#"
@@ -50,7 +42,7 @@ energy = true
 
 /// That scene.
 fn pair(contact: &str, velocity: &str, restitution: f64, step: f64) -> Simulation {
-    simulation(
+    start(
         &PAIR
             .replace("CONTACT", contact)
             .replace("VELOCITY", velocity)
@@ -157,7 +149,7 @@ fn pressed(step: f64) -> Simulation {
         .replace("RESTITUTION", "1.0")
         .replace("STEP", &format!("{step:?}"))
         .replace("max_distance = 1.984e-3", "max_normal_stress = 5.0e4\ncompression_breaks = true");
-    simulation(&text)
+    start(&text)
 }
 
 #[test]
@@ -193,7 +185,7 @@ fn a_bond_made_anew_suppresses_the_contact_again() {
         .replace("RESTITUTION", "0.5")
         .replace("STEP", "1e-7")
         .replace("create_distance = 2.0e-3", "create_distance = 1.9835e-3\ncreate = \"always\"");
-    let mut simulation = simulation(&text);
+    let mut simulation = start(&text);
     // At time 0 nothing is bonded: the contact acts, also in the step in which the bond is made.
     assert!(simulation.state().particles.force[0][0] < 0.0);
     simulation.advance(1e-7).unwrap();
@@ -274,7 +266,7 @@ energy = true
 
 /// That scene with this many threads.
 fn block(threads: usize) -> Simulation {
-    simulation(&BLOCK.replace("THREADS", &threads.to_string()))
+    start(&BLOCK.replace("THREADS", &threads.to_string()))
 }
 
 /// Runs some communication steps. Returns how many bonds broke.

@@ -3,13 +3,12 @@
 //!
 //! Unless something else is said: radius 5 mm, density 2500 kg/m³, E = 5 MPa and ν = 0.3 of both.
 
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use crate::support::start_with;
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 /// Radius of the spheres \[m\].
 const RADIUS: f64 = 5e-3;
@@ -83,9 +82,7 @@ material = "stone"
         list.join(", ")
     );
     let files = BTreeMap::from([("wall.obj".to_owned(), obj(mesh))]);
-    let source = Source { name: "scene.toml".into(), text, files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap_or_else(|error| panic!("{error}"))
+    start_with(&text, files)
 }
 
 /// A boundary of that mesh.

@@ -3,9 +3,10 @@
 //!
 //! Unless something else is said: radius 5 mm, E = 5 MPa and ν = 0.3 of both, hence E* = 2.7473 MPa; F(δ) = 4/3 E* √(R δ³).
 
+use crate::support::{scene_with, start_with};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, SceneDraft, Source};
-use cograin::step::Simulation;
+use cograin::scene::{Scene, SceneDraft};
+use cograin::simulation::Simulation;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
@@ -71,8 +72,7 @@ list = [{}]
         spheres.join(", ")
     );
     let files: BTreeMap<String, Vec<u8>> = files.iter().map(|(name, list)| ((*name).to_owned(), stl(list))).collect();
-    let source = Source { name: "scene.toml".into(), text, files };
-    Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+    scene_with(&text, files)
 }
 
 /// Friction and rolling resistance.
@@ -736,9 +736,7 @@ material = "wall"
     let corners = [[-0.05, -0.05, 0.0], [0.05, -0.05, 0.0], [0.05, 0.05, 0.0], [-0.05, 0.05, 0.0]];
     let floor = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
     let files = BTreeMap::from([("floor.stl".to_owned(), stl(&floor))]);
-    let source = Source { name: "scene.toml".into(), text, files };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let mut simulation = Simulation::new(Arc::new(scene)).expect("it starts");
+    let mut simulation = start_with(&text, files);
     let step = |_| {
         simulation.advance(2e-7).unwrap_or_else(|error| panic!("{error}"));
         let particles = &simulation.state().particles;

@@ -10,7 +10,7 @@ pub enum ChartError {
     Scene(#[from] SceneErrors),
     /// A scene stopped.
     #[error(transparent)]
-    Run(#[from] cograin::step::RunError),
+    Run(#[from] cograin::simulation::RunError),
     /// A scene does not say when it ends.
     #[error("the scene has no [run] end; a chart of it needs one (--set run.end=0.5)")]
     NoEnd,

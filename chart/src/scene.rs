@@ -5,7 +5,7 @@ use crate::table::Table;
 use crate::{ChartError, Drawing};
 use cograin::interface::{Interface, Quantity};
 use cograin::scene::{Models, Scene, SceneDraft, Setting, Step};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -126,7 +126,7 @@ impl SceneChart {
             self.parts().into_iter().rev().map(|part| (part, 1)).chain([(own, 1), (own, DIVISIONS)]).collect();
         let runs: Vec<_> = wanted.par_iter().with_max_len(1).map(|&(part, count)| self.run(part, count)).collect();
         let mut runs = runs.into_iter();
-        let right = runs.next().expect("the finest step is among them")?;
+        let expected = runs.next().expect("the finest step is among them")?;
         let coarser: Vec<_> = runs.by_ref().take(self.parts().len() - 1).collect();
         let mut table = Table::new(COLUMNS);
         let mut notes = Vec::new();
@@ -139,7 +139,7 @@ impl SceneChart {
                     continue;
                 }
             };
-            let worst = self.compare(&run, &right, &mut table);
+            let worst = self.compare(&run, &expected, &mut table);
             notes.push(format!(
                 "{word} {part}: {} time steps, {:.2e} s, error {:.1e} at any moment, {:.1e} in the mean",
                 run.steps, run.seconds, worst[0], worst[1]
@@ -177,7 +177,7 @@ impl SceneChart {
     }
 
     /// Adds how far a run is from the finest one, a row for each quantity. Returns the worst at any moment and in the mean.
-    fn compare(&self, run: &Run, right: &Run, table: &mut Table) -> [f64; 2] {
+    fn compare(&self, run: &Run, expected: &Run, table: &mut Table) -> [f64; 2] {
         let interface = Interface::of(&self.scene);
         let columns: Vec<(usize, Quantity)> =
             interface.outputs().map(|(_, variable)| variable.quantity).enumerate().collect();
@@ -188,16 +188,16 @@ impl SceneChart {
         for kind in kinds.into_iter().filter(|kind| *kind != Quantity::Time) {
             let own = || columns.iter().filter(|(_, quantity)| *quantity == kind).map(|(place, _)| *place);
             let largest =
-                own().flat_map(|place| right.rows.iter().map(move |row| row[place].abs())).fold(0.0, f64::max);
+                own().flat_map(|place| expected.rows.iter().map(move |row| row[place].abs())).fold(0.0, f64::max);
             if largest == 0.0 {
                 continue;
             }
             let (mut moment, mut mean) = (0.0_f64, 0.0_f64);
             for place in own() {
                 let difference = |(a, b): (&Vec<f64>, &Vec<f64>)| a[place] - b[place];
-                let all = || run.rows.iter().zip(&right.rows).map(difference);
+                let all = || run.rows.iter().zip(&expected.rows).map(difference);
                 moment = all().map(f64::abs).fold(moment, f64::max);
-                mean = mean.max((all().sum::<f64>() / right.rows.len() as f64).abs());
+                mean = mean.max((all().sum::<f64>() / expected.rows.len() as f64).abs());
             }
             let errors = [moment / largest, mean / largest];
             worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];

@@ -270,7 +270,7 @@ fn read(models: &Models, arguments: &SceneArguments) -> Result<(Scene, Source), 
 fn files_read(scene: &Path, source: &Source, others: &[&Option<PathBuf>]) -> Vec<PathBuf> {
     let folder = scene.parent().unwrap_or(Path::new(""));
     let named = source.files.keys().map(|file| folder.join(file));
-    let others = others.iter().filter_map(|path| path.as_ref().map(PathBuf::clone));
+    let others = others.iter().filter_map(|path| (*path).clone());
     std::iter::once(scene.to_owned()).chain(named).chain(others).collect()
 }
 

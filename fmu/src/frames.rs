@@ -7,7 +7,7 @@
 use cograin::interface::{FRAMES, Interface};
 use cograin::results::{Failure, OutputError};
 use cograin::run::FrameWriter;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::ffi::{CStr, CString};
 use std::path::{Path, PathBuf};

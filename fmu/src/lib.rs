@@ -6,6 +6,7 @@
 //! in a zero, and pointers to results may be written. Components and state handles are looked up, not followed:
 //! wrong ones are refused.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![allow(clippy::missing_safety_doc, reason = "the demands are those of FMI 2.0, stated above once for all functions")]
 
 mod calls;

@@ -3,7 +3,7 @@
 use crate::calls::Phase;
 use crate::types::Status;
 use cograin::interface::InterfaceError;
-use cograin::step::RunError;
+use cograin::simulation::RunError;
 
 /// Why a call was refused. Nothing has changed then, but by [`Refusal::Panic`].
 #[derive(Debug, thiserror::Error)]
@@ -67,26 +67,26 @@ pub(crate) enum Refusal {
         value: f64,
     },
     /// A derivative of an order that is not taken.
-    #[error("{reference} ({name}): expected {right}, found order {order}")]
+    #[error("{reference} ({name}): expected {expected}, found order {order}")]
     Order {
         /// The order.
         order: i32,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
         /// The variable's value reference.
         reference: u32,
         /// Its name.
         name: String,
     },
     /// A time that is not a finite number.
-    #[error("{argument}: expected {right}, found {value} s")]
+    #[error("{argument}: expected {expected}, found {value} s")]
     Time {
         /// The argument.
         argument: &'static str,
         /// Its value \[s\].
         value: f64,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
     },
     /// A tolerance that is not a finite number of 0 or above.
     #[error("tolerance: expected a finite number of 0 or above, found {value}")]

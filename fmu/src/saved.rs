@@ -1,7 +1,7 @@
 //! Saved states of an instance, and their bytes.
 
 use crate::calls::Phase;
-use crate::instance::Given;
+use crate::instance::GivenParameters;
 use crate::types::Status;
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
@@ -15,7 +15,7 @@ pub(crate) struct Saved {
     /// What else there is.
     pub(crate) course: Course,
     /// The parameters that the simulation was made with.
-    pub(crate) given: Given,
+    pub(crate) given: GivenParameters,
 }
 
 /// What changes beside the simulation.
@@ -140,7 +140,7 @@ impl Saved {
             stop: stop.is_finite().then_some(stop),
         };
         reader.bytes = &reader.bytes[length..];
-        let mut given = Given::new();
+        let mut given = GivenParameters::new();
         for _ in 0..u64::from_le_bytes(reader.take()?) {
             given.insert(u64::from_le_bytes(reader.take()?) as usize, f64::from_le_bytes(reader.take()?));
         }

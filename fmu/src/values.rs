@@ -293,6 +293,6 @@ pub unsafe extern "C" fn fmi2GetStringStatus(component: Component, kind: c_int, 
 }
 
 /// Whether the kind of status is the one that a function is for.
-fn of_kind(kind: c_int, right: c_int) -> Result<(), Refusal> {
-    if kind == right { Ok(()) } else { Err(Refusal::Kind { kind }) }
+fn of_kind(kind: c_int, expected: c_int) -> Result<(), Refusal> {
+    if kind == expected { Ok(()) } else { Err(Refusal::Kind { kind }) }
 }

@@ -102,7 +102,7 @@ fn what_has_no_derivative_is_refused_by_name() {
     let output = host.change(&["floor.force.z"], &["floor.force.x"], &[1.0]);
     host.refused(output.expect_err("it is not an input"), &["floor.force.x", "expected an input"]);
     host.refused(host.rate("energy.kinetic", 1).expect_err("it has none"), &["energy.kinetic", "mean_force"]);
-    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "order 1 is right"]);
+    host.refused(host.rate("floor.force.z", 2).expect_err("it is the wrong order"), &["order 2", "expected order 1"]);
 }
 
 #[test]

@@ -173,7 +173,7 @@ fn parameters_that_make_no_scene_are_told_at_the_start_and_can_be_mended() {
 #[test]
 fn a_unit_that_begins_in_a_state_takes_other_parameters_there() {
     let scene = std::sync::Arc::new(cograin::scene::Scene::from_source(&source()).unwrap());
-    let mut reached = cograin::step::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
+    let mut reached = cograin::simulation::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
     reached.advance(1.0e-3).unwrap();
     let bytes = reached.state().to_bytes(scene.fingerprint);
     let unit = Unpacked::begun(&source(), Some(bytes), "begun");

@@ -174,7 +174,7 @@ fn a_step_that_nobody_would_see_the_end_of_is_refused_with_the_count() {
 fn a_unit_that_begins_in_a_state_counts_from_there_whatever_is_set() {
     let source = source();
     let scene = std::sync::Arc::new(cograin::scene::Scene::from_source(&source).unwrap());
-    let mut simulation = cograin::step::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
+    let mut simulation = cograin::simulation::Simulation::new(std::sync::Arc::clone(&scene)).unwrap();
     simulation.advance(2.0e-3).unwrap();
     assert!(simulation.dissipated_energy().unwrap() != 0.0);
     let state = simulation.state().to_bytes(scene.fingerprint);

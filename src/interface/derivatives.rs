@@ -1,7 +1,7 @@
 //! How outputs change with inputs and in time.
 
 use super::{Causality, Findings, Interface, InterfaceError, Quantity, Source, Type, Variability, Variable, rows};
-use crate::step::{Input, Simulation};
+use crate::engine::simulation::{Input, Simulation};
 
 /// What has been found of the derivatives of the last communication step. As [`Findings`] it is part of no state: whoever changes the
 /// simulation forgets it.

@@ -1,6 +1,6 @@
 //! Why a variable was not set.
 
-use crate::step::{NoDerivative, TuneError};
+use crate::engine::simulation::{NoDerivative, TuneError};
 
 /// Why a variable was not set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum InterfaceError {
         index: usize,
         /// Its name.
         name: String,
-        /// What was found and what would be right, as the scene says it.
+        /// What was found and what was expected, as the scene says it.
         refusal: String,
     },
     /// A parameter is not an input.

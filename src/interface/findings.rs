@@ -1,10 +1,10 @@
-//! What a pass over particles or contacts is needed for, found once at a communication point.
+//! Quantities that need a pass over particles or contacts: each is computed once at a communication point.
 
-use crate::averages::{self, Content, Coordination, Tensor};
-use crate::quantity::BoundaryIndex;
-use crate::state::Loss;
-use crate::statics;
-use crate::step::{ElasticEnergy, Simulation};
+use crate::base::quantity::BoundaryIndex;
+use crate::engine::averages::{self, Content, Coordination, Tensor};
+use crate::engine::simulation::{ElasticEnergy, Simulation};
+use crate::engine::state::Loss;
+use crate::engine::statics;
 use std::cell::OnceCell;
 
 /// What has been found of a simulation since it last changed. Nothing is looked for before it is asked for, and

@@ -1,8 +1,8 @@
 //! Losses as outputs: what each is, and which a scene can have.
 
-use crate::contact::Law;
+use crate::engine::state::Loss;
+use crate::laws::contact::Law;
 use crate::scene::Scene;
-use crate::state::Loss;
 
 /// Name and description of each of [`Loss::ALL`].
 pub(super) const LOSSES: [(&str, &str); Loss::COUNT] = [

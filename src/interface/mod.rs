@@ -20,9 +20,9 @@ pub use findings::Findings;
 pub use quantity::{Quantity, Type};
 pub use texts::FRAMES;
 
+use crate::engine::simulation::Simulation;
+use crate::engine::state::State;
 use crate::scene::Scene;
-use crate::state::State;
-use crate::step::Simulation;
 use parameters::Parameter;
 use reader::Reader;
 use rows::Present;

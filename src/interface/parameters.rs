@@ -1,8 +1,8 @@
 //! Numbers of the scene as variables that may be given.
 
 use super::{Causality, Quantity, Source, Value, Variability, Variable};
+use crate::engine::simulation::Simulation;
 use crate::scene::{Range, Scene};
-use crate::step::Simulation;
 
 /// A parameter of the scene.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,13 @@
 //! The table that a scene gives.
 
 use super::*;
-use crate::contact::{Material, PairProperties};
-use crate::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::engine::state::BoundaryState;
+use crate::laws::contact::{Material, PairProperties};
+use crate::laws::surface::{Group, Plane};
 use crate::scene::{
     AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Particle, ParticleShape, SceneDraft, Shape,
 };
-use crate::state::BoundaryState;
-use crate::surface::{Group, Plane};
 
 /// A scene of one sphere, a driven plane, a plane that moves by itself, and the sphere as a group that stands.
 fn scene() -> Scene {

@@ -1,9 +1,9 @@
 //! How variables are set: values, rates, second derivatives.
 
 use super::{Causality, Interface, InterfaceError, Source, Value, Variable, rows};
-use crate::quantity::BoundaryIndex;
+use crate::base::quantity::BoundaryIndex;
+use crate::engine::simulation::{Input, Simulation};
 use crate::scene::{self, InputCourse, Models, Scene, SceneErrors};
-use crate::step::{Input, Simulation};
 use std::collections::BTreeMap;
 
 impl Interface {

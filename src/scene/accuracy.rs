@@ -1,6 +1,6 @@
 //! What scheme and time step a scene takes where it names neither.
 
-use crate::contact::Scheme;
+use crate::laws::contact::Scheme;
 use serde::Deserialize;
 
 /// Fraction of the stable step that an automatic time step takes if the scene names none.

@@ -23,7 +23,7 @@ pub struct Boundary {
 
 impl Boundary {
     /// The plane that it is and stays parallel to, whose particles are worked on in lanes.
-    pub(crate) fn shifting_plane(&self) -> Option<crate::surface::Plane> {
+    pub(crate) fn shifting_plane(&self) -> Option<crate::laws::surface::Plane> {
         self.shape.plane().filter(|_| !self.turns())
     }
 

@@ -22,7 +22,7 @@ pub struct Damping {
 pub struct AppliedForce {
     /// Its name in the scene.
     pub name: String,
-    /// Indices into [`Scene::particles`], ascending.
+    /// Indices into [`SceneDraft::particles`](super::SceneDraft::particles), ascending.
     pub members: Vec<u32>,
     /// Force on each \[N\].
     pub force: [f64; 3],

@@ -1,8 +1,8 @@
 //! Which contact law governs two materials, and what is kept of the contacts of a law.
 
 use super::SceneDraft;
-use crate::bond::creation::ContactPolicy;
-use crate::contact::{HistoryRow, Law, OFFSET};
+use crate::laws::bond::creation::ContactPolicy;
+use crate::laws::contact::{HistoryRow, Law, OFFSET};
 
 /// The contact law of each two materials: the only place that says which law governs a contact.
 #[derive(Clone, Debug)]

@@ -8,28 +8,31 @@ mod body;
 mod boundary;
 mod checked;
 mod damping;
-mod exchange;
+pub mod exchange;
+pub(crate) mod file;
 mod governing;
+pub(crate) mod import;
 mod models;
 mod output;
+pub(crate) mod packing;
 mod parameters;
 mod plane;
 mod region;
 mod source;
 mod statics;
 
-pub use crate::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
-pub use crate::exchange::Outside;
-pub use crate::motion::{AxisMotion, InputCourse, NodeMotion};
-pub use crate::packing::PackingProgress;
-pub use crate::surface::Shape;
+pub use crate::base::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
+pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
+pub use crate::laws::surface::Shape;
+pub use crate::scene::exchange::Outside;
+pub use crate::scene::packing::PackingProgress;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
 pub use checked::Scene;
 pub use damping::{AppliedForce, Damping};
-pub(crate) use exchange::Known;
-pub use exchange::{FlowMeter, Insertion, Outlet, OutletPlace};
+pub(crate) use exchange::parts::Known;
+pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
@@ -41,10 +44,10 @@ pub use plane::{MotionPlane, ParticleShape};
 pub use region::Region;
 pub use source::Source;
 
-use crate::contact::{
+use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
+use crate::laws::contact::{
     CohesionModel, LawChoice, Material, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
 };
-use crate::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 
 /// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
@@ -113,7 +116,7 @@ pub struct SceneDraft {
     pub output: Output,
     /// Numbers of the text that a unit shows as its parameters; none in a scene built in code.
     pub parameters: Vec<Parameter>,
-    /// Of the text, every file it names and the program's version; 0 for a scene built in code.
+    /// Fingerprint of the text, every file it names and the program's version; 0 for a scene built in code.
     pub fingerprint: u64,
 }
 
@@ -193,7 +196,7 @@ pub enum Step {
 pub struct ContactLaw {
     /// Its name in the scene.
     pub name: String,
-    /// Whose contacts it governs; `between[a * materials + b]` and the mirrored entry are equal.
+    /// The pairs of materials that it governs; `between[a * materials + b]` and the mirrored entry are equal.
     pub between: Vec<bool>,
     /// Normal sub-model.
     pub normal: NormalModel,
@@ -223,18 +226,18 @@ pub struct Bond {
     /// Its name in the scene.
     pub name: String,
     /// As the scene writes it; the type of the law follows from it.
-    pub keys: crate::bond::keys::Keys,
+    pub keys: crate::laws::bond::keys::Keys,
     /// The law in numbers.
-    pub law: crate::bond::Law,
-    /// Between which sets of particles (one twice: inside it, or at a plane).
+    pub law: crate::laws::bond::Law,
+    /// The two sets of particles that it bonds (one twice: inside it, or at a plane).
     pub between: [SetIndex; 2],
     /// The plane to which the set is bonded; none where particles are bonded to each other.
     pub plane: Option<BoundaryIndex>,
     /// When bonds are made.
-    pub create: crate::bond::creation::Creation,
+    pub create: crate::laws::bond::creation::Creation,
     /// Centres nearer than this are bonded \[m\].
     pub create_distance: Option<f64>,
-    /// Listed pairs: indices into [`Scene::particles`].
+    /// Listed pairs: indices into [`SceneDraft::particles`].
     pub pairs: Vec<[u32; 2]>,
 }
 
@@ -254,7 +257,7 @@ pub struct Particle {
     pub set: SetIndex,
     /// What it is made of.
     pub material: MaterialIndex,
-    /// What its mass and moment of inertia are those of.
+    /// The body whose mass and moment of inertia it has.
     pub shape: ParticleShape,
     /// Radius \[m\].
     pub radius: f64,
@@ -288,7 +291,7 @@ impl SceneDraft {
         if !self.contacts.iter().any(cohesive) {
             return None;
         }
-        let pair = crate::contact::MaterialPair {
+        let pair = crate::laws::contact::MaterialPair {
             a: &self.materials[a],
             b: &self.materials[b],
             properties: &self.pairs[entry],

@@ -1,6 +1,6 @@
 //! The sub-models that scenes may name.
 
-use crate::contact::{
+use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
     RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };

@@ -1,6 +1,6 @@
 //! What a run writes.
 
-use crate::quantity::Positive;
+use crate::base::quantity::Positive;
 use serde::{Deserialize, Deserializer};
 
 /// `[output]`: what a run writes; what is absent is not computed.

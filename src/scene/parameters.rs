@@ -4,11 +4,11 @@
 //! checked by the type that reads the key.
 
 use super::SceneDraft;
-use crate::bond::Law;
-use crate::bond::keys::KeyError;
-use crate::contact::PairProperties;
-use crate::document;
-use crate::quantity::{MaterialIndex, Positive};
+use crate::base::document;
+use crate::base::quantity::{MaterialIndex, Positive};
+use crate::laws::bond::Law;
+use crate::laws::bond::keys::KeyError;
+use crate::laws::contact::PairProperties;
 use serde::de::value::{Error, F64Deserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -50,7 +50,7 @@ pub(crate) const fn range_of<T: DeserializeOwned>(minimum: Option<f64>, maximum:
 }
 
 impl Range {
-    /// Whether a number is one of them; otherwise what would be right, in the words of a scene's mistakes.
+    /// Whether a number is one of them; otherwise the refusal, in the words of a scene's mistakes.
     pub fn check(&self, value: f64) -> Result<(), String> {
         (self.check)(value)?;
         match self.maximum.filter(|&most| value > most) {

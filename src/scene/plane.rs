@@ -12,7 +12,7 @@ pub enum MotionPlane {
     Xz,
 }
 
-/// `[run] plane_particles`: what a particle's mass and moment of inertia are those of. Contact and bond laws see its
+/// `[run] plane_particles`: the body whose mass and moment of inertia a particle has. Contact and bond laws see its
 /// radius and mass alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum ParticleShape {
@@ -52,8 +52,12 @@ pub(crate) type Objection = (String, &'static str, Mistake);
 pub(crate) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     let Some(MotionPlane::Xz) = scene.run.plane else { return Vec::new() };
     let mut objections = Vec::new();
-    let mut leaves = |table: String, key: &'static str, found: String, right: &str| {
-        objections.push((table, key, Mistake::Wrong { found, right: format!("{right} with plane = \"xz\"") }));
+    let mut leaves = |table: String, key: &'static str, found: String, expected: &str| {
+        objections.push((
+            table,
+            key,
+            Mistake::Unexpected { found, expected: format!("{expected} with plane = \"xz\"") },
+        ));
     };
     if scene.gravity[1] != 0.0 {
         leaves("gravity".to_owned(), "", format!("{:?} m/s²", scene.gravity), "gravity without a component along y");
@@ -66,10 +70,10 @@ pub(crate) fn objections(scene: &SceneDraft) -> Vec<Objection> {
         let found = "particles that come anywhere in a region".to_owned();
         leaves(format!("insertion.{}", insertion.name), "region", found, "a scene without insertions");
     }
-    if let Some((particle, found, right)) = first_outside(scene) {
+    if let Some((particle, found, expected)) = first_outside(scene) {
         let table =
             scene.sets.get(particle.set.index()).map_or("particles".to_owned(), |set| format!("particles.{set}"));
-        leaves(table, "", found, right);
+        leaves(table, "", found, expected);
     }
     if scene.particles.iter().any(|particle| particle.shape == ParticleShape::Disc) {
         objections.extend(discs(scene));
@@ -99,11 +103,14 @@ fn first_outside(scene: &SceneDraft) -> Option<(&Particle, String, &'static str)
 
 /// What reckons with the volume or the moment of inertia of spheres.
 fn discs(scene: &SceneDraft) -> Vec<Objection> {
-    let refused = |table: String, found: &str, right: &str| {
+    let refused = |table: String, found: &str, expected: &str| {
         (
             table,
             "",
-            Mistake::Wrong { found: found.to_owned(), right: format!("{right} with plane_particles = \"discs\"") },
+            Mistake::Unexpected {
+                found: found.to_owned(),
+                expected: format!("{expected} with plane_particles = \"discs\""),
+            },
         )
     };
     let epsd = scene.contacts.iter().filter(|law| law.rolling.name() == "epsd").map(|law| {

@@ -1,9 +1,9 @@
 //! Regions as parts of a scene.
 
-use crate::document::Mistake;
-use crate::quantity::BoundaryIndex;
-use crate::region::{self, Keys};
-use crate::surface::Files;
+use crate::base::document::Mistake;
+use crate::base::quantity::BoundaryIndex;
+use crate::laws::region::{self, Keys};
+use crate::laws::surface::Files;
 
 /// `[region.<name>]`: a part of space that is looked at.
 #[derive(Clone, Debug)]
@@ -20,8 +20,8 @@ impl Region {
     /// The region that a scene with these boundaries writes so; refuses what is wrong, with its key.
     pub(crate) fn of(name: &str, keys: &Keys, boundaries: &[&str], around: &mut dyn Files) -> Option<Self> {
         if boundaries.contains(&name) {
-            let (found, right) = (format!("that of [boundary.{name}]"), "a name of its own".to_owned());
-            around.report("", Mistake::Wrong { found, right });
+            let (found, expected) = (format!("that of [boundary.{name}]"), "a name of its own".to_owned());
+            around.report("", Mistake::Unexpected { found, expected });
         }
         let follows = keys.follows.as_ref().map(|followed| {
             let place = boundaries.iter().position(|boundary| boundary == followed);

@@ -16,7 +16,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Of text, files and the program's version: what a saved state belongs to. Never 0.
+    /// Fingerprint of text, files and the program's version, to which saved states belong. Never 0.
     pub fn fingerprint(&self) -> u64 {
         let mut hash = Xxh3::new();
         let mut part = |bytes: &[u8]| {

@@ -1,10 +1,10 @@
 //! What has no static stiffness.
 
 use super::SceneDraft;
-use crate::bond::damping::DampingChoice;
+use crate::laws::bond::damping::DampingChoice;
 
 impl SceneDraft {
-    /// What depends on speed or time, however slow, or moves by itself, if anything; and what would be right.
+    /// What depends on speed or time, however slow, or moves by itself, if anything; and what was expected.
     pub fn without_statics(&self) -> Option<(String, &'static str)> {
         if let Some(law) = self.contacts.iter().find(|law| law.rolling.name() == "cdt") {
             return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none"));
@@ -25,9 +25,12 @@ impl SceneDraft {
         Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
     }
 
-    /// What speaks against the stiffness that is asked for as an output: what was found, and what would be right.
+    /// What speaks against the stiffness that is asked for as an output: what was found, and what was expected.
     pub(crate) fn stiffness_objection(&self) -> Option<[String; 2]> {
-        let (what, right) = self.without_statics().filter(|_| self.output.stiffness)?;
-        Some([format!("true beside {what}, which has no static stiffness"), format!("{right}, or stiffness = false")])
+        let (what, expected) = self.without_statics().filter(|_| self.output.stiffness)?;
+        Some([
+            format!("true beside {what}, which has no static stiffness"),
+            format!("{expected}, or stiffness = false"),
+        ])
     }
 }

@@ -1,10 +1,9 @@
 //! Known failures of the engine's bond: each shown in `engine_exact`, and its absence in the other formulations.
 
 use crate::bond_laws::placement::turn;
+use crate::support::start;
 use cograin::number::Vector;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
-use std::sync::Arc;
+use cograin::simulation::Simulation;
 
 /// The two formulations that repair the engine's.
 const SOUND: [&str; 2] = ["incremental", "finite_rotation"];
@@ -49,14 +48,7 @@ fn spheres(step: f64, spheres: &[Sphere], formulation: &str, damping: Option<(&s
         list.join(",\n"),
         more.split_once("---").map_or(more, |(_, rest)| rest),
     );
-    simulation(&text)
-}
-
-/// The simulation of a scene as text.
-fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start(&text)
 }
 
 /// Holds the sphere at the origin.
@@ -111,7 +103,7 @@ fn free_combined(formulation: &str, more: &str, whole: Vector) -> Simulation {
     let one = sphere(1, 0.005, [[0.0, 0.0, 0.0], [0.02, -0.03, 0.05], [3.0, -8.0, 5.0]]);
     let place = [0.006305841447708336, 0.0025223365790833343, -0.004414089013395835];
     let other = sphere(2, 0.003, [place, [-0.04, 0.06, -0.01], [-12.0, 4.0, 7.0]]);
-    simulation(&format!(
+    start(&format!(
         "[run]\nstep = 1e-6\n[material.light]\ndensity = 2500.0\n[material.heavy]\ndensity = 3100.0\n\
          [particles.one]\nmaterial = \"light\"\n{one}\n[particles.other]\nmaterial = \"heavy\"\n{other}\n\
          [bond.glue]\nformulation = \"{formulation}\"\nbetween = [\"one\", \"other\"]\ncreate = {{ step = 1 }}\n\
@@ -266,7 +258,7 @@ fn damping_depends_on_the_axes_of_the_scene_in_the_engine_alone() {
 fn the_wall_bond_gains_energy_in_the_engine_alone() {
     // The reference case `wall_bond_planar`.
     let largest = |formulation| {
-        let mut simulation = simulation(&format!(
+        let mut simulation = start(&format!(
             "[run]\nstep = 2e-6\n[material.glass]\ndensity = 2500.0\n[particles.grain]\nmaterial = \"glass\"\n\
              list = [{{ id = 1, radius = 0.005, position = [0.0, 0.0, 0.0052], velocity = [0.05, 0.0, 0.04], \
              angular_velocity = [0.0, 6.0, 0.0] }}]\n\

@@ -56,9 +56,9 @@ fn every_creation_is_written_as_documented() {
 }
 
 /// The limits on stresses that keys mean.
-fn by_stress(more: &str) -> cograin::bond::breakage::stress::ByStress {
+fn by_stress(more: &str) -> cograin::bond::breakage::stress::StressLimits {
     match law(more).breakage[..] {
-        [Rule::ByStress(rule)] => rule,
+        [Rule::StressLimits(rule)] => rule,
         ref others => panic!("{others:?}"),
     }
 }
@@ -75,7 +75,7 @@ fn breakage_means_the_documents_limits() {
     let engine = by_stress("formulation = \"engine_exact\"\n[breakage]\nmax_normal_stress = 2e7");
     assert_eq!(engine.compression_share, 1.0, "and always breaks in engine_exact");
     let names = law("[breakage]\nmax_distance = 1.0\nmax_shear_stress = 3e7").breakage;
-    assert!(matches!(names[..], [Rule::Distance(_), Rule::ByStress(_)]), "{names:?}");
+    assert!(matches!(names[..], [Rule::Distance(_), Rule::StressLimits(_)]), "{names:?}");
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn a_strength_can_be_changed_by_its_name() {
     }
     keys.breakage = Some(breakage);
     let rules = keys.law(false).unwrap().breakage;
-    let [Rule::Distance(distance), Rule::ByStress(stress)] = rules[..] else { panic!("{rules:?}") };
+    let [Rule::Distance(distance), Rule::StressLimits(stress)] = rules[..] else { panic!("{rules:?}") };
     assert_eq!((distance.most, stress.shear_strength), (6e-3, 6e7));
 }
 

@@ -1,7 +1,7 @@
 //! Points worked out by hand: breakage, damping, the first steps of the engine's bond.
 
 use crate::bond_laws::placement::RADII;
-use cograin::bond::breakage::{Rule, cause_name, distance::Distance, stress::ByStress};
+use cograin::bond::breakage::{Rule, cause_name, distance::Distance, stress::StressLimits};
 use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;
 use cograin::bond::keys::{DampingChoice, PartKeys};
@@ -96,7 +96,7 @@ fn the_evaluation_before_the_first_step_changes_nothing() {
 }
 
 /// Limits that nothing reaches; compression relieves.
-const UNBROKEN: ByStress = ByStress {
+const UNBROKEN: StressLimits = StressLimits {
     compression_strength: f64::INFINITY,
     tension_strength: f64::INFINITY,
     shear_strength: f64::INFINITY,
@@ -105,13 +105,13 @@ const UNBROKEN: ByStress = ByStress {
 };
 
 /// Why the engine's bond at rest length 2 breaks at a distance with stored shear and bending along y, if it does.
-fn broken(rule: ByStress, distance: f64, shear: f64, bending: f64) -> Option<&'static str> {
-    broken_by(vec![Rule::ByStress(rule)], distance, [shear, 0.0, bending])
+fn broken(rule: StressLimits, distance: f64, shear: f64, bending: f64) -> Option<&'static str> {
+    broken_by(vec![Rule::StressLimits(rule)], distance, [shear, 0.0, bending])
 }
 
 /// The same with stored torsion.
-fn broken_with(rule: ByStress, distance: f64, shear: f64, torsion: f64, bending: f64) -> Option<&'static str> {
-    broken_by(vec![Rule::ByStress(rule)], distance, [shear, torsion, bending])
+fn broken_with(rule: StressLimits, distance: f64, shear: f64, torsion: f64, bending: f64) -> Option<&'static str> {
+    broken_by(vec![Rule::StressLimits(rule)], distance, [shear, torsion, bending])
 }
 
 /// The same by these rules: shear, torsion and bending are stored.
@@ -131,11 +131,11 @@ fn broken_by(breakage: Vec<Rule>, distance: f64, [shear, torsion, bending]: [f64
 
 #[test]
 fn each_stress_breaks_beyond_its_limit_and_names_itself() {
-    let law = ByStress { tension_strength: 1.0, compression_strength: 2.0, shear_strength: 0.5, ..UNBROKEN };
+    let law = StressLimits { tension_strength: 1.0, compression_strength: 2.0, shear_strength: 0.5, ..UNBROKEN };
     // σ = k_n |u|.
     assert_eq!(broken(law, 2.09, 0.0, 0.0), None);
     assert_eq!(broken(law, 2.11, 0.0, 0.0), Some("tension"));
-    let breaks = ByStress { compression_share: 1.0, ..law };
+    let breaks = StressLimits { compression_share: 1.0, ..law };
     assert_eq!(broken(breaks, 1.81, 0.0, 0.0), None);
     assert_eq!(broken(breaks, 1.79, 0.0, 0.0), Some("compression"));
     assert_eq!(broken(law, 1.0, 0.0, 0.0), None, "compression relieves");
@@ -148,7 +148,7 @@ fn each_stress_breaks_beyond_its_limit_and_names_itself() {
     // Compressed by 0.05: −0.5 + bending against 2.
     assert_eq!(broken(law, 1.95, 0.0, 2.49 / 4.0 * AREA * 0.6), None);
     assert_eq!(broken(law, 1.95, 0.0, 2.51 / 4.0 * AREA * 0.6), Some("bending"));
-    let both = vec![Rule::Distance(Distance { most: 2.05 }), Rule::ByStress(law)];
+    let both = vec![Rule::Distance(Distance { most: 2.05 }), Rule::StressLimits(law)];
     assert_eq!(broken_by(both.clone(), 2.2, [0.0; 3]), Some("distance"), "the first rule of the list names the cause");
     assert_eq!(broken_by(both.clone(), 2.04, [0.501 * AREA, 0.0, 0.0]), Some("shear"));
     assert_eq!(broken_by(both, 2.04, [0.0; 3]), None);
@@ -156,13 +156,13 @@ fn each_stress_breaks_beyond_its_limit_and_names_itself() {
 
 #[test]
 fn the_larger_part_of_a_stress_names_the_cause() {
-    let law = ByStress { tension_strength: 1.0, compression_strength: 1.0, shear_strength: 0.5, ..UNBROKEN };
+    let law = StressLimits { tension_strength: 1.0, compression_strength: 1.0, shear_strength: 0.5, ..UNBROKEN };
     let bending = |stress: f64| stress / 4.0 * AREA * 0.6;
     let torsion = |stress: f64| stress / 2.0 * AREA * 0.6;
     // 0.6 from stretching against 0.5 from bending, and the other way round; both at 0.05 and 0.06 m.
     assert_eq!(broken(law, 2.06, 0.0, bending(0.5)), Some("tension"));
     assert_eq!(broken(law, 2.05, 0.0, bending(0.6)), Some("bending"));
-    let breaks = ByStress { compression_share: 1.0, ..law };
+    let breaks = StressLimits { compression_share: 1.0, ..law };
     assert_eq!(broken(breaks, 1.94, 0.0, bending(0.5)), Some("compression"));
     assert_eq!(broken(breaks, 1.95, 0.0, bending(0.6)), Some("bending"));
     assert_eq!(broken_with(law, 2.0, 0.3 * AREA, torsion(0.25), 0.0), Some("shear"));
@@ -173,7 +173,7 @@ fn the_larger_part_of_a_stress_names_the_cause() {
 
 #[test]
 fn friction_raises_the_shear_strength_under_compression_and_lowers_it_under_tension() {
-    let law = ByStress { shear_strength: 0.5, friction: 0.5, ..UNBROKEN };
+    let law = StressLimits { shear_strength: 0.5, friction: 0.5, ..UNBROKEN };
     // |N|/A = 0.4.
     assert_eq!(broken(law, 1.96, 0.69 * AREA, 0.0), None);
     assert_eq!(broken(law, 1.96, 0.71 * AREA, 0.0), Some("shear"));

@@ -1,7 +1,8 @@
 //! Along its axis a chain of bonds swings as masses on springs do, each mode at its closed form.
 
-use crate::physics::chain::{AXIAL, CLAMP, MASS, Motion, chain, in_order, simulation};
+use crate::physics::chain::{AXIAL, CLAMP, MASS, Motion, chain, in_order};
 use crate::physics::stage::assert_close;
+use crate::support::start;
 use std::f64::consts::PI;
 
 /// Bonds of the chain.
@@ -21,7 +22,7 @@ fn wave(mode: usize) -> f64 {
 fn found(formulation: &str, mode: usize, step: f64) -> f64 {
     let shape = |sphere: usize| (wave(mode) * sphere as f64).sin();
     let motions: Vec<Motion> = (0..=BONDS).map(|sphere| [[1e-3 * shape(sphere), 0.0, 0.0], [0.0; 3]]).collect();
-    let mut simulation = simulation(&chain(formulation, step, &motions, CLAMP));
+    let mut simulation = start(&chain(formulation, step, &motions, CLAMP));
     // Some thirty periods of the slowest mode.
     let course: Vec<f64> = (0..2000)
         .map(|_| {

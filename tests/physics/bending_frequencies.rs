@@ -1,8 +1,9 @@
 //! A clamped chain swings with its own eigenfrequencies, and a long one with those of a Timoshenko beam that ends half a
 //! bond behind its last centre.
 
-use crate::physics::chain::{BENDING, CLAMP, INERTIA, LENGTH, MASS, Motion, SHEAR, chain, in_order, simulation};
+use crate::physics::chain::{BENDING, CLAMP, INERTIA, LENGTH, MASS, Motion, SHEAR, chain, in_order};
 use crate::physics::stage::assert_close;
+use crate::support::start;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
@@ -54,7 +55,7 @@ fn found(bonds: usize, formulation: &str) -> [f64; MODES] {
     };
     let motions: Vec<Motion> = std::iter::once([[0.0; 3]; 2]).chain((0..bonds).map(motion)).collect();
     let interval = 2.0 * PI / frequencies[MODES - 1] / LOOKS;
-    let mut simulation = simulation(&chain(formulation, interval.min(LONGEST), &motions, CLAMP));
+    let mut simulation = start(&chain(formulation, interval.min(LONGEST), &motions, CLAMP));
     let end = 2.1 * 2.0 * PI / frequencies[0];
     let mut zeros: [Vec<f64>; MODES] = Default::default();
     let mut before = [0.0; MODES];

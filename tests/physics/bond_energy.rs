@@ -1,7 +1,8 @@
 //! Kinetic energy, what bonds store and what broken ones released add up to the work of the boundary, to the square of the step.
 
-use crate::physics::chain::{AXIAL, MASS, Motion, chain, simulation};
+use crate::physics::chain::{AXIAL, MASS, Motion, chain};
 use crate::physics::stage::assert_near;
+use crate::support::start;
 
 /// The most by which energy is missing or over in the course of a chain that one end draws and swings \[J\].
 ///
@@ -21,7 +22,7 @@ motion = {{ prescribed = {{ x = -0.6, y = 0.3 }} }}
 "#
     );
     let unit = (MASS / AXIAL).sqrt();
-    let mut simulation = simulation(&chain(formulation, share * unit, &motions, &more));
+    let mut simulation = start(&chain(formulation, share * unit, &motions, &more));
     let start = simulation.kinetic_energy();
     let mut worst: f64 = 0.0;
     for _ in 0..40 {

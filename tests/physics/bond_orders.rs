@@ -4,8 +4,9 @@
 //! `cargo test --test library bond_orders -- --nocapture` prints the errors.
 
 use super::orders::{Case, order};
+use crate::support::checked;
 use cograin::contact::Scheme;
-use cograin::scene::{Scene, SceneDraft, Source};
+use cograin::scene::SceneDraft;
 
 /// Three bonded spheres, of which the last may be bonded to a plane, stretched, sheared, bent and twisted as they spin.
 const SCENE: &str = r#"
@@ -50,8 +51,7 @@ fn scene(scheme: Scheme, formulation: &str, ratio: f64, foot: bool) -> SceneDraf
     let text = format!("{SCENE}{}", if foot { FLOOR } else { "" });
     let text = text.replace("LAW", LAW).replace("SCHEME", scheme.name()).replace("FORMULATION", formulation);
     let text = text.replace("RATIO", &format!("{ratio:?}"));
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).into_draft()
+    checked(&text).into_draft()
 }
 
 /// The motions: formulations and damping ratios.

@@ -1,9 +1,10 @@
 //! The tip of a clamped chain under a force across moves as its springs in series do: a beam's deflection, less its share
 //! 1/(4 N²) of bending, plus shear.
 
-use crate::physics::chain::{BENDING, CLAMP, LENGTH, MASS, SHEAR, chain, in_order, simulation};
+use crate::physics::chain::{BENDING, CLAMP, LENGTH, MASS, SHEAR, chain, in_order};
 use crate::physics::stage::assert_close;
-use cograin::step::Simulation;
+use crate::support::start;
+use cograin::simulation::Simulation;
 use std::f64::consts::TAU;
 
 /// Deflection of the tip over the length of the beam that the forces are chosen for: what the law neglects is its square.
@@ -35,7 +36,7 @@ applied_forces_damped = true
 "#,
         bonds + 1
     );
-    let mut simulation = simulation(&chain(formulation, STEP, &vec![[[0.0; 3]; 2]; bonds + 1], &more));
+    let mut simulation = start(&chain(formulation, STEP, &vec![[[0.0; 3]; 2]; bonds + 1], &more));
     // The tip on the springs alone, with the mass of all: longer than any period.
     let period = TAU * (bonds as f64 * MASS * compliance(bonds)).sqrt();
     let tip = |simulation: &Simulation| {

@@ -1,9 +1,7 @@
 //! Chains of equal bonded spheres along x, as scenes.
 
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// Radius of the spheres and of the bonds; neighbours touch \[m\].
 pub(crate) const RADIUS: f64 = 1e-3;
@@ -31,13 +29,6 @@ pub(crate) const BENDING: f64 = NORMAL * AREA * RADIUS * RADIUS / 4.0;
 
 /// Velocity \[m/s\] and angular velocity \[rad/s\] of a sphere.
 pub(crate) type Motion = [[f64; 3]; 2];
-
-/// The simulation of a scene as text.
-pub(crate) fn simulation(text: &str) -> Simulation {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).unwrap()
-}
 
 /// The scene of a chain of spheres with ids from 1 that start with these motions; `more` is the rest of its text.
 pub(crate) fn chain(formulation: &str, step: f64, motions: &[Motion], more: &str) -> String {

@@ -1,7 +1,7 @@
 //! A ringing block of bonded spheres that nothing damps keeps its energy over a million steps near the stable one.
 
-use crate::physics::chain::simulation;
-use cograin::step::Simulation;
+use crate::support::start;
+use cograin::simulation::Simulation;
 
 /// Spheres along each edge.
 const EDGE: usize = 3;
@@ -18,7 +18,7 @@ fn ringing(step: f64) -> Simulation {
         format!("{{ position = {place:?}, radius = 1e-3, velocity = {velocity:?} }},\n")
     };
     let bodies: String = (0..EDGE * EDGE * EDGE).map(body).collect();
-    simulation(&format!(
+    start(&format!(
         r#"
 [run]
 step = {step:?}

@@ -1,7 +1,8 @@
 //! A wave packet runs along a chain of bonds with its group velocity, c₀ cos(q a/2).
 
-use crate::physics::chain::{AXIAL, LENGTH, MASS, Motion, chain, in_order, simulation};
+use crate::physics::chain::{AXIAL, LENGTH, MASS, Motion, chain, in_order};
 use crate::physics::stage::assert_close;
+use crate::support::start;
 
 /// Spheres of the chain, which is free at both ends; the packet starts in its middle.
 const SPHERES: usize = 601;
@@ -20,7 +21,7 @@ fn found(wave: f64, step: f64) -> f64 {
         1e-3 * (-0.5 * (away / WIDTH).powi(2)).exp() * (wave * away).cos()
     };
     let motions: Vec<Motion> = (0..SPHERES).map(|sphere| [[speed(sphere), 0.0, 0.0], [0.0; 3]]).collect();
-    let mut simulation = simulation(&chain("finite_rotation", step, &motions, ""));
+    let mut simulation = start(&chain("finite_rotation", step, &motions, ""));
     let (mut weights, mut times) = ([0.0; 2], [0.0; 2]);
     // Until it is past the second sphere by four widths; what comes back from the end is as far away again.
     let end = LENGTH * (PLACES[1] as f64 + 4.0 * WIDTH) / group_velocity(wave);

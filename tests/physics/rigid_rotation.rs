@@ -1,8 +1,9 @@
 //! Bonded bodies that turn rigidly under load keep their forces and their energy through a thousand turns.
 
-use crate::physics::chain::{AXIAL, LENGTH, MASS, chain, simulation};
+use crate::physics::chain::{AXIAL, LENGTH, MASS, chain};
 use crate::physics::stage::assert_close;
-use cograin::step::{PlacedBond, PlacedParticle, Placement, Simulation};
+use crate::support::start;
+use cograin::simulation::{PlacedBond, PlacedParticle, Placement, Simulation};
 use std::f64::consts::{PI, TAU};
 
 /// Angle of a time step \[rad\].
@@ -41,7 +42,7 @@ fn a_stretched_pair_turns_under_the_force_that_holds_it() {
     // Each body goes round by ANGLE in a step where the bond pulls with m r (2 sin(ANGLE/2)/Δt)².
     let pull = MASS * (2.0 * (0.5 * ANGLE).sin() / step).powi(2);
     let stretched = LENGTH / (1.0 - 0.5 * pull / AXIAL);
-    let unloaded = simulation(&chain("finite_rotation", step, &[[[0.0; 3]; 2]; 2], ""));
+    let unloaded = start(&chain("finite_rotation", step, &[[[0.0; 3]; 2]; 2], ""));
     let rows = &unloaded.state().bonds[0].rows;
     let bond = PlacedBond { law: 0, bodies: [0, 1], rows: [rows[0][0], rows[1][0], rows[2][0]] };
     // About an axis across the bond that is none of the scene's.
@@ -78,7 +79,7 @@ fn a_bent_chain_that_has_come_to_rest_in_its_turning_stays_so() {
                 )
             })
             .concat();
-        let mut chain = simulation(&format!(
+        let mut chain = start(&format!(
             r#"
 [run]
 step = {step:?}

@@ -7,7 +7,7 @@ use cograin::contact::normal::hooke;
 use cograin::contact::{LawChoice, NoKeys, NormalModel, Scheme, TangentialModel, normal, tangential};
 use cograin::quantity::Positive;
 use cograin::scene::{Accuracy, SceneDraft, Step};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::sync::Arc;
 
 /// Radius \[m\].

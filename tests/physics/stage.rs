@@ -10,7 +10,7 @@ use cograin::scene::{
     AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, SceneDraft, Shape,
     Step,
 };
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use cograin::surface::Plane;
 use std::sync::Arc;
 

@@ -5,11 +5,10 @@
 //! lists are made again and again, with wide skins and narrow ones: cells of other sizes put the particles in other
 //! orders.
 
+use crate::support::start;
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::{ContactRecord, Simulation};
+use cograin::simulation::{ContactRecord, Simulation};
 use std::fmt::Write;
-use std::sync::Arc;
 
 /// Walls around the bed: name, axis, place \[m\], direction of the normal.
 const WALLS: [(&str, usize, f64, f64); 6] = [
@@ -76,9 +75,7 @@ packing = {{ box = [[0.0, 0.0, 0.0], [{WIDTH}, {WIDTH}, {WIDTH}]], solid_fractio
         )
         .expect("text grows");
     }
-    let scene = Scene::from_source(&Source { name: "scene.toml".into(), text, files: Default::default() });
-    let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
-    Simulation::new(Arc::new(scene)).expect("the scene starts")
+    start(&text)
 }
 
 /// Puts all walls where they end up after this drift, the bed being squeezed and sheared by these fractions.

@@ -3,8 +3,8 @@
 
 use super::scenes::{Random, random};
 use cograin::quantity::BoundaryIndex;
-use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::scene::{Scene, SceneErrors};
+use cograin::simulation::Simulation;
 use std::num::NonZero;
 use std::ops::Range;
 use std::sync::Arc;
@@ -87,8 +87,7 @@ const SCALES: [usize; 4] = [0, 0, 1, 2];
 /// Runs a scene with this part of the stable step and these lines in `[run]`, for so many communication steps.
 fn run(scene: &Random, part: f64, intervals: usize, lines: &str) -> Result<Course, Outcome> {
     let text = scene.text.replace("SAFETY", &format!("safety = {part}\n{lines}"));
-    let source = Source { name: "scene.toml".into(), text, files: Default::default() };
-    let checked = Scene::from_source(&source).map_err(|errors| Outcome::Refused(errors.to_string()))?;
+    let checked: Scene = text.parse().map_err(|errors: SceneErrors| Outcome::Refused(errors.to_string()))?;
     let mut simulation = Simulation::new(Arc::new(checked)).map_err(|error| Outcome::Stopped(error.to_string()))?;
     let mut course = Course { numbers: Vec::new(), scales: [0.0; 3] };
     let mut impulses = vec![0.0; 3 * simulation.state().boundaries.len()];

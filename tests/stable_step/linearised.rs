@@ -1,10 +1,10 @@
 //! The whole time step, linearised by trying it: the engine makes one time step from rest with each freedom of each sphere
 //! moving a little, and the loads that follow are stiffness and damping, as full matrices.
 
-use crate::stable_step::scenes::scene;
 use crate::stable_step::with_step;
+use crate::support::checked;
 use cograin::scene::Scene;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use nalgebra::DMatrix;
 
 /// The stable time step of a scene \[s\]: the largest with 4 M − 2 Δt C − Δt² K positive definite, where dashpots that see
@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 ///
 /// Times about `near` are tried.
 pub(crate) fn stable_step(text: &str, near: f64) -> f64 {
-    let per_root = masses(&scene(text)).map(|mass| 1.0 / mass.sqrt());
+    let per_root = masses(&checked(text)).map(|mass| 1.0 / mass.sqrt());
     let scaled = |matrix: &DMatrix<f64>| {
         let matrix = 0.5 * (matrix + matrix.transpose());
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |a, b| per_root[a] * matrix[(a, b)] * per_root[b])
@@ -36,19 +36,19 @@ pub(crate) fn stable_step(text: &str, near: f64) -> f64 {
 
 /// Stiffness and damping, the latter as often as it counts.
 fn counted(text: &str, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
-    let scheme = scene(text).run.scheme;
+    let scheme = checked(text).run.scheme;
     let [normal, tangential] = scheme.damping_factors();
     let engine = match text.contains("\nscheme = ") {
         true => text.replace(&format!("\nscheme = {:?}\n", scheme.name()), "\nscheme = \"engine\"\n"),
         false => text.replace("threads = 1\n", "threads = 1\nscheme = \"engine\"\n"),
     };
-    let (stiffness, damping) = measured(&scene(&engine), near);
+    let (stiffness, damping) = measured(&checked(&engine), near);
     if !text.contains("[contact.c.") || [normal, tangential] == [1.0; 2] {
         return (stiffness, damping);
     }
     assert!(!text.contains(".damping.viscous"), "dashpots of bonds and of contacts cannot be told apart here");
     let without = engine.replace("[contact.c.normal", "[contact.c]\ntangential_damping = false\n[contact.c.normal");
-    let along = measured(&scene(&without), near).1;
+    let along = measured(&checked(&without), near).1;
     let across = &damping - &along;
     (stiffness, normal * along + tangential * across)
 }

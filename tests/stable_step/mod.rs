@@ -8,11 +8,12 @@
 mod linearised;
 mod scenes;
 
+use crate::support::checked;
 use cograin::scene::{Scene, Step};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use scenes::{
     Sphere, block, bonds, contacts, cubic, damped_hertz, damped_hooke, dashpots, face_centred, free, hertz, hexagonal,
-    near_faces, packing, scene,
+    near_faces, packing,
 };
 use std::sync::Arc;
 
@@ -63,7 +64,7 @@ fn ratio_on_the_engine(scene: &Scene, stated: f64) -> f64 {
 /// The stated step is within its range of that of the linearised time step.
 #[allow(clippy::print_stdout, reason = "the figures of docs/stability.md are what this test prints with --nocapture")]
 fn holds(name: &str, text: &str) -> f64 {
-    let scene = scene(text);
+    let scene = checked(text);
     let stated = stated(&scene);
     let ratio = stated / linearised::stable_step(text, stated);
     let by_bodies = quick(&scene, stated) / stated * ratio;
@@ -83,7 +84,7 @@ fn quick(scene: &Scene, stated: f64) -> f64 {
 /// The same, and the engine itself says the same.
 fn holds_on_the_engine(name: &str, text: &str) {
     let linearised = holds(name, text);
-    let scene = scene(text);
+    let scene = checked(text);
     let tried = ratio_on_the_engine(&scene, stated(&scene));
     // It is known to half a per cent, and what grows slowly is not seen within its time steps.
     assert!((tried / linearised - 1.0).abs() < 0.01, "{name}: {tried:.3} by trying, {linearised:.3} linearised");
@@ -129,7 +130,7 @@ fn of_predicted_contact_dashpots() {
         );
         let text = block(&spheres, near_faces(&spheres, 1.1e-3), &contacts("hooke_stiffness", &pair));
         let text = text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n");
-        let scene = scene(&text);
+        let scene = checked(&text);
         let tried = ratio_on_the_engine(&scene, stated(&scene));
         assert!((0.88..=1.005).contains(&tried), "predicted contact dashpots, ratio {ratio}: {tried:.3}");
     }
@@ -159,7 +160,7 @@ fn of_predicted_bond_dashpots() {
     for ratio in [0.3, 1.0, 3.0] {
         for spheres in [cubic(2, 2e-3)[..2].to_vec(), cubic(3, 2e-3)] {
             let text = block(&spheres, free, &bonds(&dashpots(ratio)));
-            let scene = scene(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
+            let scene = checked(&text.replace("threads = 1\n", "threads = 1\nscheme = \"predicted\"\n"));
             let tried = ratio_on_the_engine(&scene, stated(&scene));
             let what = format!("predicted bond dashpots, {} spheres, ratio {ratio}", spheres.len());
             assert!((0.88..=1.005).contains(&tried), "{what}: {tried:.3}");

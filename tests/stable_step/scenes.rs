@@ -1,16 +1,9 @@
 //! Blocks, chains and packings of spheres, their contacts and bonds.
 
-use cograin::scene::{Scene, Source};
 use std::fmt::Write;
 
 /// Where a sphere lies and how large it is \[m\].
 pub(crate) type Sphere = [f64; 4];
-
-/// A scene, checked.
-pub(crate) fn scene(text: &str) -> Scene {
-    let source = Source { name: "scene.toml".into(), text: text.into(), files: Default::default() };
-    Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
-}
 
 /// A number between −1 and 1 that belongs to this one.
 pub(crate) fn noise(seed: usize) -> f64 {

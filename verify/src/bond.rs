@@ -167,16 +167,16 @@ impl Types<'_> {
     /// A property of 0 or above that the flags need.
     fn non_negative(&self, name: &str) -> Result<NonNegative, Mistake> {
         let value = self.needed(name)?;
-        let right = || Mistake::new(self.field(name), format!("expected 0 or above, found {value}"));
-        NonNegative::new(value).ok_or_else(right)
+        let expected = || Mistake::new(self.field(name), format!("expected 0 or above, found {value}"));
+        NonNegative::new(value).ok_or_else(expected)
     }
 
     /// One number for each part of the bond.
-    fn parts<T: Copy>(&self, kind: &str, right: &str, make: fn(f64) -> Option<T>) -> Result<PartKeys<T>, Mistake> {
+    fn parts<T: Copy>(&self, kind: &str, expected: &str, make: fn(f64) -> Option<T>) -> Result<PartKeys<T>, Mistake> {
         let part = |part: &str| {
             let name = format!("{kind}{part}Bond");
             let value = self.needed(&name)?;
-            let wrong = || Mistake::new(self.field(&name), format!("expected {right}, found {value}"));
+            let wrong = || Mistake::new(self.field(&name), format!("expected {expected}, found {value}"));
             make(value).map(Some).ok_or_else(wrong)
         };
         Ok(PartKeys {

@@ -26,7 +26,7 @@ pub enum VerifyError {
         path: PathBuf,
         /// Line and column, or the field.
         place: String,
-        /// What was found and what would be right.
+        /// What was found and what was expected.
         message: String,
     },
     /// A `samples.csv` that is not a trajectory of the case.
@@ -36,7 +36,7 @@ pub enum VerifyError {
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What was found and what would be right.
+        /// What was found and what was expected.
         message: String,
     },
 }
@@ -53,7 +53,7 @@ impl VerifyError {
 pub(super) struct Mistake {
     /// The field, as `particles[3].radius`.
     pub(super) field: String,
-    /// What was found and what would be right.
+    /// What was found and what was expected.
     pub(super) message: String,
 }
 

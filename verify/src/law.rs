@@ -84,7 +84,7 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
             }
             let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
             set(&mut pairs[at], ours, value)
-                .map_err(|right| Mistake::new(field(), format!("expected {right}, found {value}")))?;
+                .map_err(|expected| Mistake::new(field(), format!("expected {expected}, found {value}")))?;
         }
     }
     if case.model.mixing == "lammps" {
@@ -145,7 +145,7 @@ fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64
     Ok(rows.concat())
 }
 
-/// Sets the property with this name of ours, or says what would be right.
+/// Sets the property with this name of ours, or says what was expected.
 fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static str> {
     let non_negative = || NonNegative::new(value).map(Some).ok_or("a number of 0 or above");
     let positive = || Positive::new(value).map(Some).ok_or("a number above 0");
@@ -180,8 +180,8 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
 /// The contact law.
 pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
     let model = &case.model;
-    let unknown = |field: &str, found: &str, right: &str| {
-        Mistake::new(format!("model.{field}"), format!("expected {right}, found \"{found}\""))
+    let unknown = |field: &str, found: &str, expected: &str| {
+        Mistake::new(format!("model.{field}"), format!("expected {expected}, found \"{found}\""))
     };
     for (flag, value) in model.others.iter().filter(|(flag, _)| !bond::has_flag(case, flag)) {
         let off = value.is_null() || *value == serde_json::json!(false) || *value == serde_json::json!("off");
@@ -212,8 +212,8 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         "jkr" => models.normal("jkr", sticky(case)?),
         "dmt" => models.normal("dmt", sticky(case)?),
         other => {
-            let right = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
-            return Err(unknown("normal", other, right));
+            let expected = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
+            return Err(unknown("normal", other, expected));
         }
     };
     misplaced(case)?;
@@ -228,8 +228,8 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
         "mindlin" => models.tangential("turned_history", turned),
         "mindlin_rescale" => models.tangential("turned_history", Turned { rescale: true, ..turned }),
         other => {
-            let right = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
-            return Err(unknown("tangential", other, right));
+            let expected = "history, no_history, linear_history, linear_nohistory, mindlin, mindlin_rescale or off";
+            return Err(unknown("tangential", other, expected));
         }
     };
     let rolling = match model.rolling_friction.as_str() {

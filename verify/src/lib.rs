@@ -1,4 +1,4 @@
-//! Reference cases of other engines, replayed: no physics here, a case becomes a [`Scene`] that is stepped.
+//! Reference cases of other engines, replayed: no physics here, a case becomes a [`Scene`](cograin::scene::Scene) that is stepped.
 //!
 //! A case is a folder with `case.json` and perhaps `samples.csv`, the other engine's trajectory, and `bonds.csv`, its bonds.
 //!

@@ -5,7 +5,7 @@ use super::compare::{Measure, distance, length, scales as scales_of_particles};
 use super::history::{History, PairRow};
 use super::samples::Samples;
 use super::trajectory::Sample;
-use cograin::step::BondRecord;
+use cograin::simulation::BondRecord;
 use std::fmt;
 
 /// The quantities compared, in order: axial distance, shear, torsion, bending.

@@ -6,8 +6,8 @@ use super::samples::{Row, Samples};
 use super::surfaces::OnSurface;
 use cograin::quantity::SetIndex;
 use cograin::scene::Scene;
+use cograin::simulation::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
 use cograin::state::BoundaryState;
-use cograin::step::{BondRecord, PlacedBond, PlacedParticle, PlacedSpring, Placement, RunError, Simulation};
 use std::sync::Arc;
 
 /// What a run left at one step.

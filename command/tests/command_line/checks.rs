@@ -31,7 +31,7 @@ fn check_tells_what_a_scene_uses_and_costs() {
 
 #[test]
 fn check_tells_what_a_scene_could_drop() {
-    let place = Place::new("spare");
+    let place = Place::new("unused");
     let scene = place.scene("end = 0.1\nstep = 1e-7", "energy = true");
     let needed = report(&scene);
     assert!(!needed.contains("friction is 0"), "{needed}");
@@ -39,9 +39,9 @@ fn check_tells_what_a_scene_could_drop() {
     fs::write(&scene, text).unwrap();
     let said = report(&scene);
     for part in [
-        "spare      [contact.touch.tangential.history]: friction is 0 in all its pairs: without it a step takes ",
-        "spare      [output] energy: the book is kept, and without history_interval only summary.json tells of it: without",
-        "spare      [run] step = 1e-7: ",
+        "unused     [contact.touch.tangential.history]: friction is 0 in all its pairs: without it a step takes ",
+        "unused     [output] energy: the book is kept, and without history_interval only summary.json tells of it: without",
+        "unused     [run] step = 1e-7: ",
     ] {
         assert!(said.contains(part), "{part} is missing in:\n{said}");
     }
@@ -162,7 +162,8 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
     // One block of 300 MB that half a megabyte of text can well hold.
     let packed = format!(
         "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\
-         <DataArray type=\"Float64\" Name=\"radius\" format=\"binary\">{}</DataArray>{}</VTKFile>",
+         <UnstructuredGrid><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><PointData>\
+         <DataArray type=\"Float64\" Name=\"radius\" format=\"binary\">{}{}</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>",
         "AQAAAACj4REAo+ERFAAAAA==",
         " ".repeat(700_000)
     );
@@ -181,7 +182,7 @@ fn files_that_need_more_memory_than_there_is_are_refused_before_it_is_asked_for(
         (
             "vtu",
             format!("{particles}file = \"packed.vtu\"\n"),
-            "data that need about 1.20 GB of memory instead of what fits into",
+            "an array radius that needs about 2.70 GB of memory instead of what fits into",
         ),
         ("stl", mesh, ", found triangles that need about 0.12 GB of memory"),
     ] {

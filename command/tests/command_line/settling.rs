@@ -3,7 +3,7 @@
 use crate::ground::{Place, SCENE, cograin, column, complaint};
 use cograin::results::read_checkpoint;
 use cograin::scene::Scene;
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use std::fs;
 use std::sync::Arc;
 

@@ -113,7 +113,7 @@ mod tests {
     use cograin::contact::{Material, PairProperties};
     use cograin::interface::{Interface, Value};
     use cograin::scene::Source;
-    use cograin::step::Simulation;
+    use cograin::simulation::Simulation;
     use std::sync::Arc;
 
     /// Two spheres of 1 mm, one of which is moved.

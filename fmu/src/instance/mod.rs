@@ -12,9 +12,9 @@ use crate::types::Status;
 use cograin::export::{ResourceError, identity, read_resources};
 use cograin::interface::{Derivatives, Findings, Interface, Value};
 use cograin::scene::{Models, Scene, SceneErrors, Source};
+use cograin::simulation::{Description, RunError, Simulation};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
-use cograin::step::{Description, RunError, Simulation};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -31,12 +31,12 @@ const SMALL: f64 = 1000.0;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum StartError {
     /// An argument is missing.
-    #[error("{argument}: expected {right}, found none")]
+    #[error("{argument}: expected {expected}, found none")]
     Missing {
         /// The argument.
         argument: &'static str,
-        /// What would be right.
-        right: &'static str,
+        /// What was expected.
+        expected: &'static str,
     },
     /// Model exchange.
     #[error("fmuType: expected fmi2CoSimulation (1), found {found}")]
@@ -103,7 +103,7 @@ struct Unit {
 impl Unit {
     /// Reads the resources.
     fn read(request: &Request, models: Models) -> Result<Self, StartError> {
-        let missing = |argument, right| StartError::Missing { argument, right };
+        let missing = |argument, expected| StartError::Missing { argument, expected };
         if request.name.as_ref().is_none_or(String::is_empty) {
             return Err(missing("instanceName", "a name"));
         }
@@ -125,7 +125,7 @@ impl Unit {
     }
 
     /// A simulation at its beginning, with these values of parameters.
-    fn begin(&self, given: Given) -> Result<Begun, StartError> {
+    fn begin(&self, given: GivenParameters) -> Result<StartedSimulation, StartError> {
         if given.is_empty() {
             let simulation = match &self.start {
                 Some(state) => {
@@ -136,34 +136,34 @@ impl Unit {
                 }
                 None => Simulation::new(Arc::clone(&self.scene))?,
             };
-            return Ok(Begun { simulation, start: self.start.clone(), given });
+            return Ok(StartedSimulation { simulation, start: self.start.clone(), given });
         }
         let scene = Arc::new(self.interface.scene_with(&self.models, &self.source, &given)?);
         let Some(state) = &self.start else {
-            return Ok(Begun { simulation: Simulation::new(scene)?, start: None, given });
+            return Ok(StartedSimulation { simulation: Simulation::new(scene)?, start: None, given });
         };
         let from = Description::of(&self.scene, &self.source.name, state.clock.time);
         let (simulation, _) = Simulation::taken_over(scene, state, &from)?;
-        Ok(Begun { start: Some(simulation.state().clone()), simulation, given })
+        Ok(StartedSimulation { start: Some(simulation.state().clone()), simulation, given })
     }
 }
 
 /// Values of parameters that were given before the start, by their places among the variables; those of the scene
 /// itself are left out.
-pub(crate) type Given = BTreeMap<usize, f64>;
+pub(crate) type GivenParameters = BTreeMap<usize, f64>;
 
 /// A simulation and what it began with.
-struct Begun {
+struct StartedSimulation {
     /// The scene in motion.
     simulation: Simulation,
     /// The state that it began in, if it was not the scene's own.
     start: Option<State>,
     /// The parameters it was made with.
-    given: Given,
+    given: GivenParameters,
 }
 
 /// A saved state, and its bytes once they were asked for.
-struct Kept {
+struct SavedState {
     /// The state.
     saved: Saved,
     /// Its bytes, between asking for their number and for themselves.
@@ -179,13 +179,13 @@ pub(crate) struct Instance {
     /// The state that it began in, if it was not the scene's own.
     start: Option<State>,
     /// The parameters it was made with.
-    made_with: Given,
+    made_with: GivenParameters,
     /// The parameters it is to be made with.
-    given: Given,
+    given: GivenParameters,
     /// What changes beside it.
     course: Course,
     /// Saved states, by the numbers that the host knows them by.
-    kept: BTreeMap<usize, Kept>,
+    kept: BTreeMap<usize, SavedState>,
     /// What has been found of the simulation since it last changed.
     findings: Findings,
     /// What has been found of the derivatives of its last communication step.
@@ -202,7 +202,7 @@ impl Instance {
     /// An instance as the host asks for it, whose scene may name these sub-models.
     pub(crate) fn new(request: &Request, models: Models) -> Result<Self, StartError> {
         let unit = Unit::read(request, models)?;
-        let Begun { simulation, start, given } = unit.begin(Given::new())?;
+        let StartedSimulation { simulation, start, given } = unit.begin(GivenParameters::new())?;
         let course = Self::at_the_beginning(&simulation);
         let stop = Arc::<AtomicBool>::default();
         let frames = Frames::of(&unit.interface);
@@ -281,11 +281,11 @@ impl Instance {
     /// `fmi2SetupExperiment`
     pub(crate) fn set_up(&mut self, start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Result<(), Refusal> {
         if !start.is_finite() {
-            return Err(Refusal::Time { argument: "startTime", value: start, right: "a finite number" });
+            return Err(Refusal::Time { argument: "startTime", value: start, expected: "a finite number" });
         }
         if let Some(value) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
-            let right = "a finite number, startTime or later,";
-            return Err(Refusal::Time { argument: "stopTime", value, right });
+            let expected = "a finite number, startTime or later";
+            return Err(Refusal::Time { argument: "stopTime", value, expected });
         }
         if let Some(value) = tolerance.filter(|tolerance| !tolerance.is_finite() || *tolerance < 0.0) {
             return Err(Refusal::Tolerance { value });
@@ -321,7 +321,8 @@ impl Instance {
 
     /// `fmi2Reset`. Saved states stay.
     pub(crate) fn reset(&mut self) -> Result<(), Refusal> {
-        let begun = self.unit.begin(Given::new()).map_err(|error| Refusal::Reset { error: error.to_string() })?;
+        let begun =
+            self.unit.begin(GivenParameters::new()).map_err(|error| Refusal::Reset { error: error.to_string() })?;
         self.leave_frames();
         self.frames = Frames::of(&self.unit.interface);
         self.given.clear();
@@ -338,7 +339,7 @@ impl Instance {
     }
 
     /// Goes on with another simulation.
-    fn take(&mut self, Begun { simulation, start, given }: Begun) {
+    fn take(&mut self, StartedSimulation { simulation, start, given }: StartedSimulation) {
         (self.simulation, self.start, self.made_with) = (simulation, start, given);
         self.simulation.stop_when(&self.stop);
         self.changed();
@@ -370,12 +371,12 @@ impl Instance {
     pub(crate) fn step(&mut self, point: f64, length: f64) -> Result<(), Refusal> {
         let present = self.time();
         if !point.is_finite() {
-            let right = "a finite number";
-            return Err(Refusal::Time { argument: "currentCommunicationPoint", value: point, right });
+            let expected = "a finite number";
+            return Err(Refusal::Time { argument: "currentCommunicationPoint", value: point, expected });
         }
         if !length.is_finite() || length <= 0.0 || present + length <= present {
-            let right = "a finite number above 0, large enough to change the time,";
-            return Err(Refusal::Time { argument: "communicationStepSize", value: length, right });
+            let expected = "a finite number above 0, large enough to change the time";
+            return Err(Refusal::Time { argument: "communicationStepSize", value: length, expected });
         }
         // hosts count in nanoseconds or sum up; a step that was left out or done twice differs by far more
         let tolerance = 1e-3 * length + 1e-9 * present.abs();
@@ -393,7 +394,7 @@ impl Instance {
         self.stop.store(false, Ordering::Relaxed);
         self.changed();
         self.frames.pass(&self.simulation, Some(point));
-        match self.simulation.advance_or_return(length) {
+        match self.simulation.advance_or_roll_back(length) {
             Ok(()) => {
                 self.frames.come_to(point + length);
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);

@@ -1,6 +1,6 @@
 //! States that are saved, restored and turned into bytes.
 
-use super::{Begun, Instance, Kept};
+use super::{Instance, SavedState, StartedSimulation};
 use crate::calls::Phase;
 use crate::guard;
 use crate::host_memory::Target;
@@ -22,17 +22,17 @@ impl Instance {
     /// Keeps a state at `address`, or at a new one if this unit has none there. Yields the address.
     fn keep(&mut self, saved: Saved, address: usize) -> usize {
         if let Some(kept) = self.kept.get_mut(&address) {
-            *kept = Kept { saved, bytes: None };
+            *kept = SavedState { saved, bytes: None };
             return address;
         }
         let address = guard::fresh_address();
-        self.kept.insert(address, Kept { saved, bytes: None });
+        self.kept.insert(address, SavedState { saved, bytes: None });
         address
     }
 
     /// `fmi2SetFMUstate`
     pub(crate) fn restore(&mut self, address: usize) -> Result<(), Refusal> {
-        let Kept { saved, .. } = self.kept.get(&address).ok_or(Refusal::Handle)?;
+        let SavedState { saved, .. } = self.kept.get(&address).ok_or(Refusal::Handle)?;
         let other = if saved.given == self.made_with { None } else { Some(self.made_with_those_of(saved)?) };
         let course = saved.course;
         // Kept states are those of this instance, or were checked as they came in; a simulation made anew has not seen them yet.
@@ -104,7 +104,7 @@ impl Instance {
     }
 
     /// A simulation with the parameters of a saved state.
-    fn made_with_those_of(&self, saved: &Saved) -> Result<Begun, Refusal> {
+    fn made_with_those_of(&self, saved: &Saved) -> Result<StartedSimulation, Refusal> {
         self.unit.begin(saved.given.clone()).map_err(|error| Refusal::Parameters { error: error.to_string() })
     }
 }

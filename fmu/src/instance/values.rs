@@ -137,8 +137,8 @@ impl Instance {
                 1 => self.unit.interface.check_rate(index, rate)?,
                 2 => drop(self.unit.interface.check_acceleration(&self.unit.scene, index, rate)?),
                 _ => {
-                    let right = "order 1, or order 2 of quadratic motion,";
-                    return Err(Refusal::Order { order, right, reference, name: variable.name.clone() });
+                    let expected = "order 1, or order 2 of quadratic motion";
+                    return Err(Refusal::Order { order, expected, reference, name: variable.name.clone() });
                 }
             }
         }
@@ -179,7 +179,7 @@ impl Instance {
         for (reference, order) in references.iter().zip(orders.iter()) {
             let (index, variable) = self.variable(reference, "Real")?;
             if order != 1 {
-                return Err(Refusal::Order { order, right: "order 1", reference, name: variable.name.clone() });
+                return Err(Refusal::Order { order, expected: "order 1", reference, name: variable.name.clone() });
             }
             rates.push(self.unit.interface.rate(&self.simulation, index)?);
         }

@@ -1,11 +1,11 @@
 //! Variables of each boundary and of its nodes.
 
 use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
+use crate::engine::simulation::Input;
+use crate::engine::state::State;
 use crate::interface::{Quantity, Value, Variability};
-use crate::motion::Seen;
+use crate::laws::motion::ShownVariables;
 use crate::scene::{InputCourse, Scene};
-use crate::state::State;
-use crate::step::Input;
 
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
@@ -19,13 +19,13 @@ const fn given<const FIRST: usize>() -> Option<Write> {
 }
 
 /// What the outside sees of an axis: 0 to 2 along x, y, z, 3 to 5 about them.
-fn seen(scene: &Scene, at: At, first: usize) -> Seen {
+fn seen(scene: &Scene, at: At, first: usize) -> ShownVariables {
     scene.boundaries[at.boundary.index()].axes[first + at.axis()].seen()
 }
 
 /// Whether the outside moves it.
 fn is_driven(scene: &Scene, at: At, first: usize) -> bool {
-    seen(scene, at, first) == Seen::Input
+    seen(scene, at, first) == ShownVariables::Input
 }
 
 /// Whether it takes its acceleration, too.
@@ -35,27 +35,34 @@ fn bends(scene: &Scene, at: At) -> bool {
 
 /// Whether its displacement follows from something else than an input of that name.
 fn moves_by_itself(scene: &Scene, at: At, first: usize) -> bool {
-    matches!(seen(scene, at, first), Seen::Place | Seen::PlaceAndRate | Seen::Load | Seen::Rate | Seen::Servo)
+    matches!(
+        seen(scene, at, first),
+        ShownVariables::Place
+            | ShownVariables::PlaceAndRate
+            | ShownVariables::Load
+            | ShownVariables::Rate
+            | ShownVariables::Servo
+    )
 }
 
 /// Whether forces move it.
 fn is_free(scene: &Scene, at: At, first: usize) -> bool {
-    matches!(seen(scene, at, first), Seen::PlaceAndRate | Seen::Load)
+    matches!(seen(scene, at, first), ShownVariables::PlaceAndRate | ShownVariables::Load)
 }
 
 /// Whether the outside loads it.
 fn is_loaded(scene: &Scene, at: At, first: usize) -> bool {
-    seen(scene, at, first) == Seen::Load
+    seen(scene, at, first) == ShownVariables::Load
 }
 
 /// Whether the outside gives its velocity.
 fn is_steered(scene: &Scene, at: At, first: usize) -> bool {
-    seen(scene, at, first) == Seen::Rate
+    seen(scene, at, first) == ShownVariables::Rate
 }
 
 /// Whether a servo moves it.
 fn is_served(scene: &Scene, at: At) -> bool {
-    seen(scene, at, 0) == Seen::Servo
+    seen(scene, at, 0) == ShownVariables::Servo
 }
 
 /// Mass of a boundary: of its particles, or as the scene gives it; 0 for one that has none \[kg\].

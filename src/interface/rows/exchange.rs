@@ -1,9 +1,9 @@
 //! Variables of what comes, goes and passes.
 
 use super::row::{COUNT, Each, OUTPUT, Row, Write, count};
-use crate::exchange::{Amount, Outside};
+use crate::engine::simulation::Input;
 use crate::interface::{Quantity, Value};
-use crate::step::Input;
+use crate::scene::exchange::{Amount, Outside};
 
 /// The rate of an insertion, as it is given.
 pub(super) const RATE: Row = Row {

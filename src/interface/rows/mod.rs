@@ -9,8 +9,8 @@ mod regions;
 mod row;
 mod scene;
 
+use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
-use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};

@@ -1,11 +1,11 @@
-//! What a kind of variable says of itself, and what many kinds have in common.
+//! The description of a kind of variable, and what many kinds have in common.
 
-use crate::averages::Content;
+use crate::base::quantity::BoundaryIndex;
+use crate::engine::averages::Content;
+use crate::engine::simulation::{Input, Simulation};
+use crate::engine::state::{BondList, BoundaryState, Exchange, Nodes, State};
 use crate::interface::{Findings, Quantity, Value, Variability};
-use crate::quantity::BoundaryIndex;
 use crate::scene::Scene;
-use crate::state::{BondList, BoundaryState, Exchange, Nodes, State};
-use crate::step::{Input, Simulation};
 
 /// Names of the axes in variables.
 pub(in crate::interface) const AXES: [&str; 3] = ["x", "y", "z"];

@@ -1,9 +1,9 @@
 //! Variables of the scene as a whole.
 
 use super::row::{COUNT, OUTPUT, Present, Row, count};
+use crate::engine::state::{BondList, Loss};
 use crate::interface::losses::LOSSES;
 use crate::interface::{Quantity, Value, Variability, losses};
-use crate::state::{BondList, Loss};
 
 /// The output of a loss, by its place.
 pub(super) const fn lost<const PLACE: usize>() -> Row {

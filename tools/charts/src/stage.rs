@@ -1,7 +1,7 @@
 //! Scenes written as text, run, and looked at particle by particle.
 
 use cograin::scene::{Scene, Source};
-use cograin::step::Simulation;
+use cograin::simulation::Simulation;
 use cograin_chart::ChartError;
 use std::sync::Arc;
 

@@ -1,0 +1,81 @@
+//! The threads that work on the loops of a time step, and the lane width.
+
+use super::helpers::Threads;
+use crate::base::lanes::{Shared, Width};
+
+/// Particles in one piece of work. Sums over particles are taken piece by piece, in order, so that they do not
+/// depend on the number of threads.
+pub(crate) const CHUNK: usize = 1024;
+
+/// What a pass needs to know beside the state.
+#[derive(Clone, Copy)]
+pub(crate) struct Context<'a> {
+    /// Time since springs were last advanced \[s\]: the time step, or 0 in the evaluation before the first one.
+    pub step: f64,
+    /// Lane width.
+    pub width: Width,
+    /// The helper threads, if several threads work.
+    pub threads: Option<&'a Threads>,
+}
+
+impl Context<'_> {
+    /// Does pieces 0 to `count` − 1 of the work, in any order.
+    pub(crate) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {
+        match self.threads {
+            Some(threads) if count > 1 => threads.each(count, &piece),
+            _ => (0..count).for_each(piece),
+        }
+    }
+
+    /// Does slabs 0 to `count` − 1 of the work: those of even number in any order, each of odd number when both its
+    /// neighbours are done. What two neighbours add to one place thus always comes in the same order, and what is
+    /// near in space is near in time.
+    pub(crate) fn slabs(&self, count: usize, work: impl Fn(usize) + Sync + Send) {
+        match self.threads {
+            Some(threads) if count > 2 => threads.slabs(count, &work),
+            _ => (0..count).for_each(|turn| work(in_turn(turn, count))),
+        }
+    }
+
+    /// Joins what the pieces 0 to `count` − 1 give, in order, without asking for memory.
+    pub(crate) fn fold<T: Send, A>(
+        &self,
+        count: usize,
+        piece: impl Fn(usize) -> T + Sync + Send,
+        start: A,
+        mut join: impl FnMut(A, T) -> A,
+    ) -> A {
+        /// Pieces that are done before their results are joined.
+        const ROUND: usize = 128;
+        let Some(threads) = self.threads.filter(|_| count > 1) else { return (0..count).map(piece).fold(start, join) };
+        let mut sum = start;
+        for from in (0..count).step_by(ROUND) {
+            let mut results = [const { None }; ROUND];
+            let places = Shared::new(&mut results);
+            // SAFETY: each piece has a place of its own.
+            threads.each(ROUND.min(count - from), &|number| unsafe { *places.at(number) = Some(piece(from + number)) });
+            sum = results.into_iter().flatten().fold(sum, &mut join);
+        }
+        sum
+    }
+
+    /// What the pieces 0 to `count` − 1 give, in order.
+    pub(crate) fn collect<T: Send>(&self, count: usize, piece: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        let Some(threads) = self.threads.filter(|_| count > 1) else { return (0..count).map(piece).collect() };
+        let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
+        let places = Shared::new(&mut results);
+        // SAFETY: each piece has a place of its own.
+        threads.each(count, &|number| unsafe { *places.at(number) = Some(piece(number)) });
+        results.into_iter().flatten().collect()
+    }
+}
+
+/// The slab that one thread works on in this turn: 0, 2, 1, 4, 3, ..
+fn in_turn(turn: usize, count: usize) -> usize {
+    match turn {
+        0 => 0,
+        turn if turn % 2 == 1 && turn + 1 < count => turn + 1,
+        turn if turn % 2 == 1 => turn,
+        turn => turn - 1,
+    }
+}

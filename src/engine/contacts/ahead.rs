@@ -1,0 +1,174 @@
+//! How stiff interactions are, and how stiff they may get before anybody looks again: what the stable time step is found
+//! from.
+
+use crate::base::number::{Row, Vector};
+use crate::engine::contacts::coefficients::overlap_of;
+use crate::engine::state::Particles;
+use crate::laws::bond::creation::Window;
+use crate::laws::contact::{Contact, Law, MOST_HISTORY};
+
+/// How much faster than at the last look anything may become before the next, at least.
+pub(crate) const FASTER: f64 = 1.5;
+
+/// A contact without a past.
+const NO_HISTORY: [Row; MOST_HISTORY] = [[0.0; 4]; MOST_HISTORY];
+
+/// Stiffness or damping of a contact or bond in its own frame: along the normal, across it \[N/m or kg/s\], against twisting
+/// about it and against bending \[N m or N m s\].
+pub(crate) type Frame = [f64; 4];
+
+/// What an interaction is to the stable time step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Bodies that touch.
+    Contact,
+    /// Bodies that may touch soon.
+    ComingContact,
+    /// Bonded bodies.
+    Bond,
+    /// Bodies that may be bonded soon.
+    ComingBond,
+}
+
+/// One interaction as springs and dashpots.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    /// What it is.
+    pub kind: Kind,
+    /// One particle (slot).
+    pub first: u32,
+    /// The other particle (slot), or none at a boundary that is not a particle.
+    pub second: Option<u32>,
+    /// That boundary.
+    pub boundary: Option<u32>,
+    /// Unit normal, from the second to the first.
+    pub normal: Vector,
+    /// Arms at the first and the second particle \[m\].
+    pub arms: [f64; 2],
+    /// Stiffness.
+    pub stiffness: Frame,
+    /// Damping.
+    pub damping: Frame,
+}
+
+impl Link {
+    /// A contact of these two particles, or of one with a boundary, by a law and its coefficients.
+    pub(crate) fn of_contact(
+        (first, second, boundary): (u32, Option<u32>, Option<u32>),
+        (law, row): (&Law, &[f64]),
+        contact: &Contact,
+        arms: [f64; 2],
+    ) -> Self {
+        let (response, rolling) = (law.stiffness(row, contact), law.rolling_stiffness(row, contact));
+        Self {
+            kind: Kind::Contact,
+            first,
+            second,
+            boundary,
+            normal: contact.normal,
+            arms,
+            stiffness: [response.normal_stiffness, response.tangential_stiffness, rolling.torsion, rolling.bending],
+            damping: [response.normal_damping, response.tangential_damping, 0.0, 0.0],
+        }
+    }
+}
+
+impl Link {
+    /// The same without stiffness and damping along the normal: a bond suppresses them.
+    pub(crate) fn without_normal(mut self) -> Self {
+        (self.stiffness[0], self.damping[0]) = (0.0, 0.0);
+        self
+    }
+}
+
+/// How far ahead the search for stiffnesses looks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SearchLimits {
+    /// Overlaps that grow by no more than this count as if they had \[m\]: certain, whatever moves the bodies.
+    pub margin: f64,
+    /// Two bodies come no nearer to each other than by this until the next look \[m\].
+    pub way: f64,
+    /// Largest acceleration by gravity and applied forces \[m/s²\].
+    pub acceleration: f64,
+    /// How much faster than now anything may become.
+    pub faster: f64,
+    /// Largest speed that each boundary has or is about to get, of its particles \[m/s\].
+    pub boundaries: Vec<f64>,
+    /// The time steps in which bonds to be made count; none where no bond to come does.
+    pub window: Option<Window>,
+}
+
+impl SearchLimits {
+    /// The largest speed at which a pair may close: as it does now \[m/s\], faster by what may come, by what the boundaries
+    /// of its particles get and by a fall through the gap \[m\].
+    fn closing_speed(&self, closing: f64, gap: f64, boundary: f64) -> f64 {
+        self.faster * (closing.max(0.0) + boundary) + (2.0 * self.acceleration * gap.max(0.0)).sqrt()
+    }
+
+    /// What the boundary of a particle (slot) may add to its speed \[m/s\].
+    fn of_boundary(&self, particles: &Particles, slot: u32) -> f64 {
+        match (particles.owner[slot as usize] as usize).checked_sub(1) {
+            None => 0.0,
+            Some(boundary) => {
+                let [x, y, z, _] = particles.velocity[slot as usize];
+                let now = Vector::new(x, y, z).length();
+                self.boundaries.get(boundary).map_or(0.0, |speed| (speed - now).max(0.0))
+            }
+        }
+    }
+
+    /// The contact of two particles as deep as it may get, if it may.
+    pub(crate) fn between(
+        &self,
+        law: &Law,
+        row: &[f64],
+        contact: &Contact,
+        particles: &Particles,
+        slots: [u32; 2],
+    ) -> Option<Contact> {
+        let [i, j] = slots.map(|slot| particles.velocity[slot as usize][3]);
+        let boundary = slots.map(|slot| self.of_boundary(particles, slot));
+        self.deepest(law, row, contact, i.max(j), boundary[0] + boundary[1])
+    }
+
+    /// The contact of a particle with a boundary as deep as it may get, if it may.
+    pub(crate) fn at_boundary(
+        &self,
+        law: &Law,
+        row: &[f64],
+        contact: &Contact,
+        now: f64,
+        boundary: u32,
+    ) -> Option<Contact> {
+        let speed = self.boundaries.get(boundary as usize).map_or(0.0, |speed| (speed - now).max(0.0));
+        self.deepest(law, row, contact, contact.mass, speed)
+    }
+
+    /// A contact or near pair, its overlap negative where it has a gap, as deep as it may get; damped as at the turn.
+    /// None where it does not touch.
+    ///
+    /// Whatever the speeds, the overlap grows by no more than the way of both bodies. Where that is more than the margin, it is
+    /// bounded by the energy of the closing pair as well: that of the heavier body, for it may be pushed from behind. This
+    /// second bound is a heuristic, for others may push too.
+    fn deepest(&self, law: &Law, row: &[f64], contact: &Contact, mass: f64, boundary: f64) -> Option<Contact> {
+        let overlap = contact.overlap;
+        let certain = overlap + self.margin;
+        let farthest = overlap + self.way;
+        let mut deep = certain.max(0.0);
+        if farthest > certain {
+            let speed = self.closing_speed(-contact.normal_velocity, -overlap, boundary);
+            if speed > 0.0 && farthest > 0.0 {
+                let held = |overlap: f64| match overlap > 0.0 {
+                    true => law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &NO_HISTORY),
+                    false => 0.0,
+                };
+                let energy = held(overlap) + 0.5 * mass * speed * speed;
+                // At rest the margin is above what the energy reaches. Attraction beyond touch has energy that falls, too.
+                if energy > held(deep) || law.holds_beyond_touch() {
+                    deep = deep.max(overlap_of(law, row, contact, energy, farthest));
+                }
+            }
+        }
+        (deep > 0.0).then_some(Contact { overlap: deep, normal_velocity: 0.0, ..*contact })
+    }
+}

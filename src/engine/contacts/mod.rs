@@ -1,0 +1,17 @@
+//! Interactions: forces between particles and surfaces, pass by pass over the lists, and what all passes have in common.
+
+mod ahead;
+pub(crate) mod batches;
+pub(crate) mod coefficients;
+mod listed;
+mod pairs;
+pub(crate) mod particles;
+mod pass;
+mod records;
+pub(crate) mod suppression;
+pub(crate) mod surfaces;
+
+pub(crate) use ahead::{FASTER, Kind, Link, SearchLimits};
+pub(crate) use listed::SLIGHT;
+pub(crate) use pass::Pass;
+pub use records::{BondRecord, ContactRecord, PlacedSpring};

@@ -1,0 +1,119 @@
+//! Pairs of particles, whose loads go to both.
+
+use crate::base::lanes::{Lane, Shared};
+use crate::base::memory::prefetch;
+use crate::base::number::{add, subtract};
+use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
+use crate::engine::contacts::coefficients::CoefficientTable;
+use crate::engine::state::Row;
+use crate::laws::contact::Needs;
+use std::ops::Range;
+
+/// Pairs of particles.
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<'a> {
+    /// First particle of each pair.
+    pub first: &'a [u32],
+    /// Second particle of each pair.
+    pub second: &'a [u32],
+    /// Positions and radii.
+    pub position: &'a [Row],
+    /// Velocities and masses.
+    pub velocity: &'a [Row],
+    /// Angular velocities.
+    pub angular_velocity: &'a [Row],
+    /// Materials.
+    pub material: &'a [u32],
+    /// Forces.
+    pub force: Shared<Row>,
+    /// Torques.
+    pub torque: Shared<Row>,
+}
+
+impl Bodies for Pairs<'_> {
+    type Sum = ();
+    const FOUND: usize = FOUND;
+
+    fn first(&self) -> &[u32] {
+        self.first
+    }
+
+    fn second(&self) -> &[u32] {
+        self.second
+    }
+
+    #[inline(always)]
+    unsafe fn touch<N: Lane>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        beyond: Option<N>,
+        _sum: &mut (),
+    ) -> (u32, [N; FOUND]) {
+        let positions = self.position.as_ptr();
+        // SAFETY: a list holds slots of particles, below their number.
+        let pair = unsafe { SpherePair::of([N::load_rows(positions, first), N::load_rows(positions, second)]) };
+        (N::bits(pair.overlap(beyond)), pair.to_found())
+    }
+
+    #[inline(always)]
+    fn roots<N: Lane>(found: &[N; FOUND]) -> [N; 2] {
+        SpherePair::from_found(*found).roots()
+    }
+
+    #[inline(always)]
+    unsafe fn meet<N: Lane, const TORQUE: bool>(
+        &self,
+        first: *const u32,
+        second: *const u32,
+        found: [N; FOUND],
+        roots: [N; 2],
+    ) -> ContactGeometry<N> {
+        let (v, w) = (self.velocity.as_ptr(), self.angular_velocity.as_ptr());
+        // SAFETY: a list holds slots of particles, below their number.
+        let (velocities, spins) = unsafe {
+            let spins = if TORQUE { [N::load_rows(w, first), N::load_rows(w, second)] } else { [[N::zero(); 4]; 2] };
+            ([N::load_rows(v, first), N::load_rows(v, second)], spins)
+        };
+        SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
+    }
+
+    fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32 {
+        table.entry(self.material[first as usize], self.material[second as usize])
+    }
+
+    fn prefetch(&self, slots: Range<usize>, needs: Needs) {
+        // A line of the cache holds two rows.
+        for slot in slots.step_by(2) {
+            prefetch(self.position.as_ptr().wrapping_add(slot));
+            prefetch(self.velocity.as_ptr().wrapping_add(slot));
+            prefetch(self.force.pointer().wrapping_add(slot));
+            if needs.torque {
+                prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
+                prefetch(self.torque.pointer().wrapping_add(slot));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn spread(&self, touching: &Touching, needs: Needs, _sum: &mut ()) {
+        let Touching { first, second, force, .. } = *touching;
+        for place in 0..first.len() {
+            let (i, j) = (first[place] as usize, second[place] as usize);
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe {
+                add(self.force.at(i), &force[place]);
+                subtract(self.force.at(j), &force[place]);
+                if needs.torque {
+                    let [mut on_i, mut on_j] = touching.torques(place);
+                    if needs.spin {
+                        subtract(&mut on_i, &touching.rolling[place]);
+                        add(&mut on_j, &touching.rolling[place]);
+                    }
+                    add(self.torque.at(i), &on_i);
+                    add(self.torque.at(j), &on_j);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What the passes of a time step have in common.
+
+use super::ahead::{Link, SearchLimits};
+use super::records::{BondRecord, ContactRecord};
+use crate::base::threads::Context;
+use crate::engine::run_error::RunError;
+use crate::engine::state::ledger::Source;
+use crate::engine::state::{State, StateFault};
+use crate::laws::bond::creation::Moment;
+use crate::laws::contact::Response;
+use crate::scene::Scene;
+
+/// One kind of interaction, composed for the scene.
+pub(crate) trait Pass: Send + Sync {
+    /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
+    /// that must not be continued from; the evaluation is complete all the same.
+    fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
+
+    /// Makes what is to be made at this moment, in a time step of this length \[s\] (0 before the first). Returns
+    /// whether anything was made: the lists are then made anew.
+    fn create(&self, _state: &mut State, _moment: &Moment, _step: f64) -> bool {
+        false
+    }
+
+    /// Whether particles need an orientation for it.
+    fn needs_orientations(&self) -> bool {
+        false
+    }
+
+    /// Whether particles feel torque from it.
+    fn has_torque(&self) -> bool;
+
+    /// Takes over the coefficients of contact laws that a state has.
+    fn take_coefficients(&mut self, _state: &State) {}
+
+    /// Takes over the strengths of bonds that a state has.
+    fn take_strengths(&mut self, _scene: &Scene, _state: &State) {}
+
+    /// Whether its part of a state from outside has the columns that the law trusts. Slots, order and finite numbers have
+    /// been looked at.
+    fn check(&self, state: &State) -> Result<(), StateFault>;
+
+    /// Prepares its part of the state after the neighbour lists were made anew.
+    fn prepare(&self, _state: &mut State) {}
+
+    /// The kind of force it is, for the energy book.
+    fn source(&self) -> Source;
+
+    /// Tells the stiffness of each interaction at work or, where `ahead` looks further, as stiff as each may get: for the
+    /// stable time step.
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link));
+
+    /// Tells the stiffest that each kind of contact gets between two bodies of this effective radius \[m\] and mass \[kg\]
+    /// which meet at this speed \[m/s\].
+    fn impacts(&self, _radius: f64, _mass: f64, _speed: f64, _tell: &mut dyn FnMut(Response)) {}
+
+    /// Tells each contact at work as it was in the last evaluation. Changes nothing.
+    fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
+
+    /// How many contacts are near a switch (`listed::near_switch`): of planes and pairs of particles.
+    fn near_switch(&self, _state: &State, _step: f64, _margin: f64) -> u64 {
+        0
+    }
+
+    /// Elastic energy at the present time, as far as it has a closed form \[J\].
+    fn elastic_energy(&self, state: &State) -> f64;
+
+    /// Books what bonds of particles (slots) that go did in the first half of the present time step \[s\]. Returns the elastic energy
+    /// that they gave in it: their force acted as long \[J\].
+    fn let_go(&self, _state: &mut State, _goes: &[bool], _step: f64) -> f64 {
+        0.0
+    }
+
+    /// Energy at the present time of rolling springs, of sticky and of plastic normal forces \[J\]: for a book of losses.
+    fn held_energy(&self, _state: &State) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    /// Largest overlap at the present time over the smaller radius of the two (the particle's, at a surface).
+    fn largest_overlap(&self, _state: &State) -> f64 {
+        0.0
+    }
+
+    /// Tells each living bond and what it carries. Changes nothing.
+    fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}
+}

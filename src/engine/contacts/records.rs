@@ -1,0 +1,170 @@
+//! Records of the present contacts and bonds, for outputs.
+
+use crate::base::number::Vector;
+use crate::engine::state::contacts::SLIDING;
+use crate::engine::state::{History, Row, State};
+use crate::laws::bond::BondLoads;
+use crate::laws::contact::{Contact, Law, MOST_HISTORY, Reaction};
+
+/// One contact at work, as it was when the present forces were evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRecord {
+    /// The particle: index into the scene's particles.
+    pub first: u32,
+    /// The other particle, unless it is a plane.
+    pub second: Option<u32>,
+    /// The plane: index into the scene's boundaries.
+    pub boundary: Option<u32>,
+    /// Where they touch \[m\].
+    pub point: [f64; 3],
+    /// Unit normal, from the other body to the first particle.
+    pub normal: [f64; 3],
+    /// Overlap \[m\].
+    pub overlap: f64,
+    /// Force along the normal on the first particle, cohesion included \[N\].
+    pub normal_force: f64,
+    /// Force in the tangent plane on the first particle \[N\].
+    pub tangential_force: [f64; 3],
+    /// Whether the tangential spring is at its limit.
+    pub sliding: bool,
+}
+
+/// One living bond and what it carries at the present time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondRecord {
+    /// Its law: index into the scene's bond laws.
+    pub law: u32,
+    /// Body i: index into the scene's particles.
+    pub first: u32,
+    /// Body j: index into the scene's particles; none where it is the law's plane.
+    pub second: Option<u32>,
+    /// Where body j is, or the foot of the bond on the plane \[m\].
+    pub other: [f64; 3],
+    /// Force on body i, that of damping included \[N\].
+    pub force: [f64; 3],
+    /// Forces, torques, stresses and energy.
+    pub carried: BondLoads,
+    /// Energy that damping and relaxation took of it so far \[J\].
+    pub dissipated: f64,
+}
+
+impl BondRecord {
+    /// Whether it is a bond of these two of the scene's particles, in this order.
+    pub fn joins(&self, [i, j]: [u32; 2]) -> bool {
+        self.first == i && self.second == Some(j)
+    }
+}
+
+impl ContactRecord {
+    /// The record of a contact and what it does.
+    pub(crate) fn new(
+        (first, second): (u32, Option<u32>),
+        boundary: Option<u32>,
+        point: Vector,
+        contact: &Contact,
+        reaction: &Reaction,
+        sliding: bool,
+    ) -> Self {
+        let along = reaction.force.dot(contact.normal);
+        Self {
+            first,
+            second,
+            boundary,
+            point: point.to_array(),
+            normal: contact.normal.to_array(),
+            overlap: contact.overlap,
+            normal_force: along,
+            tangential_force: (reaction.force - contact.normal * along).to_array(),
+            sliding,
+        }
+    }
+}
+
+/// When the motion of bodies is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Motion {
+    /// Now.
+    Present,
+    /// At the middle of the last time step, of this length \[s\], when forces were evaluated.
+    HalfStepBack(f64),
+}
+
+impl Motion {
+    /// That which the records of a law show, after a step of this length \[s\]: of the last evaluation; where dashpots are predicted, of
+    /// now, which they saw to the second order of the step.
+    pub(crate) fn shown(law: &Law, step: f64) -> Self {
+        if law.scheme().predicts() { Self::Present } else { Self::HalfStepBack(step) }
+    }
+
+    /// Velocity with mass and angular velocity with moment of inertia of a particle then.
+    pub(crate) fn of(self, state: &State, slot: u32) -> (Row, Row) {
+        let (particles, slot) = (&state.particles, slot as usize);
+        let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+        let Self::HalfStepBack(step) = self else { return (velocity, spin) };
+        if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+            let moved = &state.boundaries[group];
+            let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+            let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
+            for axis in 0..3 {
+                velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
+                spin[axis] -= moved.inertial.spin_kick[axis];
+            }
+        } else {
+            for axis in 0..3 {
+                velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
+                spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
+            }
+        }
+        (velocity, spin)
+    }
+}
+
+/// What a law remembers of an entry of a list; rows that it does not have are zero.
+pub(crate) fn history(kept: &History, entry: usize) -> [Row; MOST_HISTORY] {
+    let mut rows = [[0.0; 4]; MOST_HISTORY];
+    for (row, kept) in rows.iter_mut().zip(kept.get(entry)) {
+        *row = *kept;
+    }
+    rows
+}
+
+/// A contact in the motion that the records of its law show, as its dashpots saw it, if that is remembered.
+pub(crate) fn seen(law: &Law, mut contact: Contact, kept: &History, entry: usize) -> Contact {
+    let remembered = law.history_places().seen.and_then(|place| kept.get(entry).get(place));
+    // Where records were not asked for until now, nothing is remembered yet.
+    if let Some([velocity, weight, 1.0, _]) = remembered {
+        contact.normal_velocity = *velocity;
+        // Springs do not grow in records: here slip is what the dashpot sees.
+        contact.slip = contact.slip * *weight;
+    }
+    contact
+}
+
+/// What a contact does, with what the last evaluation left to remember. A spring that slid then has no dashpot beside
+/// it, unless both stand at the limit together.
+pub(crate) fn react(
+    law: &Law,
+    row: &[f64],
+    contact: &Contact,
+    kept: &History,
+    entry: usize,
+    flags: u8,
+) -> (Reaction, bool) {
+    let sliding = flags & SLIDING != 0;
+    let mut contact = *contact;
+    if sliding && law.spring().is_some() && !law.limits_dashpot() {
+        contact.slip = Vector::zero();
+    }
+    (law.react(row, &mut contact, &mut history(kept, entry), 0.0), sliding)
+}
+
+/// The spring of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedSpring {
+    /// The bodies: indices into the scene's particles.
+    pub bodies: [u32; 2],
+    /// Tangential spring, as the first sees the second \[m\].
+    pub spring: [f64; 3],
+    /// Overlap from which the normal force is taken, of a contact that a bond suppresses or has suppressed \[m\].
+    pub offset: f64,
+}

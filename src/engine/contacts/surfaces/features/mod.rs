@@ -1,0 +1,256 @@
+//! A surface of features: where it is touched is found anew in each step.
+//!
+//! A particle touches several features at once, in a corner or a bend, and other ones in the next step. Its feet are found from
+//! the parts that are near ([`crate::laws::surface::Features`]) and become entries of a batch, with their weights and shares of
+//! friction as columns. What a contact remembers goes with its feature, and from one feature to the next where the foot rolls
+//! over a bend. A law that holds bodies together beyond touch does so where there was a contact before.
+
+mod at_feet;
+mod columns;
+mod on_planes;
+mod standing;
+mod together;
+mod told;
+
+use super::history::{CurrentContacts, PreviousContacts, source, taken};
+use super::nodes::Held;
+use super::sphere::{Load, ParticleLoads};
+use super::{AtSurface, Range, Work};
+use crate::base::lanes::Width;
+use crate::base::number::Vector;
+use crate::engine::contacts::batches::Entries;
+use crate::engine::state::WallContacts;
+use crate::engine::state::contacts::REVERSE;
+use crate::laws::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
+use at_feet::AtFeet;
+use columns::finish;
+pub(super) use columns::{ColumnBuffer, FeatureContacts, replace};
+use standing::{MovingSurface, SphereOnSurface};
+
+/// The parts that are near a listed particle.
+fn parts(list: &WallContacts, place: usize) -> &[u32] {
+    let [from, to] = [place, place + 1].map(|place| list.near.starts.get(place).map_or(0, |&start| start as usize));
+    &list.near.parts[from..to.max(from)]
+}
+
+/// The pair constant of a particle that is near.
+fn constant(list: &WallContacts, place: usize) -> f64 {
+    list.pair_constant.get(place).copied().unwrap_or(0.0)
+}
+
+impl AtSurface {
+    /// What the particles in a range of slots do to a surface of features.
+    pub(super) fn piece_at_features(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
+        let boundary = work.walls[self.index].boundary as usize;
+        let nodes = work.nodes.iter().find(|nodes| nodes.boundary as usize == boundary);
+        let evaluate = |at: MovingSurface| self.piece_at(at, work, slots, contacts);
+        MovingSurface::with(self, (&work.boundaries[boundary], nodes), evaluate).unwrap_or_default()
+    }
+
+    /// The same where it stands.
+    fn piece_at(&self, at: MovingSurface, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
+        let list = &work.walls[self.index];
+        let [from, to] =
+            [slots.start, slots.end].map(|end| list.particle.partition_point(|&slot| (slot as usize) < end));
+        let entries = work.entries[self.index].from(from, &mut []);
+        let past = PreviousContacts { particle: &list.particle[from..to], feature: &list.feature[from..to], entries };
+        // Triangles lie all over the memory; those that were touched are most of what is looked at first.
+        at.features.prefetch(past.feature);
+        contacts.clear(self.kept_rows);
+        self.find(&at, list, &work.particles, (slots, work.context.width), &past, contacts);
+        contacts.complete(&past, from..to, self.kept_rows);
+        if contacts.kept.is_none() {
+            self.remember(&at, &past, contacts);
+        }
+        let behind = went_through(&past, contacts);
+        let FeatureContacts { particle, number, foot, weight, side, pair_constant, held, .. } = contacts;
+        let (count, particles) = (particle.len(), work.particles);
+        let entries = match contacts.kept {
+            Some(_) => entries.from(0, pair_constant),
+            None => {
+                Entries::of(&mut contacts.flags, contacts.history.rows(), contacts.history.all_mut(), pair_constant)
+            }
+        };
+        // SAFETY: the entries are those of this piece.
+        unsafe { entries.flags.part(0, count) }.fill(0);
+        let held = at.moving.map(|_| held.columns());
+        let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
+        let load = self.run(&self.batches(bodies, entries, (work.context.step, work.context.width)), 0..count);
+        // SAFETY: as above.
+        finish(unsafe { entries.flags.part(0, count) }, side, weight);
+        Load { behind, ..load }
+    }
+
+    /// Finds the contacts of the particles in a range of slots.
+    fn find(
+        &self,
+        at: &MovingSurface,
+        list: &WallContacts,
+        particles: &ParticleLoads,
+        (slots, width): (Range<usize>, Width),
+        past: &PreviousContacts,
+        contacts: &mut FeatureContacts,
+    ) {
+        // Where contacts have no more than a foot.
+        let law = &self.law.law;
+        let is_plain = !law.holds_beyond_touch() && !law.has_pair_constant() && at.moving.is_none();
+        let near = &list.near.particle;
+        let [mut first, last] = [slots.start, slots.end].map(|end| near.partition_point(|&slot| (slot as usize) < end));
+        let (mut feet, mut entry) = (std::mem::take(&mut contacts.feet), 0);
+        while first < last {
+            let together = if is_plain { TOGETHER.min(last - first) } else { last - first };
+            let places = first..first + together;
+            let on_planes = list.near.plane[places.clone()].iter().fold(false, |any, &plane| any | (plane != NO_PLANE));
+            if is_plain && on_planes {
+                let found = (&mut *contacts, &mut feet);
+                entry = self.find_together(at, (list, places), (particles, width), (past, entry), found);
+            } else {
+                places.for_each(|place| self.find_at(at, (list, place), particles, past, (contacts, &mut feet)));
+            }
+            first += together;
+        }
+        contacts.feet = feet;
+    }
+
+    /// Finds the contacts of one particle, whose place in the list is this one, from all parts that are near.
+    fn find_at(
+        &self,
+        at: &MovingSurface,
+        (list, place): (&WallContacts, usize),
+        particles: &ParticleLoads,
+        past: &PreviousContacts,
+        (contacts, feet): (&mut FeatureContacts, &mut Feet),
+    ) {
+        let (slot, constant) = (list.near.particle[place], constant(list, place));
+        let (position, sticks) = (particles.position[slot as usize], self.law.law.holds_beyond_touch());
+        let centre = at.frame.inside(Vector::from(position));
+        feet.clear();
+        at.features.feet(centre, position[3] + if sticks { constant } else { 0.0 }, parts(list, place), feet);
+        if sticks {
+            self.keep_touched(at, (slot, position[3]), past, feet);
+        }
+        let here = SphereContacts { at, particles, slot, constant, feet };
+        feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
+        contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
+    }
+
+    /// Adds a contact.
+    #[inline]
+    fn add(&self, here: &SphereContacts, foot: &Foot, contacts: &mut FeatureContacts) {
+        let normal = here.at.frame.outside(foot.normal);
+        let share = match foot.weight > 0.0 {
+            true if here.feet.saddles.is_empty() => foot.weight,
+            true => self.friction(here, foot),
+            false => 0.0,
+        };
+        if self.law.law.has_pair_constant() {
+            contacts.pair_constant.push(here.constant);
+        }
+        if here.at.moving.is_some() {
+            here.hold(foot, normal, &mut contacts.held);
+        }
+        contacts.push(here.slot, foot, normal, share);
+    }
+
+    /// Keeps those feet of a particle (slot, radius \[m\]) that are touched: beyond touch, where there was a contact before.
+    #[inline(never)]
+    fn keep_touched(&self, at: &MovingSurface, (slot, radius): (u32, f64), past: &PreviousContacts, feet: &mut Feet) {
+        if feet.list.iter().all(|foot| foot.distance <= radius) {
+            return;
+        }
+        let entries = past.of(slot, past.particle.partition_point(|&other| other < slot));
+        let mut features = std::mem::take(&mut feet.room[0]);
+        features.clear();
+        features.extend(feet.list.iter().map(|foot| foot.feature));
+        let saddles: Vec<(u32, Saddle)> = feet.saddles.iter().map(|saddle| (slot, *saddle)).collect();
+        let present = CurrentContacts { features: &features, saddles: &saddles };
+        feet.list.retain(|foot| {
+            let known = || source((foot.feature, foot.weight), present, (past, &entries), at.features, &self.law.law);
+            foot.distance <= radius || known().is_some()
+        });
+        feet.room[0] = features;
+    }
+
+    /// Gives all contacts what is remembered of them.
+    #[inline(never)]
+    fn remember(&self, at: &MovingSurface, past: &PreviousContacts, contacts: &mut FeatureContacts) {
+        let (law, mut history) = (&self.law.law, std::mem::take(&mut contacts.history));
+        let (mut first, mut entries) = (0, 0..0);
+        while let Some(&slot) = contacts.particle.get(first) {
+            let end = first + contacts.particle[first..].iter().take_while(|&&other| other == slot).count();
+            entries = past.of(slot, entries.end);
+            let present = contacts.present(first..end);
+            for contact in first..end {
+                let feature = contacts.feature[contact];
+                let touched = (feature, contacts.weight(contact));
+                let known = source(touched, present, (past, &entries), at.features, law);
+                let moved = known != past.entry(&entries, feature);
+                let normal = Vector::from(contacts.foot[contact]);
+                history.push((0..history.rows()).map(|row| {
+                    let kept = known.map_or([0.0; 4], |entry| past.row(entry, row));
+                    let memory = law.history().get(row).filter(|_| moved);
+                    memory.map_or(kept, |memory| taken(kept, memory, normal))
+                }));
+            }
+            first = end;
+        }
+        contacts.flags.resize(contacts.particle.len(), 0);
+        contacts.history = history;
+    }
+
+    /// The share of friction that a foot beside a saddle has.
+    #[inline(never)]
+    fn friction(&self, here: &SphereContacts, foot: &Foot) -> f64 {
+        let (slot, particles) = (here.slot as usize, here.particles);
+        let body = particles.body(slot);
+        let row = self.table.row(particles.material[slot], self.material);
+        SphereOnSurface { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
+    }
+}
+
+/// A particle (slot) whose centre came from one side of a face to the other.
+fn went_through(past: &PreviousContacts, contacts: &FeatureContacts) -> Option<u32> {
+    // SAFETY: the entries are those of this piece.
+    let before = unsafe { past.entries.flags.part(0, past.particle.len()) };
+    if contacts.kept.is_some() {
+        let mut both = before.iter().zip(&contacts.side);
+        // All are looked at, many at a time: mostly there is none.
+        if both.clone().fold(0, |changed, (before, now)| changed | (before ^ now)) & REVERSE == 0 {
+            return None;
+        }
+        return both.position(|(before, now)| (before ^ now) & REVERSE != 0).map(|contact| contacts.particle[contact]);
+    }
+    let (mut entries, mut last) = (0..0, None);
+    let through = |(&slot, (&feature, now)): (&u32, (&u32, &u8))| {
+        if last != Some(slot) {
+            (entries, last) = (past.of(slot, entries.end), Some(slot));
+        }
+        past.entry(&entries, feature).is_some_and(|entry| (before[entry] ^ now) & REVERSE != 0).then_some(slot)
+    };
+    contacts.particle.iter().zip(contacts.feature.iter().zip(&contacts.side)).find_map(through)
+}
+
+/// What a particle touches. What few contacts need is found from it, out of line.
+struct SphereContacts<'a> {
+    /// The surface.
+    at: &'a MovingSurface<'a>,
+    /// The particles.
+    particles: &'a ParticleLoads<'a>,
+    /// Which particle (slot).
+    slot: u32,
+    /// Its pair constant.
+    constant: f64,
+    /// Its feet.
+    feet: &'a Feet,
+}
+
+impl SphereContacts<'_> {
+    /// Adds what a contact has beside where nodes move one by one.
+    #[inline(never)]
+    fn hold(&self, foot: &Foot, normal: Vector, held: &mut Held) {
+        if let Some(moving) = &self.at.moving {
+            let position = self.particles.position[self.slot as usize];
+            held.push(moving, (foot, normal), self.at.frame.inside(Vector::from(position)), position[3]);
+        }
+    }
+}

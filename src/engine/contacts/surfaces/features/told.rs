@@ -1,0 +1,140 @@
+//! What the contacts with features are, for those who ask: stiffness, records, energies.
+
+use super::standing::{MovingSurface, SphereOnSurface};
+use super::{constant, parts};
+use crate::base::number::Vector;
+use crate::engine::contacts::ahead::{Link, SearchLimits};
+use crate::engine::contacts::batches::ContactGeometry;
+use crate::engine::contacts::records::{self, ContactRecord, Motion};
+use crate::engine::contacts::surfaces::AtSurface;
+use crate::engine::state::{Row, State};
+use crate::laws::contact::{MOST_HISTORY, Reaction};
+use crate::laws::surface::{Feet, Foot};
+
+impl AtSurface {
+    /// Hands out the contacts of the last evaluation: entry of the list, foot, its share of friction, contact.
+    fn each(&self, state: &State, motion: Motion, hand: impl FnMut(usize, &Foot, f64, &ContactGeometry)) {
+        // A face without area has been told when forces were evaluated.
+        let _ = self.follow(state);
+        let boundary = self.list(state).boundary as usize;
+        let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
+        MovingSurface::with(self, standing, |at| self.each_at(&at, state, motion, hand));
+    }
+
+    /// The same where it stands.
+    fn each_at(
+        &self,
+        at: &MovingSurface,
+        state: &State,
+        motion: Motion,
+        mut hand: impl FnMut(usize, &Foot, f64, &ContactGeometry),
+    ) {
+        let (list, law) = (self.list(state), &self.law.law);
+        let (mut feet, mut entry) = (Feet::default(), 0);
+        while entry < list.particle.len() {
+            let slot = list.particle[entry];
+            let count = list.particle[entry..].partition_point(|&other| other == slot);
+            let place = list.near.particle.partition_point(|&other| other < slot);
+            let position = state.particles.position[slot as usize];
+            let (velocity, spin) = motion.of(state, slot);
+            let constant = constant(list, place);
+            let row = self.row(state, slot);
+            let stand = SphereOnSurface { at, body: [position, velocity, spin], row, constant };
+            let beyond = if law.holds_beyond_touch() { constant } else { 0.0 };
+            feet.clear();
+            at.features.feet(
+                at.frame.inside(Vector::from(position)),
+                position[3] + beyond,
+                parts(list, place),
+                &mut feet,
+            );
+            for entry in entry..entry + count {
+                let Some(foot) = feet.on(list.feature[entry]) else { continue };
+                let share = if foot.weight > 0.0 { stand.friction(law, foot, &feet) } else { 0.0 };
+                hand(entry, foot, share, &stand.meet(foot));
+            }
+            entry += count;
+        }
+    }
+
+    /// Tells the stiffness of the contacts with features.
+    pub(in crate::engine::contacts::surfaces) fn stiffness_at_features(
+        &self,
+        state: &State,
+        ahead: &SearchLimits,
+        tell: &mut dyn FnMut(Link),
+    ) {
+        let (list, law) = (self.list(state), &self.law.law);
+        let bent = state.nodes_of(list.boundary as usize).map_or(0.0, |nodes| nodes.fastest);
+        let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length() + bent;
+        self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, first_arm, .. }| {
+            // A saddle only takes away from what its faces have.
+            if foot.weight > 0.0 {
+                let row = self.row(state, list.particle[entry]);
+                let deep = ahead.at_boundary(law, row, contact, speed, list.boundary).unwrap_or(*contact);
+                let bodies = (list.particle[entry], None, Some(list.boundary));
+                tell(Link::of_contact(bodies, (law, row), &deep, [*first_arm, 0.0]));
+            }
+        });
+    }
+
+    /// Tells the contacts with features as they were in the last evaluation, after a time step of this length \[s\].
+    pub(in crate::engine::contacts::surfaces) fn records_at_features(
+        &self,
+        state: &State,
+        step: f64,
+        tell: &mut dyn FnMut(ContactRecord),
+    ) {
+        let (list, law, particles) = (self.list(state), &self.law.law, &state.particles);
+        self.each(state, Motion::shown(law, step), |entry, foot, share, geometry| {
+            let (slot, contact) = (list.particle[entry], &records::seen(law, geometry.contact, &list.history, entry));
+            let (row, flags) = (self.row(state, slot), list.flags[entry]);
+            let (reaction, sliding) = records::react(law, row, contact, &list.history, entry, flags);
+            let along = contact.normal * reaction.force.dot(contact.normal);
+            let force = along * foot.weight + (reaction.force - along) * share;
+            let point = Vector::from(particles.position[slot as usize]) - contact.normal * geometry.first_arm;
+            let (ids, boundary) = ((particles.id[slot as usize], None), Some(list.boundary));
+            tell(ContactRecord::new(ids, boundary, point, contact, &Reaction { force, ..reaction }, sliding));
+        });
+    }
+
+    /// Elastic energy of the contacts with features \[J\].
+    pub(in crate::engine::contacts::surfaces) fn energy_at_features(&self, state: &State) -> f64 {
+        let (list, law, mut sum) = (self.list(state), &self.law.law, 0.0);
+        self.each(state, Motion::Present, |entry, foot, share, ContactGeometry { contact, .. }| {
+            let row = self.row(state, list.particle[entry]);
+            let energy = |history: &[Row]| law.elastic_energy(row, contact, 0.0, history);
+            let pressed = energy(&[[0.0; 4]; MOST_HISTORY]);
+            sum += foot.weight * pressed + share * (energy(&records::history(&list.history, entry)) - pressed);
+        });
+        sum
+    }
+
+    /// Energy at features of rolling springs, of sticky and of plastic normal forces \[J\].
+    pub(in crate::engine::contacts::surfaces) fn held_at_features(&self, state: &State) -> [f64; 3] {
+        let (list, law, mut held) = (self.list(state), &self.law.law, [0.0; 3]);
+        if !law.has_rolling() && law.presses() {
+            return held;
+        }
+        let own = if law.is_plastic() { 2 } else { 1 };
+        self.each(state, Motion::Present, |entry, foot, share, ContactGeometry { contact, .. }| {
+            let (row, history) = (self.row(state, list.particle[entry]), records::history(&list.history, entry));
+            held[0] += share * law.rolling_energy(row, contact, &history);
+            if !law.presses() {
+                held[own] += foot.weight * law.normal_energy(row, contact, 0.0, &history);
+            }
+        });
+        held
+    }
+
+    /// Largest overlap with a feature over the radius of the particle.
+    pub(in crate::engine::contacts::surfaces) fn largest_overlap(&self, state: &State) -> f64 {
+        let mut largest = 0.0_f64;
+        self.each(state, Motion::Present, |_, foot, _, ContactGeometry { contact, .. }| {
+            if foot.weight > 0.0 {
+                largest = largest.max(contact.overlap / contact.radius);
+            }
+        });
+        largest
+    }
+}

@@ -1,0 +1,66 @@
+//! The physical energy book: what is not found contact by contact or bond by bond.
+
+use super::bodies;
+use crate::base::number::Vector;
+use crate::engine::boundaries::RigidBody;
+use crate::engine::integration::Fields;
+use crate::engine::state::ledger::Source;
+use crate::engine::state::{Loss, Losses, State};
+
+/// Potential of gravity and applied forces on the particles that move by the forces on them \[J\].
+pub(crate) fn potential(state: &State, fields: &Fields) -> f64 {
+    let particles = &state.particles;
+    let of = |slot: usize| {
+        let [x, y, z] = fields.weight(particles.velocity[slot][3]);
+        let [a, b, c] = fields.applied(particles.id[slot]);
+        -Vector::new(x + a, y + b, z + c).dot(particles.position[slot].into())
+    };
+    (0..particles.len()).filter(|&slot| particles.owner[slot] == 0).map(of).sum()
+}
+
+/// Books what global damping takes in the first half kick of a step of this length \[s\], and the half kick of bodies.
+pub(crate) fn begin_step(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
+    if let Some(losses) = &mut state.losses {
+        let [power, growth] = losses.braking;
+        losses.add(Loss::GlobalDamping, step * (power + step * growth));
+        book_bodies(state, fields, bodies, step);
+    }
+}
+
+/// Books what the outside and global damping do to bodies in the half kick that is about to be made.
+pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
+    let Some(losses) = &mut state.losses else { return };
+    let nothing = [const { Vec::new() }; Source::PASSES];
+    for (number, (body, moved)) in bodies.iter().zip(&state.boundaries).enumerate() {
+        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+        let work = bodies::work((number, body), moved, &state.particles, &nothing, fields, step);
+        let of = |source: Source| work[source as usize];
+        let given = [Source::Gravity, Source::Applied, Source::Support, Source::AddedInertia];
+        losses.given_to_bodies += given.into_iter().map(of).sum::<f64>();
+        losses.add(Loss::GlobalDamping, -of(Source::Damping));
+    }
+}
+
+/// Energy that causes of loss hold and may give back \[J\]: rolling springs, sticky normal forces, plastic ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct StoredEnergy(pub(crate) [f64; 3]);
+
+impl StoredEnergy {
+    /// Which causes they are.
+    pub(crate) const CAUSES: [Loss; 3] = [Loss::Rolling, Loss::Cohesion, Loss::Plastic];
+}
+
+/// What a loss took since the book was opened \[J\]: what it holds now is not lost.
+pub(crate) fn lost(state: &State, losses: &Losses, held: &StoredEnergy, loss: Loss) -> f64 {
+    let bonds = |of: fn(&crate::engine::state::BondList) -> f64| state.bonds.iter().map(of).sum::<f64>();
+    let taken = losses.taken[loss as usize];
+    match loss {
+        Loss::BondDamping => bonds(|list| list.damped + list.relaxed),
+        Loss::BondRelease => bonds(|list| list.released),
+        Loss::Removed => state.exchange.as_ref().map_or(0.0, |exchange| -exchange.net.energy()),
+        _ => match StoredEnergy::CAUSES.iter().position(|cause| *cause == loss) {
+            Some(place) => taken - (held.0[place] - losses.initial_held[place]),
+            None => taken,
+        },
+    }
+}

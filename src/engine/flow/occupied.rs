@@ -1,0 +1,124 @@
+//! Where there is no room for a new sphere: other spheres and surfaces.
+
+use crate::base::geometry::Frame;
+use crate::base::number::Vector;
+use crate::engine::neighbours::sorted;
+use crate::engine::state::State;
+use crate::laws::surface::{Deforming, Feet};
+use crate::scene::Scene;
+
+/// Cells along an axis at most.
+const MOST_CELLS: usize = 64;
+
+/// The spheres in and near a box, in cells, and the surfaces of a scene where they stand.
+pub(super) struct Occupied<'a> {
+    /// The scene.
+    scene: &'a Scene,
+    /// Where each of its boundaries stands.
+    frames: Vec<Frame>,
+    /// Meshes whose nodes have moved, as they stand.
+    deformed: Vec<Option<Deforming>>,
+    /// Lower corner of the cells \[m\].
+    low: [f64; 3],
+    /// Edges of a cell \[m\]: spheres in cells further apart than one do not touch.
+    edges: [f64; 3],
+    /// Cells along each axis.
+    counts: [usize; 3],
+    /// Centre and radius of the spheres of each cell \[m\].
+    cells: Vec<Vec<[f64; 4]>>,
+    /// Parts of a surface that are near.
+    parts: Vec<u32>,
+    /// Feet on them.
+    feet: Feet,
+}
+
+impl<'a> Occupied<'a> {
+    /// What a sphere may meet whose centre is in this box \[m\] and whose radius is not above `largest` \[m\].
+    pub(super) fn around([low, high]: [[f64; 3]; 2], largest: f64, scene: &'a Scene, state: &State) -> Self {
+        let all = state.particles.position.iter().map(|row| row[3]);
+        let reach = largest + all.fold(largest, f64::max);
+        let mut counts = [1; 3];
+        let mut edges = [0.0; 3];
+        for axis in 0..3 {
+            let wide = high[axis] - low[axis];
+            counts[axis] = ((wide / reach) as usize).clamp(1, MOST_CELLS);
+            edges[axis] = (wide / counts[axis] as f64).max(reach);
+        }
+        let frame = |(boundary, moved): (&crate::scene::Boundary, &crate::engine::state::BoundaryState)| {
+            Frame::of(boundary.reference.into(), moved.displacement.into(), moved.orientation.0)
+        };
+        let deformed = |boundary: usize| {
+            let nodes = state.nodes_of(boundary)?;
+            Some(sorted(scene.boundaries[boundary].shape.deforming()?, nodes))
+        };
+        let mut occupied = Self {
+            scene,
+            deformed: (0..scene.boundaries.len()).map(deformed).collect(),
+            frames: scene.boundaries.iter().zip(&state.boundaries).map(frame).collect(),
+            low,
+            edges,
+            counts,
+            cells: vec![Vec::new(); counts.iter().product()],
+            parts: Vec::new(),
+            feet: Feet::default(),
+        };
+        let near = |row: &&[f64; 4]| (0..3).all(|axis| (low[axis] - reach..=high[axis] + reach).contains(&row[axis]));
+        state.particles.position.iter().filter(near).for_each(|row| occupied.add(*row));
+        occupied
+    }
+
+    /// The cell of a coordinate along an axis; what is beyond the box belongs to the last cell before.
+    fn cell(&self, axis: usize, coordinate: f64) -> usize {
+        (((coordinate - self.low[axis]) / self.edges[axis]).max(0.0) as usize).min(self.counts[axis] - 1)
+    }
+
+    /// Adds a sphere.
+    pub(super) fn add(&mut self, sphere: [f64; 4]) {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.cell(axis, sphere[axis]));
+        self.cells[(x * self.counts[1] + y) * self.counts[2] + z].push(sphere);
+    }
+
+    /// Whether a sphere would overlap another or a surface.
+    pub(super) fn meets(&mut self, sphere: [f64; 4]) -> bool {
+        self.meets_sphere(sphere) || self.meets_surface(sphere)
+    }
+
+    /// Whether it would overlap another.
+    fn meets_sphere(&self, sphere: [f64; 4]) -> bool {
+        let around = |axis: usize| {
+            let cell = self.cell(axis, sphere[axis]);
+            cell.saturating_sub(1)..(cell + 2).min(self.counts[axis])
+        };
+        let overlaps = |other: &[f64; 4]| {
+            let (way, reach) = (Vector::from(sphere) - Vector::from(*other), sphere[3] + other[3]);
+            way.dot(way) < reach * reach
+        };
+        around(0).any(|x| {
+            around(1).any(|y| {
+                let row = (x * self.counts[1] + y) * self.counts[2];
+                around(2).any(|z| self.cells[row + z].iter().any(overlaps))
+            })
+        })
+    }
+
+    /// Whether it would overlap a surface, or be behind a plane.
+    fn meets_surface(&mut self, sphere: [f64; 4]) -> bool {
+        for ((boundary, frame), deformed) in self.scene.boundaries.iter().zip(&self.frames).zip(&self.deformed) {
+            let features = boundary.shape.features().filter(|_| boundary.shape.material().is_some());
+            let Some(features) = features else { continue };
+            let features = deformed.as_ref().map_or(features, Deforming::features);
+            let centre = frame.inside(sphere.into());
+            self.parts.clear();
+            features.near(centre, sphere[3], &mut self.parts);
+            if self.parts.is_empty() {
+                continue;
+            }
+            self.feet.clear();
+            features.feet(centre, sphere[3], &self.parts, &mut self.feet);
+            if !self.feet.list.is_empty() {
+                return true;
+            }
+        }
+        false
+    }
+}

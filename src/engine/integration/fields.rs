@@ -1,0 +1,271 @@
+//! Gravity, applied forces and Cundall's global damping.
+
+use super::Rows;
+use super::braking::{Damped, brake, brakes, taken};
+use crate::base::geometry::Quaternion;
+use crate::base::lanes::Shared;
+use crate::base::number::Vector;
+use crate::base::threads::{CHUNK, Context};
+use crate::engine::boundaries::RigidBody;
+use crate::engine::state::{BoundaryState, Loss, Particles, Row, State};
+use crate::scene::Scene;
+
+/// Force \[N\] and moment about the reference point of a group \[N m\].
+pub(crate) type Load = [Vector; 2];
+
+/// What acts on each particle by itself.
+pub(crate) struct Fields {
+    /// Acceleration of gravity \[m/s²\].
+    gravity: [f64; 3],
+    /// Applied force of each of the scene's own particles \[N\]; empty where there is none.
+    applied: Vec<[f64; 3]>,
+    /// Damping of each of the scene's own particles; empty where there is none.
+    pub(super) damping: Vec<Damped>,
+    /// Whether anything is damped.
+    pub(super) damps: bool,
+    /// Damping of particles that come later.
+    pub(super) newcomers: Damped,
+    /// Damping of surfaces that forces move.
+    pub(super) surfaces: Damped,
+}
+
+impl Fields {
+    /// Reads them from the scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let count = scene.particles.len();
+        let mut applied = vec![[0.0; 3]; if scene.forces.is_empty() { 0 } else { count }];
+        for force in &scene.forces {
+            for &member in &force.members {
+                for (sum, part) in applied[member as usize].iter_mut().zip(force.force) {
+                    *sum += part;
+                }
+            }
+        }
+        let mut damping = vec![Damped::default(); if scene.damping.is_empty() { 0 } else { count }];
+        for set in &scene.damping {
+            for (index, damped) in damping.iter_mut().enumerate() {
+                if set.linear[index] != 0.0 || set.angular[index] != 0.0 {
+                    *damped = Damped {
+                        linear: set.linear[index],
+                        angular: set.angular[index],
+                        gravity: set.gravity_damped,
+                        applied: set.applied_forces_damped,
+                    };
+                }
+            }
+        }
+        let mut newcomers = Damped::default();
+        for set in scene.damping.iter().filter(|set| set.newcomers != [0.0; 2]) {
+            let [linear, angular] = set.newcomers;
+            newcomers = Damped { linear, angular, gravity: set.gravity_damped, applied: set.applied_forces_damped };
+        }
+        let damps = !scene.damping.is_empty();
+        Self { gravity: scene.gravity, applied, damping, damps, newcomers, surfaces: Damped::default() }
+    }
+
+    /// By which factors Cundall's damping makes force and torque on a particle of the scene larger, at most: where the motion
+    /// changes its sign in every step, which is the mode that grows first, every load acts on the way out.
+    pub(crate) fn amplification(&self, id: u32) -> [f64; 2] {
+        let damped = self.damped(id);
+        [1.0 + damped.linear, 1.0 + damped.angular]
+    }
+
+    /// The larger of these factors of a surface that forces move.
+    pub(crate) fn amplification_of_surfaces(&self) -> f64 {
+        1.0 + self.surfaces.linear.max(self.surfaces.angular)
+    }
+
+    /// Damping of a body: the spheres of a group are damped alike.
+    fn of_body(&self, body: &RigidBody) -> Damped {
+        match body.members.first() {
+            Some(&member) => self.damped(member),
+            None => self.surfaces,
+        }
+    }
+
+    /// Largest acceleration that gravity and applied forces give a particle \[m/s²\].
+    pub(crate) fn acceleration(&self, particles: &Particles) -> f64 {
+        let gravity = Vector::from(self.gravity).length();
+        let applied = |(id, force): (usize, &[f64; 3])| {
+            let slot = particles.slot_of(id as u32)?;
+            Some(Vector::from(*force).length() / particles.velocity[slot][3])
+        };
+        gravity + self.applied.iter().enumerate().filter_map(applied).fold(0.0, f64::max)
+    }
+
+    /// Gravity \[m/s²\], if nothing else acts: it is then added by the kick that follows.
+    pub(crate) fn weight_alone(&self) -> Option<[f64; 3]> {
+        let alone = !self.damps && self.applied.is_empty();
+        (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
+    }
+
+    /// Whether they add anything to the forces.
+    pub(crate) fn act(&self) -> bool {
+        self.damps || self.applies() || self.gravity != [0.0; 3]
+    }
+
+    /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
+    pub(crate) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
+        if !self.damps && self.applied.is_empty() {
+            self.weigh(state, context);
+            return [0.0; 3];
+        }
+        for (slot, force) in state.particles.force.iter_mut().enumerate() {
+            if state.particles.owner[slot] != 0 {
+                let load = self.loads(state.particles.velocity[slot][3], state.particles.id[slot]);
+                add(force, load);
+            }
+        }
+        let ids = std::mem::take(&mut state.particles.id);
+        let (rows, books) = (Rows::of(&mut state.particles), state.losses.is_some());
+        let of_piece = |piece| {
+            let mut sum = [0.0; 6];
+            rows.each_free(piece, |body| {
+                let id = ids[body.slot];
+                if !self.damps {
+                    add(body.force, self.loads(body.velocity[3], id));
+                    return;
+                }
+                let damped = self.damped(id);
+                let (before, after) = self.split(body.velocity[3], id, damped);
+                let (velocity, spin, mut force, mut torque) = (*body.velocity, *body.spin, *body.force, *body.torque);
+                add(&mut force, before);
+                let (mut losses, mut turns) = ([0.0; 3], [0.0; 3]);
+                for axis in 0..3 {
+                    losses[axis] = brake(damped.linear, force[axis], velocity[axis]);
+                    force[axis] -= losses[axis];
+                    sum[axis] -= losses[axis];
+                    turns[axis] = brake(damped.angular, torque[axis], spin[axis]);
+                    torque[axis] -= turns[axis];
+                }
+                add(&mut force, after);
+                (*body.force, *body.torque) = (force, torque);
+                if books {
+                    let moved = taken(losses, &velocity, &force, context.step);
+                    let turned = taken(turns, &spin, &torque, context.step);
+                    for kind in 0..3 {
+                        sum[3 + kind] += moved[kind] + turned[kind];
+                    }
+                }
+            });
+            sum
+        };
+        let plus = |mut sum: [f64; 6], part: [f64; 6]| {
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+            sum
+        };
+        let [x, y, z, now, power, growth] = context.fold(rows.pieces(), of_piece, [0.0; 6], plus);
+        state.particles.id = ids;
+        if let Some(losses) = &mut state.losses {
+            losses.add(Loss::GlobalDamping, now);
+            losses.braking = [power, growth];
+        }
+        [x, y, z]
+    }
+
+    /// Puts the whole load on each body that forces move: that of the particles, weight, applied forces, springs and dashpots to
+    /// the ground, and damping.
+    /// Returns the sum of the damping forces \[N\].
+    pub(crate) fn load_bodies(&self, bodies: &[Option<RigidBody>], state: &mut State) -> [f64; 3] {
+        let mut sum = Vector::zero();
+        for (index, body) in bodies.iter().enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+            body.support(&mut state.boundaries[index]);
+            let [weight, applied] = self.on_body(body, &state.boundaries[index], &state.particles);
+            let damped = self.of_body(body);
+            let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
+            let moved = &mut state.boundaries[index];
+            let held = halves(moved.inertial.support);
+            let before: Load = [0, 1].map(|k| {
+                let particles = if k == 0 { moved.force } else { moved.moment };
+                Vector::from(particles) + held[k] + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
+            });
+            let braking = [
+                body.along_free(brakes(damped.linear, before[0], moved.velocity)),
+                body.about_free(brakes(damped.angular, before[1], moved.angular_velocity)),
+            ];
+            let load: Load = [0, 1]
+                .map(|k| before[k] + braking[k] + part(!damped.gravity, weight)[k] + part(!damped.applied, applied)[k]);
+            sum += braking[0];
+            let inertial = &mut moved.inertial;
+            [inertial.load, inertial.couple] = load.map(Vector::to_array);
+            [inertial.braking_force, inertial.braking_moment] = braking.map(Vector::to_array);
+        }
+        sum.to_array()
+    }
+
+    /// Weight of a body, and the forces applied to it and to its spheres.
+    pub(crate) fn on_body(&self, body: &RigidBody, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
+        let weight = Vector::from(self.weight(body.mass));
+        let weight = [weight, Quaternion::from(moved.orientation).turn(body.offset).cross(weight)];
+        let mut applied = halves(moved.inertial.applied);
+        for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
+            let row = particles.position[particles.slot[member as usize] as usize];
+            let force = Vector::from(self.applied(member));
+            applied[0] += force;
+            applied[1] += (Vector::from(row) - moved.pivot.into()).cross(force);
+        }
+        [weight, applied]
+    }
+
+    /// Adds gravity, where nothing else acts.
+    fn weigh(&self, state: &mut State, context: &Context) {
+        if self.gravity == [0.0; 3] {
+            return;
+        }
+        let (force, velocity) = (Shared::new(&mut state.particles.force), &state.particles.velocity);
+        context.each(velocity.len().div_ceil(CHUNK), |piece| {
+            let slots = piece * CHUNK..((piece + 1) * CHUNK).min(velocity.len());
+            // SAFETY: pieces do not overlap.
+            let forces = unsafe { force.part(slots.start, slots.end) };
+            for (force, velocity) in forces.iter_mut().zip(&velocity[slots]) {
+                add(force, self.weight(velocity[3]));
+            }
+        });
+    }
+
+    /// Applied force on a particle of the scene \[N\].
+    pub(crate) fn applied(&self, id: u32) -> [f64; 3] {
+        self.applied.get(id as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether a force is applied to any particle.
+    pub(crate) fn applies(&self) -> bool {
+        !self.applied.is_empty()
+    }
+
+    /// Weight of a mass \[N\].
+    pub(crate) fn weight(&self, mass: f64) -> [f64; 3] {
+        self.gravity.map(|part| mass * part)
+    }
+
+    /// Weight and applied force \[N\].
+    pub(crate) fn loads(&self, mass: f64, id: u32) -> [f64; 3] {
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        [weight[0] + applied[0], weight[1] + applied[1], weight[2] + applied[2]]
+    }
+
+    /// What comes before the damping, and what after it \[N\].
+    pub(super) fn split(&self, mass: f64, id: u32, damped: Damped) -> ([f64; 3], [f64; 3]) {
+        let (mut before, mut after) = ([0.0; 3], [0.0; 3]);
+        let (weight, applied) = (self.weight(mass), self.applied(id));
+        for axis in 0..3 {
+            *(if damped.gravity { &mut before[axis] } else { &mut after[axis] }) += weight[axis];
+            *(if damped.applied { &mut before[axis] } else { &mut after[axis] }) += applied[axis];
+        }
+        (before, after)
+    }
+}
+
+/// Force and moment of a load.
+fn halves([x, y, z, a, b, c]: [f64; 6]) -> Load {
+    [Vector::new(x, y, z), Vector::new(a, b, c)]
+}
+
+/// Adds a load to a row.
+#[inline(always)]
+fn add(row: &mut Row, load: [f64; 3]) {
+    for axis in 0..3 {
+        row[axis] += load[axis];
+    }
+}

@@ -1,0 +1,130 @@
+//! How a simulation comes into being: built from a scene, or taken over with a state of it.
+
+use super::rollback::Rollback;
+use super::{RunError, Simulation, Workspace, assemble};
+use crate::base::geometry::Quaternion;
+use crate::base::lanes::Width;
+use crate::base::threads::Workers;
+use crate::engine::boundaries::rigid_body;
+use crate::engine::contacts::suppression::Suppression;
+use crate::engine::flow::Flow;
+use crate::engine::integration::{self, Fields};
+use crate::engine::neighbours;
+use crate::engine::state::{Foresight, State, StateFault};
+use crate::laws::bond::creation::Moment;
+use crate::scene::Scene;
+use std::sync::Arc;
+
+impl Simulation {
+    /// The scene at time 0: bonds made, forces evaluated, springs unmoved.
+    pub fn new(scene: Arc<Scene>) -> Result<Self, RunError> {
+        let state = assemble::state(&scene);
+        let mut simulation = Self::with(scene, state);
+        simulation.begin()?;
+        Ok(simulation)
+    }
+
+    /// The scene in a state saved earlier, which is checked first ([`Simulation::check`]).
+    pub fn resume(scene: Arc<Scene>, state: State) -> Result<Self, StateFault> {
+        let first = assemble::state(&scene);
+        let mut simulation = Self::with(scene, first);
+        simulation.check(&state)?;
+        simulation.state = state;
+        simulation.take_coefficients();
+        Ok(simulation)
+    }
+
+    /// The scene in a state of its own.
+    pub(super) fn with(scene: Arc<Scene>, state: State) -> Self {
+        let passes = assemble::passes(&scene);
+        let turning = passes.iter().any(|pass| pass.has_torque());
+        let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
+        let mut simulation = Self {
+            turning,
+            passes,
+            fields: Fields::of(&scene),
+            bodies: rigid_body::of(&scene),
+            serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
+            flow,
+            search: neighbours::Search::of(&scene),
+            suppression: Suppression::of(&scene),
+            width: Width::widest(),
+            workers: Workers::new(scene.run.threads, most_particles(&scene)),
+            scene,
+            state,
+            workspace: Workspace::default(),
+            rollback: Rollback::default(),
+            stop: None,
+            watch: None,
+        };
+        simulation.take_coefficients();
+        simulation
+    }
+
+    /// Builds the scene and evaluates the forces, springs unmoved.
+    fn begin(&mut self) -> Result<(), RunError> {
+        self.build()?;
+        self.start()
+    }
+
+    /// Makes the lists and the first bonds.
+    pub(super) fn build(&mut self) -> Result<(), RunError> {
+        self.give_orientations();
+        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+        self.check_memory()?;
+        let context = self.standing();
+        self.rebuild(&context);
+        let time = self.state.clock.time;
+        self.make_bonds(&Moment { number: self.state.clock.steps, from: time, to: time }, &context);
+        Ok(())
+    }
+
+    /// Gives the particles the orientation of time 0, where a bond needs one and they have none.
+    pub(super) fn give_orientations(&mut self) {
+        if self.passes.iter().any(|pass| pass.needs_orientations()) {
+            self.state.particles.orientation.resize(self.state.particles.len(), Quaternion::identity().to_row());
+        }
+    }
+
+    /// The evaluation before the first step, and what follows from it.
+    pub(super) fn start(&mut self) -> Result<(), RunError> {
+        self.state.begin_counting();
+        self.clear_boundary_loads();
+        let context = self.standing();
+        integration::clear_loads(&mut self.state.particles);
+        let result = self.evaluate(true, &context);
+        self.book_second_kick(None, 0.0, &context);
+        self.open_energy_book();
+        result.map_err(|error| self.named(error))?;
+        self.state.foresight = Foresight::default();
+        self.first_step(&context)?;
+        self.find_impedances();
+        let step = self.state.clock.step;
+        let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
+        self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
+        self.check_present()
+    }
+
+    /// Restores a state of this simulation, which is checked first ([`Simulation::check`]); the simulation continues from
+    /// there bit for bit.
+    pub fn restore(&mut self, state: &State) -> Result<(), StateFault> {
+        self.check(state)?;
+        self.return_to(state);
+        Ok(())
+    }
+
+    /// Goes back to a state that this simulation was in, or one that has been checked: it is not looked at again.
+    pub fn return_to(&mut self, state: &State) {
+        self.rollback.forget();
+        let same = self.state.coefficients == state.coefficients && self.state.tuned == state.tuned;
+        self.state.clone_from(state);
+        if !same {
+            self.take_coefficients();
+        }
+    }
+}
+
+/// So many particles may be there as make threads worth while.
+fn most_particles(scene: &Scene) -> usize {
+    if scene.insertions.is_empty() { scene.particles.len() } else { usize::MAX }
+}

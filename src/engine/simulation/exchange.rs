@@ -1,0 +1,71 @@
+//! Particles that come and go: when in a time step, and what the books need of it.
+
+use super::{RunError, Simulation};
+use crate::engine::energy::losses::StoredEnergy;
+use crate::engine::flow::{Flow, RemovedParticles};
+
+impl Simulation {
+    /// Lets particles come and go in the middle of a time step of this length \[s\], in which nothing moved further than `way`
+    /// \[m\]. Returns whether any did, so that lists are to be made anew.
+    pub(super) fn exchange(&mut self, way: f64, step: f64) -> Result<bool, RunError> {
+        let Some(flow) = self.flow.take() else { return Ok(false) };
+        let changed = self.come_and_go(&flow, way, step);
+        self.flow = Some(flow);
+        changed
+    }
+
+    /// The same by what lets them.
+    fn come_and_go(&mut self, flow: &Flow, way: f64, step: f64) -> Result<bool, RunError> {
+        flow.pass(&self.scene, &mut self.state, way, step);
+        let leaving = flow.leaving(&self.scene, &mut self.state)?;
+        if let Some(leaving) = &leaving {
+            self.let_go(flow, leaving, step);
+        }
+        if !flow.is_due(&self.scene, &self.state) {
+            return Ok(leaving.is_some());
+        }
+        let came = flow.insert(&self.scene, &self.fields, &mut self.state, step)?;
+        if came {
+            // What is new may touch others in a way that nothing has foreseen.
+            self.state.foresight.travel = f64::MAX;
+        }
+        Ok(came || leaving.is_some())
+    }
+
+    /// Takes particles away, with what their contacts hold.
+    fn let_go(&mut self, flow: &Flow, leaving: &RemovedParticles, step: f64) {
+        let booked = self.state.ledger.is_some() || self.state.losses.is_some();
+        let held = |simulation: &Self| (simulation.elastic_energy(), simulation.held());
+        let before = booked.then(|| held(self));
+        let (passes, state) = (&self.passes, &mut self.state);
+        let given: f64 = passes.iter().map(|pass| pass.let_go(state, &leaving.goes, step)).sum();
+        flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
+        if let Some((elastic, StoredEnergy(before))) = before {
+            let (left, StoredEnergy(after)) = held(self);
+            flow.book_contacts(
+                &mut self.state,
+                elastic + given - left,
+                [0, 1, 2].map(|cause| before[cause] - after[cause]),
+            );
+        }
+    }
+
+    /// Whether a mass is still to come that finds room.
+    pub fn is_filling(&self) -> bool {
+        self.flow.as_ref().is_some_and(|flow| flow.is_filling(&self.scene, &self.state))
+    }
+
+    /// Gives an insertion a rate, from the next communication step on: a mass or a number in each second.
+    pub fn set_insertion_rate(&mut self, insertion: usize, rate: f64) {
+        if let Some(feed) = self.state.exchange.as_mut().and_then(|exchange| exchange.feeds.get_mut(insertion)) {
+            (feed.rate, feed.rate_of_rate) = (rate, 0.0);
+        }
+    }
+
+    /// The change of that rate in each second of the next communication step, which then has the mean of its beginning and its end.
+    pub fn set_insertion_rate_of_rate(&mut self, insertion: usize, rate: f64) {
+        if let Some(feed) = self.state.exchange.as_mut().and_then(|exchange| exchange.feeds.get_mut(insertion)) {
+            feed.rate_of_rate = rate;
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! What the outside gives for the next communication step.
+
+use super::Simulation;
+use crate::base::quantity::BoundaryIndex;
+
+impl Simulation {
+    /// Sets the input of an axis for the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven axis
+    /// is to be at its end \[m, rad\] or how fast it moves \[m/s, rad/s\], the load on one that forces move \[N, N m\], the force
+    /// that a servo is to reach \[N\].
+    pub fn set_input(&mut self, boundary: BoundaryIndex, axis: usize, value: f64) {
+        let boundary = &mut self.state.boundaries[boundary.index()];
+        boundary.target[axis] = value;
+        boundary.target_rate[axis] = 0.0;
+        if let Some(acceleration) = boundary.target_acceleration.get_mut(axis) {
+            *acceleration = 0.0;
+        }
+    }
+
+    /// Sets where a node of a mesh, by its number from 0, is to be at the end of the next interval, along x, y or z \[m\].
+    pub fn set_node(&mut self, boundary: BoundaryIndex, (node, axis): (usize, usize), value: f64) {
+        if let Some(nodes) = self.state.nodes_of_mut(boundary.index()) {
+            nodes.target[node][axis] = value;
+            nodes.target_rate[node][axis] = 0.0;
+        }
+    }
+
+    /// The rate of that value over the next interval \[m/s\].
+    pub fn set_node_rate(&mut self, boundary: BoundaryIndex, (node, axis): (usize, usize), rate: f64) {
+        if let Some(nodes) = self.state.nodes_of_mut(boundary.index()) {
+            nodes.target_rate[node][axis] = rate;
+        }
+    }
+
+    /// The rate of that value over the next interval: it then ends at the value plus rate × interval.
+    pub fn set_input_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
+        self.state.boundaries[boundary.index()].target_rate[axis] = rate;
+    }
+
+    /// The second derivative of that value over the next interval, along x, y or z: the axis then moves at this acceleration, and ends
+    /// at the value plus rate × interval + ½ acceleration × interval² \[m/s²\].
+    pub fn set_input_acceleration(&mut self, boundary: BoundaryIndex, axis: usize, acceleration: f64) {
+        self.state.boundaries[boundary.index()].target_acceleration[axis] = acceleration;
+    }
+}

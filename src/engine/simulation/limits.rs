@@ -1,0 +1,250 @@
+//! The stable time step: when it is found again, and what follows from it.
+
+use super::sight::{Horizon, LookAhead};
+use super::{RunError, Simulation};
+use crate::base::threads::Context;
+use crate::engine::boundaries::{RigidBody, course};
+use crate::engine::contacts::FASTER;
+use crate::engine::stability::{self, Limit, System};
+use crate::engine::state::State;
+use crate::laws::bond::creation::{Creation, CreationTime, Window};
+use crate::scene::Step;
+
+/// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
+const FAR_BELOW: f64 = 1.5;
+
+/// The most that is foreseen of the growth of speeds then.
+const MOST_FORESEEN: f64 = 10.0;
+
+/// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
+const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
+
+/// How much longer an automatic time step must have become possible before it is lengthened.
+const LENGTHENING: f64 = 1.1;
+
+/// How much longer the automatic time step may be than that for which it was foreseen.
+const MUCH_LONGER: f64 = 20.0;
+
+/// How often it is foreseen at a time.
+const MOST_TRIES: usize = 4;
+
+/// The automatic time step of a scene in which nothing is stiff \[s\].
+pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
+
+impl Simulation {
+    /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
+    pub fn limit(&self) -> Limit {
+        let (sight, found, counter) = self.present_bound();
+        let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &self.standing());
+        Limit { safe: found.safe(), by }
+    }
+
+    /// The stable time step alone \[s\].
+    pub fn stable_step(&self) -> f64 {
+        self.present_bound().1.safe()
+    }
+
+    /// The stable time step, what it was foreseen for, and how many iterations have been started.
+    fn present_bound(&self) -> (LookAhead, stability::StableStep, u64) {
+        let mut counter = self.state.foresight.counter;
+        let (step, near) = (self.state.clock.step, Horizon::NEAR);
+        let (sight, found) = self.foresee(step, near, (0.0, f64::INFINITY), &mut counter, &self.standing());
+        (sight, found, counter)
+    }
+
+    /// What the stable time step is found from.
+    pub(super) fn system(&self) -> System<'_> {
+        let Self { scene, state, bodies, fields, passes, .. } = self;
+        System { scene, state, bodies, fields, passes }
+    }
+
+    /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer: from a root found
+    /// earlier \[1/s\], and until it is known that a time step that is `enough` \[s\] is stable.
+    fn foresee(
+        &self,
+        step: f64,
+        horizon: Horizon,
+        (guess, enough): (f64, f64),
+        counter: &mut u64,
+        context: &Context,
+    ) -> (LookAhead, stability::StableStep) {
+        let (mut step, mut tries) = (step, 0);
+        loop {
+            let sight = self.sight(step, horizon, guess);
+            let mut found = self.system().find(&sight.ahead, sight.speed, guess, enough, counter, context);
+            // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
+            if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
+                found.impacts = 0.0;
+            }
+            let next = self.automatic_step(found.safe()).unwrap_or(step);
+            tries += 1;
+            if next <= MUCH_LONGER * step || sight.fastest == 0.0 || tries == MOST_TRIES {
+                return (sight, found);
+            }
+            step = next;
+        }
+    }
+
+    /// Whether bodies that are in no list may meet before the next look, at time steps of this length \[s\] or of the one that
+    /// follows from the network alone.
+    fn may_strangers_meet(&self, sight: &LookAhead, found: &stability::StableStep, step: f64) -> bool {
+        let step = self.automatic_step(2.0 / found.network).unwrap_or(step).max(step);
+        let way = sight.ahead.way.max(sight.way(step));
+        !self.search.holds_all_within(&self.state, way)
+    }
+
+    /// The automatic time step that belongs to a stable one \[s\]; none where it is given.
+    fn automatic_step(&self, stable: f64) -> Option<f64> {
+        match self.scene.run.step {
+            Step::Given(_) => None,
+            Step::Automatic { safety } => Some((safety * stable).min(LONGEST_AUTOMATIC_STEP)),
+        }
+    }
+
+    /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
+    /// more is foreseen, and the fewer looks a bed takes that begins to move; not so where that would add to inertia.
+    fn horizon(&self, step: f64) -> Horizon {
+        let (stable, looks) = (self.state.clock.stable, self.state.foresight.looks);
+        let is_far = looks > 0 && stable > FAR_BELOW * step && !self.has_implicit();
+        match self.scene.run.step {
+            _ if !is_far => Horizon::NEAR,
+            Step::Given(step) => Horizon { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
+            Step::Automatic { .. } => Horizon { faster: FASTER, is_far },
+        }
+    }
+
+    /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
+    pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
+        let (mut counter, horizon) = (self.state.foresight.counter, self.horizon(step));
+        let enough = if let Step::Given(step) = self.scene.run.step { FAR_BELOW * step } else { f64::INFINITY };
+        let from = (self.state.foresight.root, enough);
+        let (mut sight, mut found) = self.foresee(step, horizon, from, &mut counter, context);
+        if horizon.is_far && found.safe() < FAR_BELOW * step {
+            (sight, found) = self.foresee(step, Horizon::NEAR, from, &mut counter, context);
+        }
+        let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
+        let window = sight.ahead.window.as_ref();
+        // Where speed makes nothing stiffer, the way alone tells when to look again.
+        let follows_speed = !sight.is_dense || self.system().stiffens(sight.speed, MOST_FORESEEN);
+        let growth = if follows_speed { 1.0 } else { MOST_FORESEEN };
+        self.state.foresight = crate::engine::state::Foresight {
+            root: found.network,
+            counter,
+            looks,
+            travel: 0.0,
+            reach: 0.5 * sight.ahead.way,
+            speed: growth * sight.speed,
+            bonds,
+            until: window.map_or(0, |window| window.until),
+            to: window.map_or(0.0, |window| window.to),
+        };
+        self.state.clock.stable = found.safe();
+        let blocks = self.system().blocks(&sight.ahead);
+        stability::put_blocks(&mut self.state, blocks);
+        if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
+            let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
+            let by = by.map_or_else(String::new, |by| self.words(&by));
+            return Err(RunError::StepTooLong { step, stable: found.safe(), by, time: self.time() });
+        }
+        self.check_contacts()
+    }
+
+    /// Finds anew what contacts offer to surfaces that forces move, where one has come to more contacts than it had, and now and
+    /// then the impedance of what servos press on.
+    pub(super) fn follow_contacts(&mut self, step: f64) {
+        let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
+        let mut light = (0..self.bodies.len()).filter(light);
+        if light.any(|index| stability::has_more_contacts(&self.state, index)) {
+            let sight = self.sight(step, Horizon::NEAR, 0.0);
+            let blocks = self.system().blocks(&sight.ahead);
+            stability::put_blocks(&mut self.state, blocks);
+        }
+        if self.serves && self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_IMPEDANCES) {
+            self.find_impedances();
+        }
+    }
+
+    /// Finds the impedance of what servos press on.
+    pub(super) fn find_impedances(&mut self) {
+        if self.serves {
+            let impedances = self.system().impedances();
+            for (moved, impedance) in self.state.boundaries.iter_mut().zip(impedances) {
+                moved.impedance = impedance;
+            }
+        }
+    }
+
+    /// What limits the time step, in words.
+    pub fn words(&self, by: &stability::Limiter) -> String {
+        let boundaries = &self.scene.boundaries;
+        let name = |index: u32| boundaries.get(index as usize).map_or_else(String::new, |it| it.name.clone());
+        by.words(|index| self.number(index), name)
+    }
+
+    /// Whether what was foreseen has been used up: by motion, by speed, by bonds. Boundaries are this fast \[m/s\], the next
+    /// time step has this length \[s\].
+    pub(super) fn is_due(&self, boundaries: f64, step: f64) -> bool {
+        let (foresight, clock) = (&self.state.foresight, &self.state.clock);
+        let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
+        if foresight.travel > foresight.reach || speed > foresight.speed {
+            return true;
+        }
+        if self.scene.bonds.is_empty() {
+            return false;
+        }
+        let [made, broken] = bonds_so_far(&self.state);
+        let next = Window { after: clock.steps, until: clock.steps + 1, from: clock.time, to: clock.time + step };
+        let unforeseen = |creation: &Creation| match creation.due() {
+            CreationTime::Step(number) => number > foresight.until,
+            CreationTime::Time(time) => time > foresight.to,
+            CreationTime::AtStart | CreationTime::Always => false,
+        };
+        let coming = self.scene.bonds.iter().any(|bond| bond.create.comes_within(&next) && unforeseen(&bond.create));
+        let uncovered = broken > foresight.bonds[1] && self.suppression.any();
+        let unexpected = made > foresight.bonds[0] && clock.steps > foresight.until;
+        coming || uncovered || unexpected
+    }
+
+    /// Largest speed of a boundary, as it is about to move \[m/s\].
+    pub(super) fn boundary_speed(&self) -> f64 {
+        course::speeds(&self.scene, &self.bodies, &self.state).fold(0.0, f64::max)
+    }
+
+    /// Whether the scene moves a boundary, at a speed that is not that of the communication step's beginning.
+    pub(super) fn boundaries_change_speed(&self) -> bool {
+        let time = self.state.clock.time;
+        self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
+    }
+
+    /// Shortens an automatic time step when the stable one has become shorter. Returns whether it has.
+    pub(super) fn shorten_step(&mut self) -> bool {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
+        // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
+        let shorter = step < self.state.clock.step && step > 0.0;
+        if shorter {
+            self.state.clock.step = step;
+        }
+        shorter
+    }
+
+    /// Lengthens an automatic time step, between communication steps, where the packing allows a good deal more.
+    pub(super) fn lengthen_step(&mut self) {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+        if step > LENGTHENING * self.state.clock.step {
+            self.state.clock.step = step;
+        }
+    }
+
+    /// The time step of the start, by what was found.
+    pub(super) fn first_step(&mut self, context: &Context) -> Result<(), RunError> {
+        let given = if let Step::Given(step) = self.scene.run.step { step } else { 0.0 };
+        self.look(given, context)?;
+        self.state.clock.step = self.automatic_step(self.state.clock.stable).unwrap_or(given);
+        Ok(())
+    }
+}
+
+/// Bonds made and bonds broken so far.
+fn bonds_so_far(state: &State) -> [u64; 2] {
+    state.bonds.iter().fold([0; 2], |[made, broken], list| [made + list.made, broken + list.broken])
+}

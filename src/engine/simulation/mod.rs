@@ -1,0 +1,167 @@
+//! A simulation: the passes, in their order, over the state.
+
+mod advance;
+mod assemble;
+mod coefficients;
+mod construction;
+mod depth;
+mod derivatives;
+mod exchange;
+mod inputs;
+mod limits;
+mod lists;
+mod losses;
+mod memory_check;
+mod observe;
+mod placement;
+mod plane;
+mod probe;
+mod rollback;
+mod run_checks;
+mod sight;
+mod start;
+mod state_check;
+mod taken_over;
+mod time_step;
+
+pub use crate::engine::contacts::{BondRecord, ContactRecord, PlacedSpring};
+pub use crate::engine::run_error::{Cause, RunError};
+pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
+pub use advance::divide;
+pub use coefficients::TuneError;
+pub use derivatives::{Input, NoDerivative};
+pub use limits::LONGEST_AUTOMATIC_STEP;
+pub use observe::ElasticEnergy;
+pub use placement::{PlacedBond, PlacedParticle, Placement};
+pub use probe::{Displacement, Probe, ProbeBody};
+pub(crate) use run_checks::COLLAPSING_COHESION;
+pub use run_checks::number;
+pub use taken_over::Description;
+
+use crate::base::lanes::Width;
+use crate::base::threads::{Context, Workers};
+use crate::engine::boundaries::course::BoundaryTravel;
+use crate::engine::boundaries::loads::BoundaryLoads;
+use crate::engine::boundaries::{RigidBody, nodes};
+use crate::engine::contacts::Pass;
+use crate::engine::contacts::suppression::Suppression;
+use crate::engine::energy;
+use crate::engine::flow::Flow;
+use crate::engine::integration::Fields;
+use crate::engine::neighbours;
+use crate::engine::state::State;
+use crate::scene::Scene;
+use rollback::Rollback;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A scene in motion: its state and the passes composed for it.
+pub struct Simulation {
+    /// The scene.
+    scene: Arc<Scene>,
+    /// Everything that changes.
+    state: State,
+    /// Interactions, in the order they are evaluated.
+    passes: Vec<Box<dyn Pass>>,
+    /// Gravity, applied forces, damping.
+    fields: Fields,
+    /// Groups that turn or that forces move; `None` for other boundaries.
+    bodies: Vec<Option<RigidBody>>,
+    /// The neighbour search.
+    search: neighbours::Search,
+    /// Which contacts bonds suppress.
+    suppression: Suppression,
+    /// What lets particles come and go; none where their number stays.
+    flow: Option<Flow>,
+    /// Whether anything turns the particles.
+    turning: bool,
+    /// Whether a servo moves a boundary.
+    serves: bool,
+    /// Lane width.
+    width: Width,
+    /// Threads.
+    workers: Workers,
+    /// Working arrays of a time step.
+    workspace: Workspace,
+    /// What is needed to return to the beginning of a communication step that fails.
+    rollback: Rollback,
+    /// A flag that another thread sets to end the present interval.
+    stop: Option<Arc<AtomicBool>>,
+    /// In benchmarks, the function that is called after each part of a time step.
+    watch: Option<Watch>,
+}
+
+/// Working arrays of a time step. They are kept so that a step requests no memory.
+#[derive(Default)]
+struct Workspace {
+    /// How far the boundaries moved.
+    travels: Vec<BoundaryTravel>,
+    /// Their loads in the evaluation before.
+    loads: Vec<BoundaryLoads>,
+    /// Sum of the forces of global damping then \[N\].
+    damping_force: [f64; 3],
+    /// Nodes of meshes before the time step.
+    nodes: nodes::NodeWorkspace,
+    /// Bonds of each law before some were made.
+    bonds: Vec<usize>,
+    /// Loads between one kind of force and the next, for the energy book.
+    between: energy::PendingWork,
+}
+
+/// A function that gets the name of each part of a time step when it is done.
+pub type Watch = Box<dyn FnMut(&'static str) + Send>;
+
+impl Simulation {
+    /// What passes know while time does not advance.
+    fn standing(&self) -> Context<'static> {
+        Context { step: 0.0, width: self.width, threads: None }
+    }
+
+    /// Uses this lane width from now on. Every width gives the same bits.
+    pub fn set_width(&mut self, width: Width) {
+        self.width = if width.offered() { width } else { Width::Least };
+    }
+
+    /// Adds Cundall damping of this fraction, gravity included, to every particle that the scene does not damp.
+    pub fn damp_rest(&mut self, fraction: f64) {
+        self.rollback.forget();
+        self.fields.damp_rest(fraction, self.scene.particles.len());
+    }
+
+    /// From now on an interval ends after its present time step if this flag is set ([`RunError::Stopped`]).
+    pub fn stop_when(&mut self, stop: &Arc<AtomicBool>) {
+        self.stop = Some(Arc::clone(stop));
+    }
+
+    /// Whether the interval under way is to end.
+    fn is_stopped(&self) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+
+    /// Calls this function, from now on, after each part of a time step: to measure what each part costs.
+    pub fn watch(&mut self, watch: Watch) {
+        self.watch = Some(watch);
+    }
+
+    /// Tells that a part of a time step is done.
+    fn done(&mut self, part: &'static str) {
+        if let Some(watch) = &mut self.watch {
+            watch(part);
+        }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// Everything that changes, at the present time.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The present time \[s\].
+    pub fn time(&self) -> f64 {
+        self.state.clock.time
+    }
+}

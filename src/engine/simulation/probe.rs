@@ -1,0 +1,120 @@
+//! A simulation at rest whose bodies are displaced a little: how forces answer, however slowly that is done.
+
+use super::{RunError, Simulation};
+use crate::base::geometry::{Quaternion, rotation};
+use crate::base::number::Vector;
+use crate::base::quantity::BoundaryIndex;
+use crate::base::threads::Context;
+use crate::engine::boundaries::rigid_body;
+use crate::engine::contacts::{Link, SearchLimits};
+use crate::engine::integration;
+use crate::engine::state::State;
+use std::sync::Arc;
+
+/// Time that a displacement takes \[s\]: so long that no dashpot feels it.
+const SLOWLY: f64 = 1e6;
+
+/// A small motion of one body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Displacement {
+    /// Which body.
+    pub body: ProbeBody,
+    /// Along x, y, z (0 to 2), about them (3 to 5); boundaries are only shifted.
+    pub axis: usize,
+    /// How far \[m, rad\].
+    pub amount: f64,
+}
+
+/// What is displaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProbeBody {
+    /// The particle in this slot.
+    Particle(u32),
+    /// A boundary, with the particles of a group.
+    Boundary(BoundaryIndex),
+}
+
+/// Two bodies that act on each other: slots of particles; `None` for anything else.
+pub(crate) type Neighbours = (u32, Option<u32>);
+
+/// A simulation of its own, from whose state at rest bodies are displaced.
+pub struct Probe {
+    /// The simulation that is displaced.
+    simulation: Simulation,
+    /// Its state at rest.
+    rest: State,
+}
+
+impl Probe {
+    /// The present state of a simulation with everything at rest.
+    pub fn of(simulation: &Simulation) -> Self {
+        let mut rest = simulation.state.clone();
+        rest.ledger = None;
+        for rows in [&mut rest.particles.velocity, &mut rest.particles.angular_velocity] {
+            rows.iter_mut().for_each(|row| row[..3].fill(0.0));
+        }
+        for boundary in &mut rest.boundaries {
+            (boundary.velocity, boundary.angular_velocity) = ([0.0; 3], [0.0; 3]);
+        }
+        rest.nodes.iter_mut().for_each(|nodes| nodes.velocity.fill([0.0; 4]));
+        Self { simulation: Simulation::with(Arc::clone(&simulation.scene), rest.clone()), rest }
+    }
+
+    /// The state at rest.
+    pub fn rest(&self) -> &State {
+        &self.rest
+    }
+
+    /// Whether anything turns the particles.
+    pub fn turns(&self) -> bool {
+        self.simulation.turning
+    }
+
+    /// Which bodies act on each other.
+    pub(crate) fn neighbours(&self) -> Vec<Neighbours> {
+        let mut all = Vec::new();
+        for pass in &self.simulation.passes {
+            pass.stiffness(&self.rest, &SearchLimits::default(), &mut |link: Link| all.push((link.first, link.second)));
+        }
+        all
+    }
+
+    /// The state after these displacements, with the loads on particles and boundaries that come of them.
+    pub fn displaced(&mut self, displacements: impl Iterator<Item = Displacement>) -> Result<&State, RunError> {
+        let Self { simulation, rest } = self;
+        simulation.state.clone_from(rest);
+        for Displacement { body, axis, amount } in displacements {
+            match body {
+                ProbeBody::Particle(slot) => displace(&mut simulation.state, slot as usize, axis, amount),
+                ProbeBody::Boundary(boundary) => {
+                    let boundary = &mut simulation.state.boundaries[boundary.index()];
+                    boundary.displacement[axis] += amount;
+                    boundary.velocity[axis] = amount / SLOWLY;
+                }
+            }
+        }
+        let Simulation { scene, bodies, state, .. } = &mut *simulation;
+        rigid_body::place_groups(scene, bodies, state);
+        simulation.clear_boundary_loads();
+        integration::clear_loads(&mut simulation.state.particles);
+        let context = Context { step: SLOWLY, ..simulation.standing() };
+        simulation.evaluate(false, &context)?;
+        Ok(&simulation.state)
+    }
+}
+
+/// Displaces a particle.
+fn displace(state: &mut State, slot: usize, axis: usize, amount: f64) {
+    let particles = &mut state.particles;
+    if axis < 3 {
+        particles.position[slot][axis] += amount;
+        particles.velocity[slot][axis] = amount / SLOWLY;
+        return;
+    }
+    particles.angular_velocity[slot][axis - 3] = amount / SLOWLY;
+    if let Some(row) = particles.orientation.get_mut(slot) {
+        let mut turn = [0.0; 3];
+        turn[axis - 3] = amount;
+        *row = (rotation::orientation(Vector::from(turn)) * Quaternion::from_row(*row)).to_row();
+    }
+}

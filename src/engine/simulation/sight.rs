@@ -1,0 +1,101 @@
+//! How far speeds, contacts and bonds may change until the stable time step is computed again.
+
+use super::Simulation;
+use crate::engine::boundaries::{RigidBody, course};
+use crate::engine::contacts::{FASTER, SearchLimits};
+use crate::engine::stability;
+use crate::laws::bond::creation::Window;
+
+/// Time steps for which bonds to come and the slow motion of a bed are foreseen, about.
+const STEPS_BETWEEN_LOOKS: f64 = 1500.0;
+
+/// Time steps in which a dense flow uses up the way that was foreseen, about. A look takes as long as fifty to ninety steps. In a flow
+/// all near pairs count as contacts to come, up to the closing energy of each, so a longer way changes hardly more than the number
+/// of looks. It would where impacts of bodies that are in no list limit the step: there the flow is not dense.
+const STEPS_OF_DENSE_FLOW: f64 = 6000.0;
+
+/// Time steps in which free fall may use up the speed that was foreseen.
+const STEPS_OF_FALL: f64 = 50.0;
+
+/// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
+const CERTAIN: f64 = 0.005;
+
+/// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
+const LEAST: [f64; 2] = [2e-6, 2e-3];
+
+/// How far is to be foreseen.
+#[derive(Clone, Copy)]
+pub(super) struct Horizon {
+    /// How much faster than now anything may become.
+    pub(super) faster: f64,
+    /// Whether time steps are far below the stable one: then a bound that is a little lower costs nothing.
+    pub(super) is_far: bool,
+}
+
+impl Horizon {
+    /// No further than it has to be.
+    pub(super) const NEAR: Self = Self { faster: FASTER, is_far: false };
+}
+
+/// What is foreseen.
+pub(super) struct LookAhead {
+    /// How far.
+    pub(super) ahead: SearchLimits,
+    /// Half of the speed at which bodies may meet \[m/s\].
+    pub(super) speed: f64,
+    /// The largest speed of anything \[m/s\].
+    pub(super) fastest: f64,
+    /// Whether it is a dense flow: impacts of bodies that are in no list do not limit the time step. Never where that is near the
+    /// stable one.
+    pub(super) is_dense: bool,
+}
+
+impl LookAhead {
+    /// The way of the fastest and what comes towards it until the next look, at time steps of this length \[s\] \[m\].
+    pub(super) fn way(&self, step: f64) -> f64 {
+        way(self.is_dense, self.fastest, step)
+    }
+}
+
+/// The way towards each other of bodies this fast \[m/s\] until the next look, at time steps of this length \[s\] \[m\].
+fn way(is_dense: bool, fastest: f64, step: f64) -> f64 {
+    let steps = if is_dense { STEPS_OF_DENSE_FLOW } else { STEPS_BETWEEN_LOOKS };
+    2.0 * fastest * steps * step
+}
+
+impl Simulation {
+    /// What is to be foreseen at time steps of about this length \[s\], so far, where the network had this root at the last look \[1/s\]
+    /// (0 if there was none).
+    pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> LookAhead {
+        let fastest = self.system().fastest();
+        let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
+        let driven = boundaries.iter().copied().fold(0.0, f64::max);
+        let acceleration = self.fields.acceleration(&self.state.particles);
+        let least = self.search.smallest_radius().min(f64::MAX);
+        let margin = match self.mean_overlap() {
+            Some(mean) => (CERTAIN * mean).max(LEAST[0] * least),
+            None => LEAST[1] * least,
+        };
+        let rest = if step > 0.0 { 0.5 * margin / (STEPS_BETWEEN_LOOKS * step) } else { 0.0 };
+        let falling = fastest + acceleration * STEPS_OF_FALL * step;
+        let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
+        let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
+        let fastest = fastest.max(driven);
+        let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step));
+        let clock = &self.state.clock;
+        let window = Window {
+            after: clock.steps,
+            until: clock.steps + STEPS_BETWEEN_LOOKS as u64,
+            from: clock.time,
+            to: clock.time + STEPS_BETWEEN_LOOKS * step,
+        };
+        let window = (!self.scene.bonds.is_empty()).then_some(window);
+        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, window };
+        LookAhead { ahead, speed, fastest, is_dense }
+    }
+
+    /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.
+    pub(super) fn has_implicit(&self) -> bool {
+        self.bodies.iter().flatten().any(RigidBody::is_implicit)
+    }
+}

@@ -1,0 +1,152 @@
+//! A state that another scene has reached, as the start of this one: stages of a protocol.
+//!
+//! The particles, found by their ids, keep what belongs to them: position, motion, orientation, springs of contacts, bonds.
+//! Boundaries of the same name stay where they are. The new scene determines all the rest: materials, laws, motions, books.
+//! If it differs from the other one only in its end and its outputs, the run continues bit for bit.
+
+mod description;
+mod exchange;
+mod history;
+
+pub use description::Description;
+
+use super::{RunError, Simulation, assemble};
+use crate::base::geometry::Quaternion;
+use crate::engine::boundaries::{nodes, placing, rigid_body};
+use crate::engine::state::{State, StateFault};
+use crate::laws::bond::creation::Moment;
+use crate::scene::Scene;
+use std::sync::Arc;
+
+/// Distance over the radius below which a particle of a group is where its group has it.
+const IN_PLACE: f64 = 1e-6;
+
+/// Which of the new scene's particles each of the other's is.
+struct Numbers {
+    /// For each particle of the other scene: its index here, if it is here.
+    here: Vec<Option<u32>>,
+}
+
+impl Numbers {
+    /// Finds the numbers of one scene in the other; both ascend.
+    fn of(scene: &Scene, from: &Description) -> Self {
+        let find = |id: u32| scene.particles.binary_search_by_key(&id, |particle| particle.id.0).ok();
+        Self { here: from.ids().map(|id| find(id).map(|index| index as u32)).collect() }
+    }
+
+    /// The index here of a particle of the other scene.
+    fn at(&self, there: u32) -> Option<u32> {
+        self.here.get(there as usize).copied().flatten()
+    }
+}
+
+impl Simulation {
+    /// The scene in a state that was reached by one which differs from it in its end and its outputs at most
+    /// ([`Description::goes_on_as`]).
+    pub fn going_on(scene: Arc<Scene>, mut state: State, from: &Description) -> Result<Self, StateFault> {
+        history::fit_outputs(&scene, &mut state, from);
+        Self::resume(scene, state)
+    }
+
+    /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
+    /// outside has been checked by [`Description::check`].
+    pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
+        let mut numbers = Numbers::of(&scene, from);
+        let mut state = assemble::state(&scene);
+        let mut left = from.differences(&scene);
+        left.extend(exchange::put_newcomers(&scene, &mut state, reached, (from, &mut numbers)));
+        state.clock.time = reached.clock.time;
+        state.clock.lost = reached.clock.lost;
+        state.clock.steps = reached.clock.steps;
+        state.clock.rebuilds = reached.clock.rebuilds;
+        put_particles(&mut state, reached, &numbers);
+        put_boundaries(&scene, &mut state, reached, from);
+        history::put_contacts(&scene, &mut state, reached, (from, &numbers));
+        let mut simulation = Self::with(scene, state);
+        simulation.give_orientations();
+        let there: Vec<_> = simulation.state.particles.position.clone();
+        let Self { scene, bodies, state, .. } = &mut simulation;
+        rigid_body::place_groups(scene, bodies, state);
+        check_groups(scene, state, &there)?;
+        exchange::take_gone(state, reached, &numbers);
+        simulation.check_memory()?;
+        simulation.rebuild(&simulation.standing());
+        let time = simulation.state.clock.time;
+        simulation.make_bonds(&Moment { number: 0, from: time, to: time }, &simulation.standing());
+        left.extend(simulation.put_bonds(reached, from, &numbers));
+        simulation.rebuild(&simulation.standing());
+        simulation.start()?;
+        Ok((simulation, left))
+    }
+}
+
+/// Sets positions and motion of the particles.
+fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
+    let (particles, other) = (&mut state.particles, &reached.particles);
+    if !other.orientation.is_empty() {
+        particles.orientation.resize(particles.len(), Quaternion::identity().to_row());
+    }
+    for (there, here) in numbers.here.iter().enumerate() {
+        let (Some(slot), Some(from)) = (here.map(|here| here as usize), other.slot_of(there as u32)) else { continue };
+        for axis in 0..3 {
+            particles.position[slot][axis] = other.position[from][axis];
+            particles.velocity[slot][axis] = other.velocity[from][axis];
+            particles.angular_velocity[slot][axis] = other.angular_velocity[from][axis];
+        }
+        if let (Some(orientation), Some(other)) = (particles.orientation.get_mut(slot), other.orientation.get(from)) {
+            *orientation = *other;
+        }
+    }
+}
+
+/// Takes over the positions of boundaries of the same name, and the velocities of free axes.
+fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
+    let time = state.clock.time;
+    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
+        let Some(other) = from.boundary(boundary).and_then(|index| reached.boundaries.get(index)) else {
+            placing::begin_prescribed(boundary, moved, time);
+            continue;
+        };
+        moved.displacement = other.displacement;
+        moved.rotation = other.rotation;
+        moved.orientation = other.orientation;
+        moved.start_orientation = other.orientation;
+        let [x, y, z] = other.displacement;
+        let [a, b, c] = other.rotation;
+        for (axis, place) in [x, y, z, a, b, c].into_iter().enumerate() {
+            let motion = &boundary.axes[axis];
+            if !(motion.takes_force() || motion.takes_velocity()) {
+                moved.target[axis] = place;
+            }
+        }
+        placing::begin_prescribed(boundary, moved, time);
+        for axis in (0..3).filter(|&axis| boundary.axes[axis].is_free()) {
+            moved.velocity[axis] = other.velocity[axis];
+        }
+        if boundary.axes[3..].iter().any(|motion| motion.is_free()) {
+            moved.angular_velocity = other.angular_velocity;
+            moved.inertial.angular_momentum = other.inertial.angular_momentum;
+        }
+    }
+    for moved in &mut state.nodes {
+        let there = from.boundary(&scene.boundaries[moved.boundary as usize]);
+        if let Some(other) = there.and_then(|boundary| reached.nodes_of(boundary)) {
+            nodes::stay(moved, other);
+        }
+    }
+}
+
+/// Refuses a group that this scene puts elsewhere than its particles are, because they would jump.
+fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), RunError> {
+    for boundary in &scene.boundaries {
+        for &member in boundary.shape.members() {
+            let (now, then) = (state.particles.position[member as usize], there[member as usize]);
+            let way = (0..3).map(|axis| (now[axis] - then[axis]).powi(2)).sum::<f64>().sqrt();
+            if way.is_nan() || way > IN_PLACE * now[3] {
+                let (boundary, id) = (boundary.name.clone(), scene.particles[member as usize].id.0);
+                return Err(RunError::GroupElsewhere { boundary, id, way });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,295 @@
+//! How long a time step may be.
+//!
+//! Velocity Verlet with forces that see the half-step velocity is stable exactly while 4 M − 2 Δt C − Δt² K is positive
+//! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
+//! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
+//! [`cluster`] takes the bodies together that limit it; a given step far below that bound needs no more than the blocks. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
+//! ([`SearchLimits`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
+
+mod blocks;
+mod cluster;
+mod lanczos;
+mod limiter;
+mod network;
+mod plain;
+mod shares;
+mod surfaces;
+mod triangle;
+
+use crate::base::threads::Context;
+use crate::engine::boundaries::RigidBody;
+use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
+use crate::engine::integration::Fields;
+use crate::engine::state::{GONE, Particles, State};
+use crate::laws::contact::Response;
+use crate::scene::{Insertion, ParticleShape, Scene};
+pub use limiter::{Limiter, LimiterKind, Mode};
+use nalgebra::Matrix6;
+use network::Network;
+pub(crate) use surfaces::{has_more_contacts, put_blocks};
+
+/// What limits the time step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// A safe bound of the time step \[s\]; infinite if nothing can be stiff.
+    pub safe: f64,
+    /// What limits it, if anything does.
+    pub by: Option<Limiter>,
+}
+
+/// What the stable time step is found from.
+#[derive(Clone, Copy)]
+pub(crate) struct System<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where everything stands.
+    pub state: &'a State,
+    /// Groups that move.
+    pub bodies: &'a [Option<RigidBody>],
+    /// What acts on each particle by itself.
+    pub fields: &'a Fields,
+    /// Interactions.
+    pub passes: &'a [Box<dyn Pass>],
+}
+
+/// What was found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StableStep {
+    /// Root μ = 2/Δt of the network, from the safe side \[1/s\].
+    pub network: f64,
+    /// The body that has it; none where several have it together.
+    pub body: Option<usize>,
+    /// The same of impacts between bodies that are not yet near each other \[1/s\].
+    pub impacts: f64,
+}
+
+impl StableStep {
+    /// The stable time step \[s\].
+    pub(crate) fn safe(&self) -> f64 {
+        2.0 / self.network.max(self.impacts)
+    }
+}
+
+impl System<'_> {
+    /// The stable time step of the network as it may get, and of impacts to come at up to twice this speed \[m/s\].
+    /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on. Where a time step that is known
+    /// to be stable is `enough` \[s\], a quick bound that is not shorter is the answer.
+    pub(crate) fn find(
+        &self,
+        ahead: &SearchLimits,
+        speed: f64,
+        guess: f64,
+        enough: f64,
+        counter: &mut u64,
+        context: &Context,
+    ) -> StableStep {
+        let impacts = self.impact(speed, ahead.acceleration).unwrap_or(0.0);
+        if enough.is_finite() {
+            let (network, body) = self.quick_root(ahead);
+            if network * enough <= 2.0 {
+                return StableStep { network, body, impacts };
+            }
+        }
+        let network = self.network(ahead);
+        let (root, body) = if network.elements.is_empty() {
+            (0.0, None)
+        } else if self.has_bonds(ahead) {
+            (lanczos::largest_root(&network, guess, counter, context), None)
+        } else {
+            cluster::largest_root(&network, guess, context)
+        };
+        StableStep { network: root, body, impacts }
+    }
+
+    /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
+    fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
+        let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
+        blocks::quick_root(&bodies, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
+    }
+
+    /// Whether there are bonds, or are about to be.
+    fn has_bonds(&self, ahead: &SearchLimits) -> bool {
+        let coming = |window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window));
+        self.state.bonds.iter().any(|list| !list.first.is_empty()) || ahead.window.as_ref().is_some_and(coming)
+    }
+
+    /// The network, as it may get.
+    fn network(&self, ahead: &SearchLimits) -> Network<'_> {
+        Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
+    }
+
+    /// What a step that was found is limited by.
+    pub(crate) fn limiter(
+        &self,
+        ahead: &SearchLimits,
+        speed: f64,
+        found: &StableStep,
+        counter: u64,
+        context: &Context,
+    ) -> Option<Limiter> {
+        if found.impacts > found.network {
+            let (_, meeting) = self.hardest_impact(speed, ahead.acceleration)?;
+            let mode = if meeting.across { Mode::Tangential } else { Mode::Normal };
+            return Some(Limiter {
+                kind: LimiterKind::Impact,
+                first: meeting.particle,
+                second: None,
+                boundary: None,
+                mode,
+            });
+        }
+        let network = self.network(ahead);
+        if network.elements.is_empty() {
+            return None;
+        }
+        let motion = match found.body {
+            Some(body) => blocks::critical_motion(&network, found.network, body),
+            None => lanczos::critical_motion(&network, found.network, counter, context),
+        };
+        let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
+        let place = (0..network.elements.len())
+            .map(|place| (place, shares(place).iter().sum::<f64>()))
+            .reduce(|most, next| if next.1 > most.1 { next } else { most })?
+            .0;
+        let parts = shares(place);
+        let part = (0..4).reduce(|most, next| if parts[next] > parts[most] { next } else { most })?;
+        let (link, mut count) = (std::cell::Cell::new(None), 0);
+        for pass in self.passes {
+            pass.stiffness(self.state, ahead, &mut |told| {
+                if network.element(&told).is_some() {
+                    if count == place {
+                        link.set(Some(told));
+                    }
+                    count += 1;
+                }
+            });
+        }
+        let link: Link = link.get()?;
+        let name = |slot: u32| self.state.particles.id[slot as usize];
+        Some(Limiter {
+            kind: match link.kind {
+                Kind::Contact => LimiterKind::Contact,
+                Kind::ComingContact => LimiterKind::ComingContact,
+                Kind::Bond => LimiterKind::Bond,
+                Kind::ComingBond => LimiterKind::ComingBond,
+            },
+            first: name(link.first),
+            second: link.second.map(name),
+            boundary: link.boundary,
+            mode: Mode::ALL[part],
+        })
+    }
+
+    /// The root of impacts still to come between bodies that are in no list \[1/s\], if anything can touch.
+    pub(crate) fn impact(&self, speed: f64, acceleration: f64) -> Option<f64> {
+        self.hardest_impact(speed, acceleration).map(|(root, _)| root)
+    }
+
+    /// That root, and what meets: the two smallest particles at twice the speed \[m/s\], with what falling over a radius adds at this
+    /// acceleration \[m/s²\]; likewise each group that forces move.
+    fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, PossibleContact)> {
+        let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
+            let turn = answer(&body.mobility(moved), body.farthest + body.largest);
+            Some(PossibleContact {
+                radius: body.largest,
+                mass: 1.0 / turn,
+                turn,
+                particle: body.members[0],
+                across: false,
+            })
+        });
+        let mut limit: Option<(f64, PossibleContact)> = None;
+        let coming = self.scene.insertions.iter().map(smallest_to_come);
+        for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(coming).chain(groups) {
+            let closing = 2.0 * speed + (2.0 * acceleration * meeting.radius).sqrt();
+            let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
+            for pass in self.passes {
+                pass.impacts(radius, mass, closing, &mut |response| {
+                    let root = meeting.root(&response);
+                    if root > limit.as_ref().map_or(0.0, |(most, _)| *most) {
+                        limit = Some((root, meeting));
+                    }
+                });
+            }
+        }
+        limit
+    }
+
+    /// Whether any contact of the smallest particle with its like, or with a surface, gets stiffer where it is so much `faster` than this
+    /// \[m/s\].
+    pub(crate) fn stiffens(&self, speed: f64, faster: f64) -> bool {
+        let Some(meeting) = smallest_particle(&self.state.particles) else { return true };
+        let responses = |speed: f64| {
+            let mut all = Vec::new();
+            for pass in self.passes {
+                pass.impacts(meeting.radius, meeting.mass, speed, &mut |response| all.push(response));
+            }
+            all
+        };
+        responses(speed) != responses(faster * speed)
+    }
+
+    /// Largest speed of a particle, of those to come as they come \[m/s\].
+    pub(crate) fn fastest(&self) -> f64 {
+        let squares = self.state.particles.velocity.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        let coming = self.scene.insertions.iter().map(Insertion::fastest);
+        coming.fold(squares.fold(0.0, f64::max).sqrt(), f64::max)
+    }
+}
+
+/// The speed up to which impacts are to be foreseen, of particles this fast \[m/s\] and boundaries this fast \[m/s\] that may
+/// become `faster` times as fast: half of what two of them may meet at.
+pub(crate) fn foreseen_speed(particles: f64, boundaries: f64, faster: f64) -> f64 {
+    faster * particles.max(0.5 * (particles + boundaries))
+}
+
+/// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].
+fn answer(mobility: &Matrix6<f64>, arm: f64) -> f64 {
+    let diagonal = mobility.diagonal();
+    let (shift, turn) = (diagonal.fixed_rows::<3>(0).max(), diagonal.fixed_rows::<3>(3).sum());
+    shift + turn * arm * arm
+}
+
+/// What may meet something else next.
+#[derive(Clone, Copy, Debug)]
+struct PossibleContact {
+    /// Radius \[m\].
+    radius: f64,
+    /// Mass that it meets with \[kg\].
+    mass: f64,
+    /// Largest acceleration that a unit force across gives to where it acts \[1/kg\].
+    turn: f64,
+    /// The particle: index into the scene's particles.
+    particle: u32,
+    /// Whether sliding limits, rather than pressing.
+    across: bool,
+}
+
+impl PossibleContact {
+    /// The root while it meets its like with this response: both move, their one spring acts on the reduced mass.
+    fn root(&mut self, response: &Response) -> f64 {
+        let root = |k: f64, c: f64| c + (c * c + 2.0 * k).sqrt();
+        let along = root(response.normal_stiffness / self.mass, response.normal_damping / self.mass);
+        let across = root(response.tangential_stiffness * self.turn, response.tangential_damping * self.turn);
+        self.across = across > along;
+        along.max(across)
+    }
+}
+
+/// The smallest particle that an insertion lets come.
+fn smallest_to_come(insertion: &Insertion) -> PossibleContact {
+    let [radius, _] = insertion.sizes.bounds();
+    let mass = insertion.mass(radius);
+    let turn = 1.0 / mass + radius * radius / ParticleShape::Sphere.inertia(mass, radius);
+    PossibleContact { radius, mass, turn, particle: GONE, across: false }
+}
+
+/// The smallest particle that forces move.
+fn smallest_particle(particles: &Particles) -> Option<PossibleContact> {
+    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+    let slot = free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
+    let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
+    let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
+    Some(PossibleContact { radius, mass, turn, particle: particles.id[slot], across: false })
+}

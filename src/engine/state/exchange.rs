@@ -1,0 +1,152 @@
+//! The state of particles that come and go: counts, rates, random generators, and their part in the energy books.
+
+use super::in_place::clone_in_place;
+use serde::{Deserialize, Serialize};
+
+/// Everything of particles that come and go which changes. Scenes whose number of particles stays have none.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Exchange {
+    /// A bound of how far anything has moved since outlets were looked at \[m\].
+    pub travel: f64,
+    /// The number of the next particle that comes.
+    pub next: u32,
+    /// What comes, in the order of the scene's insertions.
+    pub feeds: Vec<InsertionProgress>,
+    /// What went, in the order of the scene's outlets.
+    pub outlets: Vec<ParticleCount>,
+    /// What left the domain.
+    pub outside: ParticleCount,
+    /// What passed, in the order of the scene's flow meters.
+    pub meters: Vec<MeterCount>,
+    /// What came less what went.
+    pub net: NetExchange,
+}
+
+clone_in_place!(Exchange { travel, next, feeds, outlets, outside, meters, net });
+
+/// A number of particles and their mass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ParticleCount {
+    /// How many.
+    pub count: u64,
+    /// Their mass \[kg\].
+    pub mass: f64,
+}
+
+impl ParticleCount {
+    /// Counts a particle of this mass \[kg\].
+    pub(crate) fn add(&mut self, mass: f64) {
+        self.count += 1;
+        self.mass += mass;
+    }
+}
+
+/// What comes by one insertion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct InsertionProgress {
+    /// What came.
+    pub came: ParticleCount,
+    /// How much is to come in each second, as last given, in the unit of the scene's rate; 0 where a mass is to come.
+    pub rate: f64,
+    /// Its change in each second, in the next communication step.
+    pub rate_of_rate: f64,
+    /// How much comes in each second of the present communication step.
+    pub present: f64,
+    /// What is due and has not come: a number or a mass \[kg\].
+    pub owed: f64,
+    /// What found no room and is not made up for, in the same unit.
+    pub dropped: f64,
+    /// Numbers drawn from the generator so far.
+    pub draws: u64,
+    /// Radius of the next particle, 0 where it has not been drawn \[m\].
+    pub radius: f64,
+    /// Time step in which it was tried last.
+    pub tried: u64,
+    /// Whether there was no room then.
+    pub full: bool,
+    /// A bound of how far anything has moved since then \[m\].
+    pub travel: f64,
+}
+
+/// What passed a flow meter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MeterCount {
+    /// Particles that passed towards the front, and back.
+    pub counts: [u64; 2],
+    /// Mass that passed towards the front less what went back \[kg\].
+    pub mass: f64,
+    /// The same when the present communication step began \[kg\].
+    pub mass_before: f64,
+    /// Mean mass flow of the last communication step \[kg/s\].
+    pub mass_flow: f64,
+}
+
+impl MeterCount {
+    /// How many passed towards the front, less those that went back.
+    pub fn net_count(&self) -> i32 {
+        let [forth, back] = self.counts.map(|count| i64::try_from(count).unwrap_or(i64::MAX));
+        i32::try_from(forth - back).unwrap_or(if forth > back { i32::MAX } else { i32::MIN })
+    }
+}
+
+/// What came less what went: what balances of mass, momentum and energy have to know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NetExchange {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Mass times the time from which on it is there \[kg s\].
+    pub mass_time: f64,
+    /// Momentum \[kg m/s\].
+    pub momentum: [f64; 3],
+    /// Constant forces on it \[N\].
+    pub applied: [f64; 3],
+    /// These times the time from which on they act \[N s\].
+    pub applied_time: [f64; 3],
+    /// Kinetic energy \[J\].
+    pub kinetic: f64,
+    /// Elastic energy of its contacts \[J\].
+    pub elastic: f64,
+    /// Potential of gravity and constant forces \[J\].
+    pub potential: f64,
+    /// Sum of the magnitudes of kinetic energies that came and went \[J\].
+    pub turnover: f64,
+}
+
+impl NetExchange {
+    /// Energy that came less what went \[J\].
+    pub fn energy(&self) -> f64 {
+        self.kinetic + self.elastic + self.potential
+    }
+
+    /// All its numbers.
+    fn numbers(&self) -> [f64; 15] {
+        let Self { mass, mass_time, momentum: [a, b, c], applied: [d, e, f], .. } = *self;
+        let Self { applied_time: [g, h, i], kinetic, elastic, potential, turnover, .. } = *self;
+        [mass, mass_time, a, b, c, d, e, f, g, h, i, kinetic, elastic, potential, turnover]
+    }
+}
+
+impl Exchange {
+    /// Counts from here. What is due, the generators and the numbers that were given stay.
+    pub(super) fn begin_counting(&mut self) {
+        self.outlets.iter_mut().chain([&mut self.outside]).for_each(|tally| *tally = ParticleCount::default());
+        for feed in &mut self.feeds {
+            (feed.came, feed.dropped) = (ParticleCount::default(), 0.0);
+        }
+        self.meters.iter_mut().for_each(|passed| *passed = MeterCount::default());
+        self.net = NetExchange::default();
+    }
+
+    /// Whether all numbers are finite, and those that are of 0 or above are.
+    pub(super) fn is_sound(&self) -> bool {
+        let tallies = self.outlets.iter().chain([&self.outside]).chain(self.feeds.iter().map(|feed| &feed.came));
+        let feeds =
+            self.feeds.iter().flat_map(|feed| [feed.owed, feed.dropped, feed.radius, feed.travel, feed.present]);
+        let meters = self.meters.iter().flat_map(|passed| [passed.mass, passed.mass_before, passed.mass_flow]);
+        let rates = self.feeds.iter().flat_map(|feed| [feed.rate, feed.rate_of_rate]);
+        self.travel >= 0.0
+            && self.travel.is_finite()
+            && tallies.map(|tally| tally.mass).chain(feeds).all(|number| number >= 0.0 && number.is_finite())
+            && meters.chain(rates).chain(self.net.numbers()).all(f64::is_finite)
+    }
+}

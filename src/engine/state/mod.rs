@@ -1,0 +1,140 @@
+//! The numbers that change, and nothing else: a run that continues from a restored state gives the same bits.
+//!
+//! No physics here. Particles stand in the order of the present neighbour list, which follows space;
+//! [`Particles::id`] and [`Particles::slot`] translate between that order and the scene's.
+
+pub mod bonds;
+pub mod boundaries;
+mod check;
+pub mod clock;
+pub mod contacts;
+pub mod exchange;
+pub mod foresight;
+mod history;
+mod in_place;
+pub mod ledger;
+pub mod losses;
+pub mod nodes;
+mod number;
+pub mod particles;
+mod plain;
+pub mod snapshot;
+
+pub use bonds::{BondList, Break};
+pub use boundaries::{BoundaryState, Orientation};
+pub use check::StateFault;
+pub(crate) use check::demand;
+pub use clock::Clock;
+pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
+pub use exchange::Exchange;
+pub use foresight::Foresight;
+pub use history::History;
+pub use ledger::Ledger;
+pub use losses::{Loss, Losses};
+pub use nodes::Nodes;
+pub use number::InsertedParticle;
+pub use particles::{GONE, Particles};
+
+pub use crate::base::number::Row;
+
+use in_place::clone_in_place;
+use serde::{Deserialize, Serialize};
+
+/// Everything that changes while a scene runs.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time and counters.
+    pub clock: Clock,
+    /// For which conditions the stable time step was computed.
+    pub foresight: Foresight,
+    /// Positions, velocities, forces.
+    pub particles: Particles,
+    /// When and for where the lists below were made.
+    pub neighbours: Neighbours,
+    /// Coefficients of each contact law: a row for each two materials, row by row; zeros where it does not govern them.
+    #[serde(with = "plain::lists")]
+    pub coefficients: Vec<Vec<f64>>,
+    /// Values of the tunable parameters, in the order of the scene's.
+    #[serde(with = "plain")]
+    pub tuned: Vec<f64>,
+    /// Near pairs of particles and their springs, a list for each contact law.
+    pub contacts: Vec<ContactList>,
+    /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
+    pub walls: Vec<WallContacts>,
+    /// Living bonds, a list for each bond law.
+    pub bonds: Vec<BondList>,
+    /// Bonds that broke since the present communication step began.
+    pub breaks: Vec<Break>,
+    /// Motion and loads of the boundaries, in the scene's order.
+    pub boundaries: Vec<BoundaryState>,
+    /// Nodes of the meshes among them whose nodes the outside moves, in the scene's order.
+    pub nodes: Vec<Nodes>,
+    /// The algorithmic energy book, if the scene asks for it.
+    pub ledger: Option<Ledger>,
+    /// The physical energy book, if the scene asks for it.
+    pub losses: Option<Losses>,
+    /// Sum of the global damping forces at the present time \[N\].
+    pub damping_force: [f64; 3],
+    /// Impulse of global damping on the particles since time 0 \[N s\].
+    pub damping_impulse: [f64; 3],
+    /// Particles that come and go, where the scene has any.
+    pub exchange: Option<Exchange>,
+}
+
+clone_in_place!(State {
+    clock,
+    foresight,
+    particles,
+    neighbours,
+    coefficients,
+    tuned,
+    contacts,
+    walls,
+    bonds,
+    breaks,
+    boundaries,
+    nodes,
+    ledger,
+    losses,
+    damping_force,
+    damping_impulse,
+    exchange
+});
+
+impl State {
+    /// The nodes of a boundary, if the outside moves them.
+    pub(crate) fn nodes_of(&self, boundary: usize) -> Option<&Nodes> {
+        self.nodes.iter().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut Nodes> {
+        self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
+    /// The caller sets the energies with which an energy book begins, and the mean loads.
+    pub fn begin_counting(&mut self) {
+        self.breaks.clear();
+        self.damping_impulse = [0.0; 3];
+        self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.begin_counting();
+        }
+        if let Some(losses) = &mut self.losses {
+            losses.begin_counting();
+        }
+        if let Some(exchange) = &mut self.exchange {
+            exchange.begin_counting();
+        }
+        self.particles.bonds.fill([0; 2]);
+        for list in &mut self.bonds {
+            list.begin_counting();
+            for &slot in list.first.iter().chain(&list.second) {
+                self.particles.count_bond([self.particles.id[slot as usize]]);
+            }
+        }
+        // How many bonds there may be before the stable time step is found again was told in the old count.
+        self.foresight.bonds = [self.bonds.iter().map(|list| list.made).sum(), 0];
+    }
+}

@@ -1,0 +1,233 @@
+//! Adds and removes particles: the rows of the state and the lists follow.
+
+use super::{BondList, Columns, ContactList, GONE, NearParts, Particles, Row, State, WallContacts};
+use crate::base::geometry::Quaternion;
+
+/// A particle that comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InsertedParticle {
+    /// Centre \[m\] and radius \[m\].
+    pub position: Row,
+    /// Velocity \[m/s\] and mass \[kg\].
+    pub velocity: Row,
+    /// Moment of inertia \[kg m²\].
+    pub inertia: f64,
+    /// Index of its material.
+    pub material: u32,
+    /// The number that it carries in outputs.
+    pub number: u32,
+}
+
+impl Particles {
+    /// Index of the first particle that is none of the scene's own.
+    fn own(&self) -> usize {
+        self.slot.len() - self.numbers.len()
+    }
+
+    /// The number that a particle which came later carries in outputs, by its index; none of the scene's own.
+    pub fn number_of_inserted(&self, index: u32) -> Option<u32> {
+        self.numbers.get((index as usize).checked_sub(self.own())?).copied()
+    }
+
+    /// Slots of the particles that are there, by ascending index.
+    pub fn slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.slot.iter().filter(|slot| **slot != GONE).map(|&slot| slot as usize)
+    }
+
+    /// The slot of a particle by its index, if it is there.
+    pub fn slot_of(&self, index: u32) -> Option<usize> {
+        self.slot.get(index as usize).filter(|slot| **slot != GONE).map(|&slot| slot as usize)
+    }
+
+    /// Puts a particle behind the others. `turning`: whether particles have an orientation.
+    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) {
+        let slot = self.len() as u32;
+        let index = self.free.pop().unwrap_or_else(|| {
+            self.slot.push(GONE);
+            self.numbers.push(0);
+            if !self.bonds.is_empty() {
+                self.bonds.push([0; 2]);
+            }
+            self.slot.len() as u32 - 1
+        });
+        let place = index as usize - self.own();
+        self.numbers[place] = newcomer.number;
+        self.slot[index as usize] = slot;
+        self.position.push(newcomer.position);
+        self.velocity.push(newcomer.velocity);
+        self.angular_velocity.push([0.0, 0.0, 0.0, newcomer.inertia]);
+        self.force.push([0.0; 4]);
+        self.torque.push([0.0; 4]);
+        if turning || !self.orientation.is_empty() {
+            self.orientation.push(Quaternion::identity().to_row());
+        }
+        self.material.push(newcomer.material);
+        self.owner.push(0);
+        self.id.push(index);
+    }
+
+    /// Takes out the particles (slots) that go.
+    fn remove(&mut self, goes: &[bool]) {
+        let own = self.own();
+        for slot in (0..goes.len()).filter(|&slot| goes[slot]) {
+            let index = self.id[slot] as usize;
+            self.slot[index] = GONE;
+            if index >= own {
+                self.free.push(index as u32);
+                if let Some(counts) = self.bonds.get_mut(index) {
+                    *counts = [0; 2];
+                }
+            }
+        }
+        for rows in [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.angular_velocity,
+            &mut self.force,
+            &mut self.torque,
+            &mut self.orientation,
+        ] {
+            keep(rows, |slot| !goes[slot]);
+        }
+        for numbers in [&mut self.material, &mut self.owner, &mut self.id] {
+            keep(numbers, |slot| !goes[slot]);
+        }
+        for (slot, &index) in self.id.iter().enumerate() {
+            self.slot[index as usize] = slot as u32;
+        }
+    }
+}
+
+/// Keeps the entries of a list for whose places this holds.
+fn keep<T>(list: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
+    let mut place = 0;
+    list.retain(|_| {
+        place += 1;
+        stays(place - 1)
+    });
+}
+
+/// What becomes of slots and of ends of slabs.
+struct Moved<'a> {
+    /// Whether the particle in each slot goes.
+    goes: &'a [bool],
+    /// How many stay before each slot, and behind the last one how many in all.
+    stay_before: Vec<u32>,
+}
+
+impl Moved<'_> {
+    /// Whether the particle of a slot stays.
+    fn stays(&self, slot: u32) -> bool {
+        !self.goes[slot as usize]
+    }
+
+    /// Brings slots of particles that stay up to date.
+    fn renumber(&self, slots: &mut [u32]) {
+        slots.iter_mut().for_each(|slot| *slot = self.stay_before[*slot as usize]);
+    }
+}
+
+/// Brings the ends of pieces of a list up to date of which these entries stay.
+fn shorten(ends: &mut [u32], stays: &[bool]) {
+    let (mut place, mut count) = (0, 0);
+    for end in ends {
+        while place < *end as usize {
+            count += u32::from(stays[place]);
+            place += 1;
+        }
+        *end = count;
+    }
+}
+
+impl State {
+    /// Takes out the particles (slots) that go, and from every list what belongs to them. What was found for where particles
+    /// stand is made anew by whoever calls.
+    pub(crate) fn remove(&mut self, goes: &[bool]) {
+        let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
+        for goes in goes {
+            stay_before.push(count);
+            count += u32::from(!goes);
+        }
+        stay_before.push(count);
+        let moved = Moved { goes, stay_before };
+        self.particles.remove(goes);
+        let Columns { x, y, z, radius } = &mut self.neighbours.reference;
+        for column in [x, y, z, radius] {
+            keep(column, |slot| goes.get(slot).is_none_or(|goes| !goes));
+        }
+        self.neighbours.slabs.iter_mut().for_each(|end| *end = moved.stay_before[*end as usize]);
+        self.contacts.iter_mut().for_each(|list| list.remove(&moved));
+        self.walls.iter_mut().for_each(|list| list.remove(&moved));
+        self.bonds.iter_mut().for_each(|list| list.remove(&moved));
+    }
+}
+
+impl ContactList {
+    /// Takes out the pairs of particles that go.
+    fn remove(&mut self, moved: &Moved) {
+        let pairs = self.first.iter().zip(&self.second);
+        let stays: Vec<bool> = pairs.map(|(&a, &b)| moved.stays(a) && moved.stays(b)).collect();
+        for slots in [&mut self.first, &mut self.second] {
+            keep(slots, |pair| stays[pair]);
+            moved.renumber(slots);
+        }
+        keep(&mut self.flags, |pair| stays[pair]);
+        self.history.keep(|pair| stays[pair]);
+        keep(&mut self.pair_constant, |pair| stays[pair]);
+        shorten(&mut self.slabs, &stays);
+    }
+}
+
+impl WallContacts {
+    /// Takes out the contacts of particles that go.
+    fn remove(&mut self, moved: &Moved) {
+        let stays: Vec<bool> = self.particle.iter().map(|&slot| moved.stays(slot)).collect();
+        // At a surface of features constants belong to near particles.
+        let near: Vec<bool> = self.near.particle.iter().map(|&slot| moved.stays(slot)).collect();
+        let of_constants = if self.near.starts.is_empty() { &stays } else { &near };
+        keep(&mut self.pair_constant, |place| of_constants.get(place).copied().unwrap_or(false));
+        keep(&mut self.particle, |entry| stays[entry]);
+        moved.renumber(&mut self.particle);
+        keep(&mut self.flags, |entry| stays[entry]);
+        keep(&mut self.feature, |entry| stays[entry]);
+        self.history.keep(|entry| stays[entry]);
+        self.near.remove(&near, moved);
+    }
+}
+
+impl NearParts {
+    /// Takes out particles that go; `stays` says of each whether it stays.
+    fn remove(&mut self, stays: &[bool], moved: &Moved) {
+        if self.starts.is_empty() {
+            return;
+        }
+        let (mut starts, mut parts) = (Vec::new(), Vec::new());
+        for entry in (0..stays.len()).filter(|&entry| stays[entry]) {
+            starts.push(parts.len() as u32);
+            parts.extend_from_slice(&self.parts[self.starts[entry] as usize..self.starts[entry + 1] as usize]);
+        }
+        starts.push(parts.len() as u32);
+        (self.starts, self.parts) = (starts, parts);
+        keep(&mut self.particle, |entry| stays[entry]);
+        keep(&mut self.plane, |entry| stays[entry]);
+        moved.renumber(&mut self.particle);
+    }
+}
+
+impl BondList {
+    /// Takes out the bonds of particles that go. They did not break, and are counted by themselves.
+    fn remove(&mut self, moved: &Moved) {
+        let second = |bond: usize| self.second.get(bond).is_none_or(|&slot| moved.stays(slot));
+        let stays: Vec<bool> =
+            self.first.iter().enumerate().map(|(bond, &slot)| moved.stays(slot) && second(bond)).collect();
+        self.removed += stays.iter().filter(|stays| !**stays).count() as u64;
+        for slots in [&mut self.first, &mut self.second] {
+            keep(slots, |bond| stays[bond]);
+            moved.renumber(slots);
+        }
+        keep(&mut self.foot, |bond| stays[bond]);
+        self.rows.iter_mut().chain(&mut self.damping).for_each(|rows| keep(rows, |bond| stays[bond]));
+        keep(&mut self.lost, |bond| stays[bond]);
+        shorten(&mut self.slabs, &stays);
+    }
+}

@@ -1,0 +1,171 @@
+//! How the loads on bodies change with their displacements: differences of evaluations.
+
+use super::network::Network;
+use crate::engine::run_error::RunError;
+use crate::engine::simulation::{Displacement, Probe};
+use crate::engine::state::State;
+use nalgebra::Matrix6;
+
+/// Six freedoms of a body by six of another; of the first three alone where nothing turns.
+pub(super) type Block = Matrix6<f64>;
+
+/// A body whose own stiffness in some direction is below this share of that in another is loose.
+const LOOSE: f64 = 1e-9;
+
+/// −J in blocks, body by body.
+pub(super) struct Columns {
+    /// How many freedoms each body has.
+    each: usize,
+    /// For each body: those that feel it when it moves, with how they do.
+    blocks: Vec<Vec<(u32, Block)>>,
+}
+
+/// What changes for each metre of a displacement.
+pub(super) struct Difference {
+    /// Loads on the bodies, freedom by freedom \[N/m\].
+    pub(super) loads: Vec<f64>,
+    /// Force on each boundary \[N/m\].
+    pub(super) boundaries: Vec<[f64; 3]>,
+}
+
+/// The loads on the bodies, torques over radii \[N\].
+fn loads<'a>(state: &'a State, network: &'a Network) -> impl Iterator<Item = f64> + 'a {
+    network.slots.iter().zip(&network.radii).flat_map(move |(&slot, radius)| {
+        let (force, torque) = (state.particles.force[slot as usize], state.particles.torque[slot as usize]);
+        let all = [force[0], force[1], force[2], torque[0] / radius, torque[1] / radius, torque[2] / radius];
+        all.into_iter().take(network.each)
+    })
+}
+
+/// The difference of loads between displacements there and back, over the way \[m\].
+pub(super) fn difference(
+    probe: &mut Probe,
+    network: &Network,
+    way: f64,
+    displacements: impl Fn(f64) -> Vec<Displacement>,
+) -> Result<Difference, RunError> {
+    let there = probe.displaced(displacements(way).into_iter())?;
+    let mut found = Difference {
+        loads: loads(there, network).collect(),
+        boundaries: there.boundaries.iter().map(|boundary| boundary.force).collect(),
+    };
+    let back = probe.displaced(displacements(-way).into_iter())?;
+    for (there, back) in found.loads.iter_mut().zip(loads(back, network)) {
+        *there = (*there - back) / (2.0 * way);
+    }
+    for (there, back) in found.boundaries.iter_mut().zip(&back.boundaries) {
+        for (there, back) in there.iter_mut().zip(back.force) {
+            *there = (*there - back) / (2.0 * way);
+        }
+    }
+    Ok(found)
+}
+
+impl Columns {
+    /// Displaces every body along and about every axis, those at once that act on no common body.
+    pub(super) fn of(probe: &mut Probe, network: &Network, way: f64) -> Result<Self, RunError> {
+        let each = network.each;
+        let empty = |list: &Vec<u32>| list.iter().map(|&other| (other, Block::zeros())).collect();
+        let mut blocks: Vec<Vec<(u32, Block)>> = network.near.iter().map(empty).collect();
+        for set in &network.sets {
+            for axis in 0..each {
+                let all = |amount| set.iter().map(|&body| network.displacement(body, axis, amount)).collect();
+                let found = difference(probe, network, way, all)?;
+                for &body in set {
+                    for (other, block) in &mut blocks[body as usize] {
+                        let first = *other as usize * each;
+                        for (part, load) in block.column_mut(axis).iter_mut().zip(&found.loads[first..first + each]) {
+                            *part = -load;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(Self { each, blocks })
+    }
+
+    /// How many freedoms each body has.
+    pub(super) fn each(&self) -> usize {
+        self.each
+    }
+
+    /// How each body feels its own motion.
+    pub(super) fn own_blocks(&self) -> impl Iterator<Item = &Block> {
+        (0..self.blocks.len() as u32).filter_map(|body| self.block(body, body))
+    }
+
+    /// How many freedoms there are.
+    pub(super) fn freedoms(&self) -> usize {
+        self.each * self.blocks.len()
+    }
+
+    /// Mean of the entries on the diagonal that belong to translations \[N/m\].
+    pub(super) fn mean_stiffness(&self) -> f64 {
+        let own = |body: usize| {
+            self.block(body as u32, body as u32).map_or(0.0, |own| own[(0, 0)] + own[(1, 1)] + own[(2, 2)])
+        };
+        (0..self.blocks.len()).map(own).sum::<f64>() / (3 * self.blocks.len()).max(1) as f64
+    }
+
+    /// How one body feels the motion of another.
+    fn block(&self, body: u32, moving: u32) -> Option<&Block> {
+        let list = &self.blocks[moving as usize];
+        list.binary_search_by_key(&body, |(other, _)| *other).ok().map(|place| &list[place].1)
+    }
+
+    /// Largest difference of two mirrored entries over the largest entry.
+    pub(super) fn asymmetry(&self) -> f64 {
+        let (mut difference, mut largest) = (0.0_f64, 0.0_f64);
+        for (moving, list) in self.blocks.iter().enumerate() {
+            for (body, block) in list {
+                let Some(mirrored) = self.block(moving as u32, *body) else { continue };
+                for (row, column) in (0..self.each).flat_map(|row| (0..self.each).map(move |column| (row, column))) {
+                    difference = difference.max((block[(row, column)] - mirrored[(column, row)]).abs());
+                    largest = largest.max(block[(row, column)].abs());
+                }
+            }
+        }
+        if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+
+    /// −J times displacements.
+    pub(super) fn times(&self, displacements: &[f64]) -> Vec<f64> {
+        let mut loads = vec![0.0; displacements.len()];
+        for (moving, list) in self.blocks.iter().enumerate() {
+            let ways = &displacements[moving * self.each..(moving + 1) * self.each];
+            for (body, block) in list {
+                let loads = &mut loads[*body as usize * self.each..(*body as usize + 1) * self.each];
+                for (load, row) in loads.iter_mut().zip(block.row_iter()) {
+                    *load += row.iter().zip(ways).map(|(entry, way)| entry * way).sum::<f64>();
+                }
+            }
+        }
+        loads
+    }
+
+    /// Bodies that could move somewhere if all others stood still: numbers in the scene's order.
+    pub(super) fn loose(&self, network: &Network) -> Vec<u32> {
+        let is_loose = |body: &usize| self.block(*body as u32, *body as u32).is_none_or(|own| self.is_soft(own));
+        let mut all: Vec<u32> = (0..self.blocks.len()).filter(is_loose).map(|body| network.ids[body]).collect();
+        all.sort_unstable();
+        all
+    }
+
+    /// Whether a body's own stiffness is next to nothing in some direction: a pivot of its elimination vanishes.
+    fn is_soft(&self, own: &Block) -> bool {
+        let mut rest = *own;
+        let largest = (0..self.each).fold(0.0_f64, |most, k| most.max(own[(k, k)].abs()));
+        for pivot in 0..self.each {
+            if rest[(pivot, pivot)] <= LOOSE * largest {
+                return true;
+            }
+            for row in pivot + 1..self.each {
+                let factor = rest[(row, pivot)] / rest[(pivot, pivot)];
+                for column in pivot..self.each {
+                    rest[(row, column)] -= factor * rest[(pivot, column)];
+                }
+            }
+        }
+        false
+    }
+}

@@ -1,0 +1,151 @@
+//! Breakage by the largest stresses at the rim.
+
+use super::BreakageKeys;
+use super::{Breakage, Loaded, flat_keys};
+use crate::base::number::Number;
+use crate::base::quantity::{NonNegative, Positive};
+use crate::laws::bond::formulation::FormulationChoice;
+use crate::laws::bond::key_error::KeyError;
+
+flat_keys! {
+    /// Those of [`StressLimits`].
+    {
+        /// Largest normal stress \[Pa\].
+        max_normal_stress: Positive ["Pa"],
+        /// Largest shear stress without normal force \[Pa\].
+        max_shear_stress: Positive ["Pa"],
+        /// Strength in tension over that in compression.
+        tension_ratio: Positive,
+        /// φ of the growth of shear strength with compression, from 0 to below π/2 \[rad\].
+        friction_angle: NonNegative,
+        /// Whether compression adds to the normal stress (as in the engine) or relieves it.
+        compression_breaks: bool,
+    }
+}
+
+impl Keys {
+    /// Whether a largest stress is named.
+    fn has_limit(&self) -> bool {
+        self.max_normal_stress.is_some() || self.max_shear_stress.is_some()
+    }
+}
+
+/// |u| below which the engine takes a bond for stretched \[m\].
+const STRETCHED_BELOW: f64 = 1e-16;
+
+/// Breaks where σ > S' or τ > τ' (the engine with `stressBreak`).
+///
+/// ```text
+/// σ  = ±|N|/A + |T_t| r_b/I        + where stretched, or where compression breaks; − where it relieves
+/// τ  = |F_t|/A + |T_n| r_b/J
+/// S' = tension strength where u < 1e-16 m, else compression strength
+/// τ' = shear strength + sgn(u) |N|/A tan φ
+/// ```
+///
+/// The larger of the two parts of the stress that is too large names the cause: tension or compression, or bending;
+/// shear, or torsion. Where compression relieves, a compressed bond hence breaks by bending.
+///
+/// After the evaluation of this step and without damping. With friction, compression raises the shear strength and
+/// tension lowers it, below 0 if need be: Mohr and Coulomb's limit on the mean normal stress. A strength that is not
+/// given is ∞.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressLimits {
+    /// Largest normal stress of a compressed bond, or ∞ \[Pa\].
+    pub compression_strength: f64,
+    /// Largest normal stress of a stretched bond, or ∞ \[Pa\].
+    pub tension_strength: f64,
+    /// Largest shear stress without normal force, or ∞ \[Pa\].
+    pub shear_strength: f64,
+    /// tan φ: growth of the shear strength with the compressive stress.
+    pub friction: f64,
+    /// What compression adds to the normal stress, over |N|/A: 1 where compression breaks, −1 where it relieves.
+    pub compression_share: f64,
+}
+
+/// Place of `tension` among [`StressLimits::CAUSES`], from 1.
+const TENSION: f64 = 1.0;
+/// Place of `compression`.
+const COMPRESSION: f64 = 2.0;
+/// Place of `shear`.
+const SHEAR: f64 = 3.0;
+/// Place of `bending`.
+const BENDING: f64 = 4.0;
+/// Place of `torsion`.
+const TORSION: f64 = 5.0;
+
+impl Keys {
+    /// What compression adds to the normal stress over |N|/A: 1 where compression breaks, −1 where it relieves.
+    pub(in crate::laws::bond) fn compression_share(&self, formulation: FormulationChoice) -> f64 {
+        if self.compression_breaks.unwrap_or(formulation.is_engine()) { 1.0 } else { -1.0 }
+    }
+}
+
+impl Breakage for StressLimits {
+    type Keys = Keys;
+    const LIMITS: &'static [&'static str] = &["max_normal_stress", "max_shear_stress"];
+    const CAUSES: &'static [&'static str] = &["tension", "compression", "shear", "bending", "torsion"];
+
+    fn of(own: &Keys, formulation: FormulationChoice) -> Option<Self> {
+        let strength = own.max_normal_stress.map_or(f64::INFINITY, Positive::get);
+        own.has_limit().then(|| Self {
+            compression_strength: strength,
+            tension_strength: strength * own.tension_ratio.map_or(1.0, Positive::get),
+            shear_strength: own.max_shear_stress.map_or(f64::INFINITY, Positive::get),
+            friction: own.friction_angle.map_or(0.0, |angle| libm::tan(angle.get())),
+            compression_share: own.compression_share(formulation),
+        })
+    }
+
+    fn check(own: &Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
+        let (no_normal, no_shear) = (own.max_normal_stress.is_none(), own.max_shear_stress.is_none());
+        let mut add = |there: bool, key: &'static str, message: &str| KeyError::add(wrong, there, key, message);
+        add(
+            own.tension_ratio.is_some() && no_normal,
+            "breakage.tension_ratio",
+            "expected max_normal_stress beside it, which it multiplies, found none",
+        );
+        add(
+            own.friction_angle.is_some() && no_shear,
+            "breakage.friction_angle",
+            "expected max_shear_stress beside it, which it raises, found none",
+        );
+        add(
+            own.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
+            "breakage.friction_angle",
+            "expected radians from 0 to below π/2, found an angle of π/2 or more",
+        );
+        add(
+            own.compression_breaks.is_some() && no_normal,
+            "breakage.compression_breaks",
+            "expected max_normal_stress beside it, to which it belongs, found none",
+        );
+        let exact = formulation.is_engine();
+        add(
+            exact && own.compression_breaks == Some(false),
+            "breakage.compression_breaks",
+            "expected true, as compression always breaks in engine_exact, found false",
+        );
+        let by_distance = all.distance.max_distance.is_some();
+        add(
+            exact && own.has_limit() && by_distance,
+            "breakage.max_distance",
+            "expected one limit, as engine_exact looks at one, found a largest stress beside it",
+        );
+    }
+
+    #[inline(always)]
+    fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N {
+        let stress = loaded.stress();
+        let normal = loaded.normal_stress(&stress, N::splat(self.compression_share));
+        let stretched = N::splat(STRETCHED_BELOW).greater(loaded.compression);
+        let strength = N::select(stretched, N::splat(self.tension_strength), N::splat(self.compression_strength));
+        let axial = N::select(stretched, N::splat(TENSION), N::splat(COMPRESSION));
+        let bent = stress.bending.greater(normal - stress.bending);
+        let normal_cause = N::select(bent, N::splat(BENDING), axial);
+        let twisted = stress.torsion.greater(stress.shear - stress.torsion);
+        let shear_cause = N::select(twisted, N::splat(TORSION), N::splat(SHEAR));
+        let shear_strength = N::splat(self.shear_strength) + stress.pressure * N::splat(self.friction);
+        let by_shear = N::select(stress.shear.greater(shear_strength), shear_cause, N::zero());
+        N::select(normal.greater(strength), normal_cause, by_shear)
+    }
+}

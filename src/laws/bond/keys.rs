@@ -1,0 +1,119 @@
+//! `[bond.<name>]` as the scene writes it, and the law that it means.
+
+pub use super::breakage::BreakageKeys;
+pub use super::damping::DampingChoice;
+pub use super::formulation::FormulationChoice;
+pub use super::key_error::KeyError;
+pub use super::part_keys::PartKeys;
+
+use super::creation::{ContactPolicy, Creation};
+use crate::base::quantity::{NonNegative, Positive};
+use serde::{Deserialize, Deserializer};
+
+/// A key of the document that no program has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Never {}
+
+impl<'de> Deserialize<'de> for Never {
+    fn deserialize<D: Deserializer<'de>>(_: D) -> Result<Self, D::Error> {
+        Err(serde::de::Error::custom(
+            "breakage by heat is named in the document as not implemented, and not defined; leave the key out",
+        ))
+    }
+}
+
+/// Says yes where a key is absent.
+fn yes() -> bool {
+    true
+}
+
+/// `[bond.<name>]`
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// The formulation; `finite_rotation` where absent.
+    #[serde(default)]
+    pub formulation: FormulationChoice,
+    /// Two particle sets (or one twice), or a particle set and a plane.
+    pub between: [String; 2],
+    /// When bonds are made; `"start"` where absent.
+    #[serde(default)]
+    pub create: Creation,
+    /// Distance of the centres below which they are made; at a plane, half of it from the centre \[m\].
+    pub create_distance: Option<Positive>,
+    /// λ: bond radius over the smaller radius; 1 where absent.
+    pub radius_multiplier: Option<Positive>,
+    /// k_n, per unit area \[Pa/m\].
+    pub normal_stiffness: Positive,
+    /// k_t, per unit area \[Pa/m\].
+    pub tangential_stiffness: NonNegative,
+    /// Whether a stretched bond pulls.
+    #[serde(default = "yes")]
+    pub tension: bool,
+    /// Whether a compressed bond pushes.
+    #[serde(default = "yes")]
+    pub compression: bool,
+    /// Whether it bears shear.
+    #[serde(default = "yes")]
+    pub shear: bool,
+    /// Whether it bears torsion.
+    #[serde(default = "yes")]
+    pub torsion: bool,
+    /// Whether it bears bending.
+    #[serde(default = "yes")]
+    pub bending: bool,
+    /// What the contact law does between the bonded bodies.
+    #[serde(default)]
+    pub contact: ContactPolicy,
+    /// When bonds break; never where absent.
+    pub breakage: Option<BreakageKeys>,
+    /// Damping; none where absent.
+    pub damping: Option<DampingChoice>,
+    /// τ: relaxation times \[s\]; none where absent.
+    pub relaxation: Option<PartKeys<Positive>>,
+    /// Refused.
+    pub temperature_break: Option<Never>,
+}
+
+impl Keys {
+    /// Every contradiction among the keys.
+    pub(super) fn contradictions(&self) -> Vec<KeyError> {
+        let mut wrong = Vec::new();
+        let mut add = |there: bool, key: &'static str, message: &str| KeyError::add(&mut wrong, there, key, message);
+        add(
+            self.create.needs_distance() && self.create_distance.is_none(),
+            "create_distance",
+            "missing; the distance of the centres below which bonds are made is needed, unless they are listed",
+        );
+        if let Some(message) = self.create.contradiction() {
+            add(true, "create", message);
+        }
+        add(
+            self.formulation.is_engine() && self.damping.is_some_and(|damping| !damping.is_the_engines()),
+            "damping",
+            "expected sign, smooth or none in engine_exact, which has only the engine's damping, found another one",
+        );
+        if let Some(breakage) = &self.breakage {
+            breakage.check(self.formulation, &mut wrong);
+        }
+        wrong
+    }
+
+    /// Why the time step must be given, if it must: what the law does depends on the step, or counts steps.
+    pub fn needs_given_step(&self) -> Option<&'static str> {
+        let formulation = self.formulation.is_engine().then_some("the forces of engine_exact depend on the step");
+        let relaxation = self.relaxation.map(|_| "relaxation takes Δt/τ in each step");
+        let damping = self.damping.and_then(|damping| damping.needs_given_step());
+        formulation.or(self.create.needs_given_step()).or(relaxation).or(damping)
+    }
+
+    /// The shortest relaxation time, below which no time step may lie \[s\].
+    pub fn shortest_relaxation(&self) -> Option<f64> {
+        let keys = self.relaxation?;
+        [keys.normal_force, keys.tangential_force, keys.normal_torque, keys.tangential_torque]
+            .into_iter()
+            .flatten()
+            .map(Positive::get)
+            .reduce(f64::min)
+    }
+}

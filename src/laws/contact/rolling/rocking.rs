@@ -1,0 +1,83 @@
+//! What springs against rolling have in common.
+
+use crate::base::number::{Number, Vector};
+use crate::base::quantity::Positive;
+use crate::laws::contact::{Contact, HistoryRow, Needs};
+use serde::Deserialize;
+
+/// What a rolling spring remembers: its torque.
+pub(super) const HISTORY: HistoryRow =
+    HistoryRow { name: "rolling torque", odd: [true, true, true, false], fourth_is_free: false };
+
+/// What of a contact it looks at.
+pub(super) const NEEDS: Needs = Needs { torque: true, spin: true, bodies: true, ..Needs::NONE };
+
+/// `[contact.<law>.rolling.<model>]` of models with a spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// Whether spin about the normal is resisted, too.
+    #[serde(default)]
+    pub torsion: bool,
+    /// Whether spin at a wall, the direction of the torque and the first evaluation are as in the engine.
+    #[serde(default)]
+    pub engine_exact: bool,
+    /// With `engine_exact`: the time step by which the engine stretches the spring in the evaluation before the first
+    /// step, without remembering it \[s\].
+    pub set_up_step: Option<Positive>,
+}
+
+impl Keys {
+    /// As numbers: torsion, engine, step of the set-up \[s\].
+    pub(super) fn numbers(self) -> [f64; 3] {
+        let number = |yes: bool| if yes { 1.0 } else { 0.0 };
+        let set_up = self.set_up_step.filter(|_| self.engine_exact).map_or(0.0, Positive::get);
+        [number(self.torsion), number(self.engine_exact), set_up]
+    }
+}
+
+/// A spring against rolling at this moment.
+#[derive(Clone, Copy)]
+pub(super) struct Spring<N> {
+    /// Its stiffness \[N m\].
+    pub(super) stiffness: N,
+    /// Damping beside it \[N m s\].
+    pub(super) damping: N,
+    /// The largest torque of the spring \[N m\].
+    pub(super) limit: N,
+    /// 1 where spin about the normal is resisted, too.
+    pub(super) torsion: N,
+    /// 1 where all is as in the engine.
+    pub(super) engine: N,
+    /// Step of the engine's set-up \[s\].
+    pub(super) set_up: N,
+}
+
+impl<N: Number> Spring<N> {
+    /// The torque taken from i and what is to be remembered.
+    #[inline(always)]
+    pub(super) fn torque(self, contact: &Contact<N>, history: [N; 4], step: N) -> (Vector<N>, [N; 4]) {
+        let (half, one, normal) = (N::splat(0.5), N::splat(1.0), contact.normal);
+        let engine = self.engine.greater(half);
+        let rolls_only = half.greater(self.torsion);
+        // The engine sees a spin at a wall as if the arm were (R − δ/2)/(R − δ) times as long.
+        let of_engine = N::select(engine, one, N::zero());
+        let at_wall = N::select(contact.per_reach.greater(N::zero()), N::zero(), of_engine).greater(half);
+        let stretched = (contact.radius - half * contact.overlap) / (contact.radius - contact.overlap);
+        let spin = contact.relative_spin * N::select(at_wall, stretched, one);
+        let spin = Vector::select(rolls_only, spin - normal * spin.dot(normal), spin);
+        let moved = step.greater(N::zero());
+        let before = Vector::of_row(history);
+        let turned = before - normal * before.dot(normal);
+        let keeps_direction = N::either(engine, half.greater(one - self.torsion));
+        let before = Vector::select(keeps_direction, before, turned);
+        let grown = before + spin * (self.stiffness * N::select(moved, step, self.set_up));
+        let square = grown.dot(grown);
+        let rolling = square.greater(self.limit * self.limit);
+        let kept = N::select(rolling, self.limit / square.sqrt(), one);
+        let spring = grown * kept;
+        let damping = N::select(rolling, N::zero(), self.damping);
+        let remembered = Vector::select(moved, spring, Vector::of_row(history));
+        (spring + spin * damping, remembered.row_with(N::zero()))
+    }
+}

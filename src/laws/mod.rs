@@ -1,0 +1,7 @@
+//! What bodies do to each other, what a boundary is and how it moves: pure functions, without `unsafe`.
+
+pub mod bond;
+pub mod contact;
+pub mod motion;
+pub mod region;
+pub mod surface;

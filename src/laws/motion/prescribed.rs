@@ -1,0 +1,18 @@
+//! `prescribed`: the scene says how the axis moves.
+
+use super::{Motion, ShownVariables};
+
+/// An axis that moves at a constant velocity \[m/s, rad/s\].
+impl Motion for f64 {
+    fn words(&self, unit: &str) -> Option<String> {
+        Some(format!("at {self} {unit}"))
+    }
+
+    fn seen(&self) -> ShownVariables {
+        ShownVariables::Place
+    }
+
+    fn at(&self, time: f64) -> Option<[f64; 2]> {
+        Some([self * time, *self])
+    }
+}

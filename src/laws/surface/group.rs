@@ -1,0 +1,55 @@
+//! `particles`: a group of particles that moves as one rigid body.
+
+use super::{Shape, ShapeContext, ShapeKeys, Surface};
+use crate::base::quantity::Corners;
+use serde::Deserialize;
+
+/// A group of particles that moves as one rigid body. Its particles touch others as all particles do; its load is the sum
+/// of theirs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// Indices into the scene's particles, ascending.
+    pub members: Vec<u32>,
+}
+
+impl Surface for Group {
+    fn key(&self) -> &'static str {
+        "particles"
+    }
+
+    fn words(&self) -> String {
+        format!("group of {} particles", self.members.len())
+    }
+
+    fn members(&self) -> &[u32] {
+        &self.members
+    }
+
+    fn turns(&self) -> bool {
+        true
+    }
+}
+
+impl ShapeKeys for Selection {
+    const HINT: &'static str = "particles = { set, box, ids }";
+
+    fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
+        around.no_material("particles have their own material");
+        Some(Shape::of(Group { members: around.select(self) }))
+    }
+}
+
+/// Which particles: those for which everything given here holds.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Selection {
+    /// Of this set.
+    pub(crate) set: Option<String>,
+    /// Of these sets.
+    pub(crate) sets: Option<Vec<String>>,
+    /// Centre in this box, its faces included \[m\].
+    #[serde(rename = "box")]
+    pub(crate) corners: Option<Corners>,
+    /// With these numbers.
+    pub(crate) ids: Option<Vec<u32>>,
+}

@@ -1,0 +1,268 @@
+//! The report of `cograin check`: what a user should know of a scene before it runs.
+
+mod forecast;
+mod passing;
+mod rules;
+mod savings;
+mod stiffness;
+mod trial;
+
+pub use stiffness::{StiffnessReport, stiffness};
+
+use crate::engine::simulation::Simulation;
+use crate::interface::Interface;
+use crate::output::results::Refusal;
+use crate::output::results::files::Checkpoint;
+use crate::output::results::schedule::Schedule;
+use crate::output::run::remarks::remarks;
+use crate::scene::exchange::{Amount, Outside};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Insertion, Scene, Step};
+use rules::rules;
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+use trial::Trial;
+
+/// What a user should know of a scene before it runs. Displays as text for a person.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// What the scene uses and pays for, a line each.
+    pub uses: Vec<String>,
+    /// The time step, the stable one and what limits it.
+    pub time_step: String,
+    /// Common rules of thumb for the time step, to compare with.
+    pub rules: Option<String>,
+    /// What a run writes, a line each; nothing if the scene does not say when it ends.
+    pub outputs: Vec<String>,
+    /// How many steps a run makes.
+    pub steps: Option<String>,
+    /// Size of the state and of the whole process.
+    pub memory: String,
+    /// Wall time of a step, measured.
+    pub cost: String,
+    /// Wall time of a run.
+    pub time: Option<String>,
+    /// What the scene pays for and could do without, and what that saves, a line each.
+    pub savings: Vec<String>,
+    /// What is legal but risky.
+    pub remarks: Vec<String>,
+}
+
+/// Starts a scene, makes a few steps, writes nothing, and reports what it found.
+pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
+    let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
+    let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
+    if let Some(schedule) = &schedule {
+        schedule.check_step(scene_name, simulation.state().clock.step)?;
+    }
+    let begins = schedule.as_ref().map_or(0.0, |schedule| {
+        let time = simulation.time();
+        schedule.point_of(time).unwrap_or(time)
+    });
+    let mut remarks = remarks(scene, &simulation);
+    remarks.extend(left_behind.into_iter().map(|left| format!("not taken along: {left}")));
+    let uses = uses(scene, &simulation);
+    let time_step = time_step(scene, &simulation);
+    let rules = rules(scene, &simulation);
+    let present = simulation.state().clone();
+    let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
+    let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
+    let memory = memory(&simulation);
+    simulation.return_to(&present);
+    let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
+    let cost = cost(&simulation, &trial);
+    let savings = savings::of(scene, &simulation);
+    if scene.changes_number() {
+        let what = "the number of particles changes: memory and cost are as measured at the start; time is a range, from as many particles as in the trial to all that come and none that go";
+        remarks.push(what.to_owned());
+    }
+    remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));
+    let (outputs, steps, time) = match forecast {
+        Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
+        None => (Vec::new(), None, None),
+    };
+    Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, savings, remarks })
+}
+
+/// The scene at its start, which may be that of a checkpoint, and what could not be taken over from it.
+fn begin(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<(Simulation, Vec<String>), Refusal> {
+    let Some(path) = from else {
+        let start = |source| Refusal::Start { scene: scene_name.to_owned(), source };
+        return Ok((Simulation::new(Arc::clone(scene)).map_err(start)?, Vec::new()));
+    };
+    let not = |error| Refusal::not_taken_over(scene_name, error);
+    let taken = Checkpoint::read(path)?.taken_over(scene).map_err(not)?;
+    Ok((taken.simulation, taken.left_behind))
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in &self.uses {
+            writeln!(formatter, "uses       {line}")?;
+        }
+        writeln!(formatter, "time step  {}", self.time_step)?;
+        if let Some(rules) = &self.rules {
+            writeln!(formatter, "rules      {rules}")?;
+        }
+        for line in &self.outputs {
+            writeln!(formatter, "writes     {line}")?;
+        }
+        if let Some(steps) = &self.steps {
+            writeln!(formatter, "steps      {steps}")?;
+        }
+        writeln!(formatter, "memory     {}", self.memory)?;
+        write!(formatter, "cost       {}", self.cost)?;
+        if let Some(time) = &self.time {
+            write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
+        }
+        for saving in &self.savings {
+            write!(formatter, "\nunused     {saving}")?;
+        }
+        for remark in &self.remarks {
+            write!(formatter, "\nremark     {remark}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What the scene uses and pays for.
+fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let count = |number: usize, thing: &str| format!("{number} {thing}{}", if number == 1 { "" } else { "s" });
+    let particles = count(scene.particles.len(), "particle");
+    let contacts = count(simulation.contact_count(), "contact");
+    let mut uses = vec![format!("{particles}, {contacts} at the start, {}", count(simulation.threads(), "thread"))];
+    uses.extend(scene.contacts.iter().map(contact_law));
+    if scene.contacts.is_empty() {
+        uses.push("no contact law: no neighbour search".to_owned());
+    }
+    uses.extend(
+        scene
+            .bonds
+            .iter()
+            .zip(&simulation.state().bonds)
+            .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, count(list.first.len(), "bond"))),
+    );
+    uses.extend(scene.boundaries.iter().map(boundary));
+    if scene.gravity.iter().any(|part| *part != 0.0) {
+        uses.push(format!("gravity {:?} m/s²", scene.gravity));
+    }
+    uses.extend(scene.damping.iter().map(|damping| {
+        let damped = damping.linear.iter().zip(&damping.angular).filter(|(a, b)| **a != 0.0 || **b != 0.0).count();
+        format!("damping {} of {}", damping.name, count(damped, "particle"))
+    }));
+    uses.extend(
+        scene.forces.iter().map(|force| format!("force {} on {}", force.name, count(force.members.len(), "particle"))),
+    );
+    uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
+    uses.extend(exchange(scene));
+    if scene.output.energy {
+        uses.push("the algorithmic energy book".to_owned());
+    }
+    if scene.output.losses {
+        uses.push("the physical energy book".to_owned());
+    }
+    uses
+}
+
+/// A contact law in one line.
+fn contact_law(law: &ContactLaw) -> String {
+    let parts = [
+        ("normal", law.normal.name()),
+        ("tangential", law.tangential.name()),
+        ("rolling", law.rolling.name()),
+        ("cohesion", law.cohesion.name()),
+    ];
+    let chosen: Vec<_> =
+        parts.iter().filter(|(_, name)| *name != "none").map(|(kind, name)| format!("{kind} {name}")).collect();
+    format!("contact {}: {}", law.name, chosen.join(", "))
+}
+
+/// What lets particles come and go, a line each.
+fn exchange(scene: &Scene) -> Vec<String> {
+    let mut uses: Vec<String> = scene.insertions.iter().map(insertion).collect();
+    uses.extend(
+        scene
+            .outlets
+            .iter()
+            .map(|outlet| format!("outlet {}: looked at after each half of the smallest radius", outlet.name)),
+    );
+    uses.extend(scene.meters.iter().map(|meter| format!("flow meter {}: every particle in every step", meter.name)));
+    if scene.domain.is_some() && scene.outside == Outside::Remove {
+        uses.push("domain: takes away what leaves it".to_owned());
+    }
+    uses
+}
+
+/// An insertion in one line.
+fn insertion(insertion: &Insertion) -> String {
+    let [least, most] = insertion.sizes.bounds();
+    let radii = if least == most { format!("{least:?} m") } else { format!("{least:?} to {most:?} m") };
+    let amount = match insertion.amount {
+        Amount::MassRate(rate) => format!("{rate:?} kg/s"),
+        Amount::CountRate(rate) => format!("{rate:?} particles a second"),
+        Amount::Mass(mass) => format!("{mass:?} kg"),
+    };
+    format!("insertion {}: {amount}, radius {radii}", insertion.name)
+}
+
+/// A boundary in one line.
+fn boundary(boundary: &Boundary) -> String {
+    let axes: Vec<_> = (AxisMotion::WORDS.iter().zip(&boundary.axes).zip(0..))
+        .filter_map(|((axis, motion), index)| {
+            Some(format!("{axis} {}", motion.words(if index < 3 { "m/s" } else { "rad/s" })?))
+        })
+        .collect();
+    let motion = match boundary.driven_nodes() {
+        0 if axes.is_empty() => "fixed".to_owned(),
+        0 => axes.join(", "),
+        nodes => format!("its {nodes} nodes driven"),
+    };
+    format!("boundary {}: {}, {motion}", boundary.name, boundary.shape.words())
+}
+
+/// The time step, the stable one and what limits it.
+fn time_step(scene: &Scene, simulation: &Simulation) -> String {
+    let step = simulation.state().clock.step;
+    let chosen = match scene.run.step {
+        Step::Given(_) => "given".to_owned(),
+        Step::Automatic { safety } => format!("automatic, safety {safety}"),
+    };
+    let chosen = format!("{chosen}, accuracy {}, scheme {}", scene.run.accuracy.name(), scene.run.scheme.name());
+    let limit = simulation.limit();
+    if !limit.safe.is_finite() {
+        return format!("{step:.4e} s ({chosen}); nothing is stiff, no bound");
+    }
+    let by = limit.by.map_or_else(String::new, |by| format!(", limited by {}", simulation.words(&by)));
+    format!("{step:.4e} s ({chosen}), {:.3} of the stable one, {:.4e} s{by}", step / limit.safe, limit.safe)
+}
+
+/// Wall time of a step.
+fn cost(simulation: &Simulation, trial: &Trial) -> String {
+    if trial.steps == 0 {
+        return "unknown".to_owned();
+    }
+    let contacts = simulation.contact_count();
+    let share = match contacts {
+        0 => String::new(),
+        contacts => format!(", {:.1} ns for each contact", trial.step * 1e9 / contacts as f64),
+    };
+    format!(
+        "{:.3e} s wall for each step{share} (measured over {} steps; the trial took {:.2} s)",
+        trial.step, trial.steps, trial.cost
+    )
+}
+
+/// Size of the state and of the whole process.
+fn memory(simulation: &Simulation) -> String {
+    /// Bytes in a mebibyte.
+    const MEBIBYTE: f64 = 1_048_576.0;
+    let state = simulation.state().to_bytes(0).len() as f64 / MEBIBYTE;
+    let process = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        line.split_whitespace().next()?.parse::<f64>().ok()
+    });
+    match process {
+        Some(kibibytes) => format!("{state:.2} MiB of state, {:.1} MiB at most in all", kibibytes / 1024.0),
+        None => format!("{state:.2} MiB of state"),
+    }
+}

@@ -1,0 +1,122 @@
+//! What a scene pays for and could drop, with the saving measured: the scene is run for a moment with and without it.
+
+use super::trial;
+use crate::base::quantity::NonNegative;
+use crate::engine::simulation::Simulation;
+use crate::laws::contact::PairProperties;
+use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Wall time of one trial, with or without.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Trials of each, in turn; the least counts.
+const ROUNDS: u32 = 3;
+
+/// The smallest saving that is reported, over the time of a step: short trials cannot measure less.
+const LEAST: f64 = 0.03;
+
+/// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
+const SHORT: f64 = 0.6;
+
+/// Something that a scene could drop.
+struct Unused {
+    /// What it is and why.
+    what: String,
+    /// The scene without it.
+    without: SceneDraft,
+}
+
+/// What the scene could drop, a line each.
+pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
+    let mut lines = Vec::new();
+    for Unused { what, without } in unused(scene) {
+        let without = without.build().ok().map(Arc::new);
+        if let Some([with, less]) = without.and_then(|without| costs(scene, &without)) {
+            let saved = 1.0 - less / with;
+            lines.push(if saved > LEAST {
+                format!("{what}: without it a step takes {:.0} % less time", 100.0 * saved)
+            } else {
+                format!("{what}: without it a step takes as long, to {:.0} %", 100.0 * LEAST)
+            });
+        }
+    }
+    lines.extend(short_step(scene, present));
+    lines
+}
+
+/// A given step that is much shorter than an automatic one.
+fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
+    let Step::Given(step) = scene.run.step else { return None };
+    let (safety, stable) = (crate::scene::Run::SAFETY, present.stable_step());
+    let part = step / (safety * stable);
+    (stable.is_finite() && part < SHORT).then(|| {
+        format!(
+            "[run] step = {step:e}: {:.3} of the stable one; \"auto\" makes {:.2} times as many steps at the start",
+            step / stable,
+            part
+        )
+    })
+}
+
+/// Wall time of a step with and without \[s\]; nothing where one of them does not start or does not go on.
+fn costs(with: &Arc<Scene>, without: &Arc<Scene>) -> Option<[f64; 2]> {
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..ROUNDS {
+        for (scene, least) in [with, without].into_iter().zip(&mut least) {
+            let mut simulation = Simulation::new(Arc::clone(scene)).ok()?;
+            let trial = trial::steps(&mut simulation, None, PATIENCE);
+            if trial.failed.is_some() {
+                return None;
+            }
+            if trial.step > 0.0 {
+                *least = least.min(trial.step);
+            }
+        }
+    }
+    least.iter().all(|cost| cost.is_finite()).then_some(least)
+}
+
+/// What the scene has and does not need.
+fn unused(scene: &Scene) -> Vec<Unused> {
+    let mut unused = Vec::new();
+    for (index, law) in scene.contacts.iter().enumerate() {
+        let zero = |of: fn(&PairProperties) -> Option<NonNegative>| is_zero(scene, law, of);
+        let mut add = |part: &str, model: &str, property: &str, drop: fn(&mut ContactLaw)| {
+            let mut without = SceneDraft::clone(scene);
+            drop(&mut without.contacts[index]);
+            let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
+            unused.push(Unused { what, without });
+        };
+        if law.tangential.row().is_active() && zero(|pair| pair.friction) {
+            add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
+        }
+        if law.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = ROLLING_FREELY);
+        }
+        if law.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+            add("cohesion", law.cohesion.name(), "cohesion_energy_density", |law| law.cohesion = DRY);
+        }
+    }
+    for (index, damping) in scene.damping.iter().enumerate() {
+        if damping.linear.iter().chain(&damping.angular).all(|fraction| *fraction == 0.0) {
+            let mut without = SceneDraft::clone(scene);
+            without.damping.remove(index);
+            unused.push(Unused { what: format!("[damping.{}]: damps no particle", damping.name), without });
+        }
+    }
+    if scene.output.energy && scene.output.history_interval.is_none() {
+        let what = "[output] energy: the book is kept, and without history_interval only summary.json tells of it";
+        let mut without = SceneDraft::clone(scene);
+        without.output.energy = false;
+        unused.push(Unused { what: what.to_owned(), without });
+    }
+    unused
+}
+
+/// Whether a property is given as 0 for all pairs of a law that say it.
+fn is_zero(scene: &Scene, law: &ContactLaw, of: fn(&PairProperties) -> Option<NonNegative>) -> bool {
+    let own = || scene.pairs.iter().zip(&law.between).filter(|(_, between)| **between).filter_map(|(pair, _)| of(pair));
+    own().next().is_some() && own().all(|value| value.get() == 0.0)
+}

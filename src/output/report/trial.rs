@@ -1,0 +1,140 @@
+//! A short trial of a run: what a step, a row, a frame and a checkpoint cost on this machine.
+
+use super::passing::{Files, ParticleExchange};
+use crate::engine::simulation::{RunError, Simulation};
+use crate::interface::Interface;
+use crate::output::results::frames;
+use crate::output::results::schedule::Schedule;
+use crate::output::results::vtk::EncodeError;
+use crate::output::run::jobs::{frame, row};
+use std::time::{Duration, Instant};
+
+/// Wall time of the trial, unless a single step takes longer.
+const PATIENCE: Duration = Duration::from_millis(1000);
+
+/// Wall time between two looks at the clock.
+const BETWEEN_LOOKS: f64 = 0.02;
+
+/// What the outputs of a kind cost, one of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct OutputCost {
+    /// Wall time \[s\].
+    pub time: f64,
+    /// Size \[bytes\].
+    pub bytes: f64,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trial {
+    /// Wall time of a time step \[s\].
+    pub step: f64,
+    /// The same for each particle, in the second half of the trial; 0 where there were none \[s\].
+    pub particle: f64,
+    /// Time steps made.
+    pub steps: u64,
+    /// Wall time of the whole trial \[s\].
+    pub cost: f64,
+    /// A row of the history.
+    pub row: OutputCost,
+    /// A frame.
+    pub frame: OutputCost,
+    /// A checkpoint.
+    pub checkpoint: OutputCost,
+    /// Particles that come and go.
+    pub passing: Option<ParticleExchange>,
+    /// Why it ended early.
+    pub failed: Option<RunError>,
+}
+
+impl Trial {
+    /// Least and largest size that files may come to have which have this size now \[bytes\].
+    pub(crate) fn sizes(&self, files: Files, now: f64) -> [f64; 2] {
+        self.passing.map_or([now; 2], |passing| passing.sizes(files, now))
+    }
+}
+
+/// Makes real steps from where the simulation stands, divided as the schedule says from this time on \[s\], and one output of each kind.
+pub(crate) fn of(
+    simulation: &mut Simulation,
+    interface: &Interface,
+    schedule: Option<(&Schedule, f64)>,
+) -> Result<Trial, EncodeError> {
+    let begun = Instant::now();
+    let mut trial = steps(simulation, schedule, PATIENCE);
+    trial.row = price(|| Ok(row(interface, simulation, simulation.time()).text().len() as f64 + 1.0))?;
+    if simulation.scene().output.frame_interval.is_some() {
+        trial.frame = price(|| bytes_of_frame(simulation))?;
+    }
+    trial.checkpoint = price(|| Ok(simulation.state().to_bytes(0).len() as f64))?;
+    if let Some((schedule, begins)) = schedule {
+        trial.passing = ParticleExchange::of(simulation, schedule.end() - begins)?;
+    }
+    trial.cost = begun.elapsed().as_secs_f64();
+    Ok(trial)
+}
+
+/// Makes real steps for some wall time. The first look is not counted: memory is touched for the first time.
+pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f64)>, patience: Duration) -> Trial {
+    let mut trial = Trial::default();
+    let begun = Instant::now();
+    let (mut counted, mut since) = (0, begun);
+    let (mut late_time, mut late_particles) = (0.0, 0.0);
+    let mut time = schedule.map_or(0.0, |(_, begins)| begins);
+    let mut at_once = 1.0;
+    while begun.elapsed() < patience {
+        let piece = at_once * simulation.state().clock.step;
+        let point = schedule.map(|(schedule, _)| schedule.after(time));
+        let interval = match point {
+            Some(None) => break,
+            Some(Some(point)) if point.interval <= piece => {
+                time = point.time;
+                point.interval
+            }
+            _ => piece,
+        };
+        let (looked, before) = (Instant::now(), simulation.state().clock.steps);
+        if let Err(error) = simulation.advance(interval) {
+            trial.failed = Some(error);
+            break;
+        }
+        let made = simulation.state().clock.steps - before;
+        if trial.steps == 0 {
+            since = Instant::now();
+        } else {
+            counted += made;
+        }
+        trial.steps += made;
+        let took = looked.elapsed().as_secs_f64();
+        if looked.duration_since(begun) >= patience / 2 {
+            late_time += took;
+            late_particles += made as f64 * simulation.state().particles.len() as f64;
+        }
+        let each = took / made.max(1) as f64;
+        at_once = (BETWEEN_LOOKS / each.max(1e-9)).clamp(1.0, 1e6).floor();
+    }
+    trial.step = match (counted, trial.steps) {
+        (0, 0) => 0.0,
+        (0, steps) => begun.elapsed().as_secs_f64() / steps as f64,
+        (counted, _) => since.elapsed().as_secs_f64() / counted as f64,
+    };
+    trial.particle = if late_particles > 0.0 { late_time / late_particles } else { 0.0 };
+    trial
+}
+
+/// What one output costs: the least of three, since the first one finds its memory cold.
+fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCost, EncodeError> {
+    let mut price = OutputCost { time: f64::INFINITY, bytes: 0.0 };
+    for _ in 0..3 {
+        let begun = Instant::now();
+        price.bytes = make()?;
+        price.time = price.time.min(begun.elapsed().as_secs_f64());
+    }
+    Ok(price)
+}
+
+/// Bytes of all files of a frame.
+fn bytes_of_frame(simulation: &Simulation) -> Result<f64, EncodeError> {
+    let clouds = frames::clouds(simulation.scene(), frame(simulation, 0.0));
+    clouds.into_iter().flatten().try_fold(0.0, |sum, cloud| Ok(sum + cloud.encode()?.len() as f64))
+}

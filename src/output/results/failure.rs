@@ -1,0 +1,266 @@
+//! Why a command did not do its work: the input was refused, or the work failed.
+
+use super::error::{InputsError, OutputError, ResumeError, TakeOverError};
+use super::vtk::EncodeError;
+use crate::engine::simulation::RunError;
+use std::path::PathBuf;
+
+/// Why the input was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// The scene does not say when a run ends.
+    #[error("{scene}, [run] end: not given; the time at which the run ends [s] is needed")]
+    NoEnd {
+        /// File name of the scene.
+        scene: String,
+    },
+    /// The scene cannot take its first step.
+    #[error("{scene}: {source}")]
+    Start {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: RunError,
+    },
+    /// The packing has no static stiffness.
+    #[error("{scene}: {source}")]
+    Stiffness {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: crate::engine::statics::StaticsError,
+    },
+    /// A frame cannot be made.
+    #[error("{scene}: {source}")]
+    Frame {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: EncodeError,
+    },
+    /// The results have no place there.
+    #[error("{}: expected a folder, or a name that is not there yet, found a file", folder.display())]
+    NotAFolder {
+        /// Where they were to be.
+        folder: PathBuf,
+    },
+    /// A file that is not to be replaced.
+    #[error("{}: expected a name that is not there yet, found a file; --overwrite replaces it", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder where a file is to be written.
+    #[error("{}: expected a file or a name that is not there yet, found a folder", path.display())]
+    NotAFile {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that the command reads itself.
+    #[error("{}: expected a file that the command does not read itself, found {}", path.display(), read.display())]
+    Read {
+        /// The file that was to be written or replaced.
+        path: PathBuf,
+        /// The same file as the command reads it.
+        read: PathBuf,
+    },
+    /// Files of the folder have names of results, and no run has written them.
+    #[error("{}: expected results that a run has written, found {file} of another kind; move it away", folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the file.
+        file: String,
+    },
+    /// Another process writes into the folder.
+    #[error("{}: in use by {holder}; take another folder, or the same one when that run has ended", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+        /// The process and when it began.
+        holder: String,
+    },
+    /// The folder holds results that were not asked to be replaced.
+    #[error(
+        "{}: holds results of an earlier run ({held}); --resume goes on with it, --overwrite puts this run in its place, \
+         another folder with -o keeps both", folder.display()
+    )]
+    Used {
+        /// The folder.
+        folder: PathBuf,
+        /// What is known of that run.
+        held: String,
+    },
+    /// The folder holds results, and nothing else may be written there.
+    #[error("{}: expected an empty folder, or a name that is not there yet, found results of an earlier run \
+             ({held})", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+        /// What is known of that run.
+        held: String,
+    },
+    /// More outputs than anybody can mean.
+    #[error(
+        "{scene}, [output] {key}: expected at most {most:e} {what} up to t = {end} s, found {count:.3e}, one every \
+         {interval:e} s"
+    )]
+    Counts {
+        /// File name of the scene.
+        scene: String,
+        /// The interval's key.
+        key: &'static str,
+        /// The interval \[s\].
+        interval: f64,
+        /// How many outputs.
+        count: f64,
+        /// Of what.
+        what: &'static str,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// More time steps than a clock can count.
+    #[error(
+        "{scene}, [run] step: expected at most {most:e} time steps up to t = {end} s, found {count:.3e} of {step:e} s"
+    )]
+    Steps {
+        /// File name of the scene.
+        scene: String,
+        /// The step \[s\].
+        step: f64,
+        /// How many.
+        count: f64,
+        /// End of the run \[s\].
+        end: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// The checkpoint does not fit.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+    /// The run ends before it begins.
+    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s")]
+    Ended {
+        /// File name of the scene.
+        scene: String,
+        /// End of the run \[s\].
+        end: f64,
+        /// Time of the checkpoint \[s\].
+        time: f64,
+    },
+    /// The table of inputs does not fit.
+    #[error(transparent)]
+    Inputs(#[from] InputsError),
+}
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The input was refused; nothing was written.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The simulation stopped.
+    #[error("the run stopped: {0}")]
+    Run(#[from] RunError),
+    /// A result could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Someone asked to stop.
+    #[error("interrupted at t = {time} s; run again with -o {} --resume to go on from there", folder.display())]
+    Interrupted {
+        /// How far it came \[s\].
+        time: f64,
+        /// The folder of the results, with the checkpoint.
+        folder: PathBuf,
+    },
+    /// Someone asked to stop before the packing had come to rest.
+    #[error("interrupted after {steps} steps {}; {}", reached(*ratio), going_on(kept))]
+    SettlingInterrupted {
+        /// Where the state is kept.
+        kept: PathBuf,
+        /// Steps made.
+        steps: u64,
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
+        ratio: f64,
+    },
+    /// The packing will not come to rest.
+    #[error(
+        "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
+         the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
+        going_on(kept)
+    )]
+    Restless {
+        /// Where the state is kept.
+        kept: PathBuf,
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// The smallest unbalanced force over the mean force of the contacts or bonds.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+        /// Why.
+        why: String,
+    },
+    /// The packing did not come to rest.
+    #[error("not settled after {steps} steps (t = {time} s): {}; {}", unsettled(*ratio, *tolerance), going_on(kept))]
+    Unsettled {
+        /// Where the state is kept.
+        kept: PathBuf,
+        /// Steps made.
+        steps: u64,
+        /// Time they took \[s\].
+        time: f64,
+        /// Unbalanced force over the mean force of the contacts or bonds; infinite where there is none.
+        ratio: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+}
+
+impl Refusal {
+    /// Why a scene with this file name cannot begin with a checkpoint.
+    pub(crate) fn not_taken_over(scene: &str, error: TakeOverError) -> Self {
+        match error {
+            TakeOverError::Checkpoint(error) => Self::Resume(error),
+            TakeOverError::Start(source) => Self::Start { scene: scene.to_owned(), source },
+        }
+    }
+}
+
+impl From<ResumeError> for Failure {
+    fn from(error: ResumeError) -> Self {
+        Self::Refused(error.into())
+    }
+}
+
+/// Where a packing that is not at rest is kept, and how to go on with it.
+fn going_on(kept: &std::path::Path) -> String {
+    format!("{} holds the state so far: settle --from it to go on", kept.display())
+}
+
+/// How far settling had come.
+fn reached(ratio: f64) -> String {
+    if ratio.is_finite() {
+        format!("at an unbalanced force of {ratio:.3e}")
+    } else {
+        "before anything touched or a bond was loaded".to_owned()
+    }
+}
+
+/// What was missing to be settled.
+fn unsettled(ratio: f64, tolerance: f64) -> String {
+    if ratio.is_finite() {
+        format!(
+            "the unbalanced force is {ratio:.3e} of the mean force of the contacts or bonds, {tolerance:.3e} is asked for; \
+             a looser tolerance, more damping or more --steps may do"
+        )
+    } else {
+        "nothing touches and no bond is loaded, so there is no force that could come into balance; more --steps, if bodies \
+         are still to meet, or something that holds them may do"
+            .to_owned()
+    }
+}

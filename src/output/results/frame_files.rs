@@ -1,0 +1,113 @@
+//! The files of the frames in a folder: one for each kind and frame, and for each kind the times of all.
+
+use super::collection::Collection;
+use super::error::OutputError;
+use super::files::{Durability, write_whole};
+use super::job::Job;
+use super::vtk::PointCloud;
+use super::{FRAMES, collection_name, frame_name, frames};
+use crate::scene::Scene;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A frame that is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Frame {
+    /// Its number.
+    pub number: usize,
+    /// Its time \[s\].
+    pub time: f64,
+}
+
+/// The frames of a folder, which may be added to.
+pub(crate) struct FrameFiles {
+    /// The folder.
+    path: PathBuf,
+    /// The kinds of frames that the scene has.
+    series: Vec<Series>,
+}
+
+impl FrameFiles {
+    /// Takes up the frames that are kept.
+    pub(crate) fn open(path: &Path, scene: &Scene, kept: &[Frame]) -> Result<Self, OutputError> {
+        let wanted = [true, scene.output.contacts, !scene.bonds.is_empty(), scene.output.boundaries];
+        let kinds = FRAMES.into_iter().zip(wanted).filter(|(_, wanted)| *wanted);
+        let series = kinds.map(|(name, _)| Series::open(path, name, kept)).collect::<Result<_, _>>()?;
+        Ok(Self { path: path.to_owned(), series })
+    }
+
+    /// Begins with no frame: all collections or none.
+    pub(crate) fn begin(path: &Path, scene: &Scene) -> Result<Self, OutputError> {
+        Self::open(path, scene, &[]).inspect_err(|_| {
+            for name in FRAMES {
+                // The first error is the one to tell.
+                let _ = remove(&path.join(collection_name(name)));
+            }
+        })
+    }
+
+    /// Writes the files of a frame, then their entries. Yields the files.
+    pub(crate) fn write(&mut self, scene: &Scene, frame: Frame, job: Job) -> Result<Vec<PathBuf>, OutputError> {
+        let clouds = frames::clouds(scene, job).into_iter().flatten();
+        self.series.iter_mut().zip(clouds).map(|(series, cloud)| series.add(&self.path, frame, cloud)).collect()
+    }
+
+    /// Keeps these frames and removes the others: first their entries, then their files.
+    pub(crate) fn keep(&mut self, kept: &[Frame], others: &[Frame]) -> Result<(), OutputError> {
+        for series in &mut self.series {
+            *series = Series::open(&self.path, series.name, kept)?;
+            for frame in others {
+                remove(&self.path.join(frame_name(series.name, frame.number)))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes everything.
+    pub(crate) fn remove(self, frames: &[Frame]) -> Result<(), OutputError> {
+        for series in self.series {
+            drop(series.collection);
+            remove(&self.path.join(collection_name(series.name)))?;
+            for frame in frames {
+                remove(&self.path.join(frame_name(series.name, frame.number)))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A kind of frames.
+struct Series {
+    /// Beginning of the file names.
+    name: &'static str,
+    /// The times.
+    collection: Collection,
+}
+
+impl Series {
+    /// Takes up the frames that are kept.
+    fn open(path: &Path, name: &'static str, kept: &[Frame]) -> Result<Self, OutputError> {
+        let frames: Vec<_> = kept.iter().map(|frame| (frame.time, frame_name(name, frame.number))).collect();
+        let collection = Collection::create(&path.join(collection_name(name)), &frames)?;
+        Ok(Self { name, collection })
+    }
+
+    /// Writes a frame.
+    fn add(&mut self, folder: &Path, frame: Frame, cloud: PointCloud) -> Result<PathBuf, OutputError> {
+        let name = frame_name(self.name, frame.number);
+        let path = folder.join(&name);
+        let bytes = cloud.encode().map_err(|source| OutputError::Encode { path: path.clone(), source })?;
+        write_whole(&path, &bytes, Durability::Process)?;
+        self.collection.add(frame.time, &name)?;
+        Ok(path)
+    }
+}
+
+/// Removes a file, which need not be there.
+fn remove(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::at(path)(error)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,110 @@
+//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries.
+
+use super::boundaries::boundaries;
+use super::job::Job;
+use super::vtk::{Kind, PointCloud, Values};
+use crate::engine::simulation::{BondRecord, ContactRecord, number};
+use crate::engine::state::Particles;
+use crate::scene::Scene;
+
+/// The clouds of a frame, in the order of their kinds; none for other jobs.
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 4] {
+    let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, .. } = job else {
+        return [const { None }; 4];
+    };
+    let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
+    [
+        Some(particles(scene, &bodies)),
+        touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
+        living.as_ref().map(|living| bonds(scene, &bodies, living)),
+        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
+    ]
+}
+
+/// All particles, in the order of the scene whatever their order in memory, those that came later behind them.
+pub(crate) fn particles(scene: &Scene, particles: &Particles) -> PointCloud {
+    let slots = || particles.slots();
+    let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
+    let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
+    let damage = (!particles.bonds.is_empty()).then(|| ("damage", Values::Scalars(particles.damage())));
+    let fields = vec![
+        ("radius", Values::Scalars(fourth(&particles.position))),
+        ("id", Values::Integers(slots().map(|slot| i64::from(number(scene, particles, particles.id[slot]))).collect())),
+        ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
+        ("velocity", Values::Vectors(three(&particles.velocity))),
+        ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
+        ("force", Values::Vectors(three(&particles.force))),
+        ("torque", Values::Vectors(three(&particles.torque))),
+        ("mass", Values::Scalars(fourth(&particles.velocity))),
+        ("group", Values::Integers(slots().map(|slot| i64::from(particles.owner[slot]) - 1).collect())),
+    ];
+    let of_set = |slot: usize| scene.particles.get(particles.id[slot] as usize).map_or(-1, |own| i64::from(own.set.0));
+    let sets = (scene.sets.len() > 1).then(|| ("set", Values::Integers(slots().map(of_set).collect())));
+    let orientation = (!particles.orientation.is_empty()).then(|| {
+        let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
+        ("orientation", Values::Quaternions(rows))
+    });
+    PointCloud {
+        points: three(&particles.position),
+        fields: fields.into_iter().chain(sets).chain(orientation).chain(damage).collect(),
+        ..PointCloud::default()
+    }
+}
+
+/// A point for each contact: where it is, its forces on the first body, and the two bodies.
+///
+/// A wall has no id: `id2` is then −1, and `boundary` is its place in the scene; between particles `boundary` is −1.
+pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[ContactRecord]) -> PointCloud {
+    let id = |particle: u32| i64::from(number(scene, particles, particle));
+    let vectors = |of: fn(&ContactRecord) -> [f64; 3]| Values::Vectors(contacts.iter().flat_map(of).collect());
+    let scalars = |of: fn(&ContactRecord) -> f64| Values::Scalars(contacts.iter().map(of).collect());
+    let integers = |of: &dyn Fn(&ContactRecord) -> i64| Values::Integers(contacts.iter().map(of).collect());
+    PointCloud {
+        points: contacts.iter().flat_map(|contact| contact.point).collect(),
+        fields: vec![
+            ("id1", integers(&|contact| id(contact.first))),
+            ("id2", integers(&|contact| contact.second.map_or(-1, id))),
+            ("boundary", integers(&|contact| contact.boundary.map_or(-1, i64::from))),
+            ("normal", vectors(|contact| contact.normal)),
+            ("overlap", scalars(|contact| contact.overlap)),
+            ("normal_force", scalars(|contact| contact.normal_force)),
+            ("tangential_force", vectors(|contact| contact.tangential_force)),
+            ("sliding", Values::Bytes(contacts.iter().map(|contact| u8::from(contact.sliding)).collect())),
+        ],
+        ..PointCloud::default()
+    }
+}
+
+/// A line for each bond, from body i to body j or to its foot on the plane: what it carries. The ids of the bodies are
+/// those of the points; a foot has −1, and `boundary` is then the place of the plane in the scene (otherwise −1).
+pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> PointCloud {
+    let position = |particle: u32| {
+        let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
+        [x, y, z]
+    };
+    let id = |particle: u32| i64::from(number(scene, particles, particle));
+    let ids = bonds.iter().flat_map(|bond| [id(bond.first), bond.second.map_or(-1, id)]).collect();
+    let plane = |bond: &BondRecord| {
+        let plane = scene.bonds.get(bond.law as usize).and_then(|law| law.plane);
+        plane.map_or(-1, |plane| i64::from(plane.0))
+    };
+    let vectors = |of: fn(&BondRecord) -> [f64; 3]| Values::Vectors(bonds.iter().flat_map(of).collect());
+    let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
+    PointCloud {
+        points: bonds.iter().flat_map(|bond| [position(bond.first), bond.other]).flatten().collect(),
+        kind: Kind::Lines,
+        fields: vec![("id", Values::Integers(ids))],
+        cell_fields: vec![
+            ("law", Values::Integers(bonds.iter().map(|bond| i64::from(bond.law)).collect())),
+            ("boundary", Values::Integers(bonds.iter().map(plane).collect())),
+            ("normal_force", scalars(|bond| bond.carried.normal)),
+            ("shear_force", vectors(|bond| bond.carried.shear)),
+            ("torsion", scalars(|bond| bond.carried.torsion)),
+            ("bending", vectors(|bond| bond.carried.bending)),
+            ("normal_stress", scalars(|bond| bond.carried.normal_stress)),
+            ("shear_stress", scalars(|bond| bond.carried.shear_stress)),
+            ("energy", scalars(|bond| bond.carried.energy)),
+            ("dissipated", scalars(|bond| bond.dissipated)),
+        ],
+    }
+}

@@ -1,0 +1,253 @@
+//! A run of a scene without a master, from one communication point to the next, and what it writes there.
+
+mod beginning;
+mod frame_writer;
+mod inputs;
+pub(crate) mod jobs;
+mod meter;
+mod momentum;
+mod order;
+pub(crate) mod remarks;
+mod settle;
+mod summary;
+
+pub use frame_writer::FrameWriter;
+pub use order::{EarlierResults, Progress, RunOrder, Start};
+pub use remarks::remarks;
+pub use settle::{SettleOrder, SettleProgress, Settled, settle};
+pub use summary::Summary;
+
+use crate::engine::simulation::{RunError, Simulation};
+use crate::interface::Interface;
+use crate::output::results::SUMMARY;
+use crate::output::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
+use crate::output::results::folder::{Folder, KeptFiles, Place};
+use crate::output::results::job::Job;
+use crate::output::results::lock::FolderLock;
+use crate::output::results::schedule::{Due, Schedule};
+use crate::output::results::writer::{Writer, opened};
+use crate::output::results::{Failure, OutputError, Refusal, ResumeError};
+use beginning::{First, Origin, checkpoint, claim};
+use inputs::Inputs;
+use jobs::{frame, row};
+use meter::Meter;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// Wall time between checkpoints of a scene that gives no interval. It determines when they are written, but not
+/// their content.
+const CHECKPOINT_PAUSE: Duration = Duration::from_secs(30);
+
+/// Where a checkpoint is written from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum WrittenFrom {
+    /// From a copy, while the simulation goes on.
+    Copied,
+    /// From the state itself, if the simulation waits meanwhile: a copy would be the largest use of memory of the process.
+    InPlace,
+}
+
+/// Runs a scene to its end and returns the summary that also stands in `summary.json`.
+pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summary, Failure> {
+    let mut session = Session::begin(order)?;
+    let result = session.go(order.stop, watch);
+    session.end(result)
+}
+
+/// A run under way.
+struct Session<'a> {
+    /// The order.
+    order: RunOrder<'a>,
+    /// When each output is written.
+    schedule: Schedule,
+    /// The end of the run \[s\].
+    end: f64,
+    /// The scene in motion.
+    simulation: Simulation,
+    /// Its variables.
+    interface: Interface,
+    /// Inputs of the driven boundaries.
+    inputs: Option<Inputs>,
+    /// The folder of the results.
+    folder: Arc<Mutex<Folder>>,
+    /// The writer.
+    writer: Writer,
+    /// Communication point that was reached last \[s\].
+    time: f64,
+    /// Communication point where this session began \[s\].
+    start: f64,
+    /// Momentum and impulses at the start of this session.
+    momentum: momentum::Start,
+    /// The counts.
+    meter: Meter,
+    /// When the last checkpoint was handed over.
+    last_checkpoint: Instant,
+    /// What could not be taken over from another scene, in words.
+    left_behind: Vec<String>,
+    /// The lock that keeps other runs out of the folder.
+    _lock: FolderLock,
+}
+
+impl<'a> Session<'a> {
+    /// Refuses what cannot be run, before anything is written; then opens the folder.
+    fn begin(order: RunOrder<'a>) -> Result<Self, Failure> {
+        let scene_name = || order.scene_name.to_owned();
+        let interface = Interface::of(order.scene);
+        let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
+        let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
+        let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
+        let schedule = Schedule::new(order.scene, order.scene_name, end)?;
+        let early_lock = if order.folder.exists() { Some(claim(&order)?) } else { None };
+        let mut left_behind = Vec::new();
+        let (simulation, time, origin) = match checkpoint(&order)? {
+            Some((path, Origin::TakenOver { .. })) => {
+                let not = |error| Refusal::not_taken_over(order.scene_name, error);
+                let taken = Checkpoint::read(&path)?.taken_over(order.scene).map_err(not)?;
+                left_behind = taken.left_behind;
+                let saved = taken.simulation.time();
+                if saved >= end * (1.0 - f64::EPSILON) {
+                    return Err(Refusal::Ended { scene: scene_name(), end, time: saved }.into());
+                }
+                let time = schedule.point_of(saved).unwrap_or(saved);
+                let goes_on = taken.goes_on;
+                (taken.simulation, time, if time > 0.0 { Origin::TakenOver { goes_on } } else { Origin::Anew })
+            }
+            Some((path, origin)) => {
+                let state = read_checkpoint(&path, order.scene)?;
+                let saved = state.clock.time;
+                let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
+                let origin = if time > 0.0 { origin } else { Origin::Anew };
+                let resumed = Simulation::resume(Arc::clone(order.scene), state);
+                let source =
+                    |fault: crate::engine::state::StateFault| ResumeError::Snapshot { path, source: fault.into() };
+                (resumed.map_err(source)?, time, origin)
+            }
+            None => {
+                let start = |source| Refusal::Start { scene: scene_name(), source };
+                (Simulation::new(Arc::clone(order.scene)).map_err(start)?, 0.0, Origin::Anew)
+            }
+        };
+        schedule.check_step(order.scene_name, simulation.state().clock.step)?;
+        let lock = early_lock.map_or_else(|| claim(&order), Ok)?;
+        let outputs = interface.recorded().map(|(_, variable)| variable.name.clone());
+        let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
+        if origin != Origin::Here {
+            let first = First { order: &order, interface: &interface, schedule: &schedule, names: &names };
+            first.write(&simulation, time, origin)?;
+        }
+        let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
+        let kept = KeptFiles::look(order.folder, &place)?;
+        let folder = Folder::open(order.folder, (Arc::clone(order.scene), order.scene_name), &names, &kept)?;
+        let folder = Arc::new(Mutex::new(folder));
+        let writer = Writer::start(Arc::clone(&folder))?;
+        let momentum = momentum::Start::of(&simulation);
+        let meter = Meter::start(&simulation);
+        Ok(Self {
+            order,
+            schedule,
+            end,
+            simulation,
+            interface,
+            inputs,
+            folder,
+            writer,
+            time,
+            start: time,
+            momentum,
+            meter,
+            last_checkpoint: Instant::now(),
+            left_behind,
+            _lock: lock,
+        })
+    }
+
+    /// Goes from point to point.
+    fn go(&mut self, stop: &AtomicBool, watch: &mut dyn FnMut(Progress)) -> Result<(), Failure> {
+        let (start, end) = (self.start, self.end);
+        let tell = |time| Progress { start, time, end };
+        watch(tell(self.time));
+        while let Some(point) = self.schedule.after(self.time) {
+            if let Some(inputs) = &self.inputs {
+                inputs.set(&self.interface, &mut self.simulation, point.time);
+            }
+            let advanced = self.meter.step(&mut self.simulation, point.interval);
+            self.write_breaks()?;
+            advanced?;
+            self.time = point.time;
+            let stopped = stop.load(Ordering::Relaxed);
+            let last = stopped || point.time >= self.end;
+            let due = Due { checkpoint: point.due.checkpoint || stopped || self.overdue(), ..point.due };
+            self.write(due, if last { WrittenFrom::InPlace } else { WrittenFrom::Copied })?;
+            watch(tell(point.time));
+            if stopped && point.time < self.end {
+                return Err(self.interrupted());
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a scene that gives no interval has waited long for a checkpoint.
+    fn overdue(&self) -> bool {
+        let unnamed = self.order.scene.output.checkpoint_interval.is_none();
+        unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
+    }
+
+    /// Hands the bonds that broke in the last communication step to the writer.
+    fn write_breaks(&mut self) -> Result<(), OutputError> {
+        let breaks = &self.simulation.state().breaks;
+        if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.clone())) }
+    }
+
+    /// Hands the outputs that are due to the writer.
+    fn write(&mut self, due: Due, checkpoint: WrittenFrom) -> Result<(), Failure> {
+        let time = self.time;
+        if due.history {
+            self.writer.send(row(&self.interface, &self.simulation, time))?;
+        }
+        if due.frame {
+            self.writer.send(frame(&self.simulation, time))?;
+        }
+        if due.checkpoint {
+            self.last_checkpoint = Instant::now();
+            self.simulation.check_present()?;
+            let state = self.simulation.state();
+            match checkpoint {
+                WrittenFrom::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
+                WrittenFrom::InPlace => {
+                    self.writer.wait()?;
+                    opened(&self.folder).checkpoint(state)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The answer to a request to stop.
+    fn interrupted(&self) -> Failure {
+        Failure::Interrupted { time: self.time, folder: self.order.folder.to_owned() }
+    }
+
+    /// Waits for the writer and writes the summary. Returns the first error.
+    fn end(mut self, result: Result<(), Failure>) -> Result<Summary, Failure> {
+        let result = result.and(self.writer.finish().map_err(Failure::from));
+        let momentum = self.momentum.balance(&self.simulation);
+        self.meter.look(&self.simulation);
+        let mut summary =
+            Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
+        summary.left_behind = self.left_behind;
+        let result = result.and_then(|()| match summary.lacking() {
+            Some(part) => {
+                Err(RunError::Invalid { part, place: 0, expected: "finite numbers", time: self.simulation.time() }
+                    .into())
+            }
+            None => Ok(()),
+        });
+        if let Err(failure) = &result {
+            summary.end_with(failure);
+        }
+        let path = self.order.folder.join(SUMMARY);
+        let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
+        result.and(written.map_err(Failure::from)).map(|()| summary)
+    }
+}

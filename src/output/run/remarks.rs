@@ -1,0 +1,331 @@
+//! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
+
+use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
+use crate::laws::contact::{MaterialPair, PairProperties};
+use crate::scene::exchange::Amount;
+use crate::scene::{ContactLaw, Scene, Step};
+
+/// Part of the stable step above which a given step is said to be near it.
+const NEAR_THE_BOUND: f64 = 0.8;
+
+/// Young's moduli that a widely used program of the field takes without further ado \[Pa\].
+const USUAL_MODULI: [f64; 2] = [5e6, 1e9];
+
+/// Cohesion energy density over effective modulus from which contacts at rest are visibly pulled together.
+const DEEP_COHESION: f64 = 0.03;
+
+/// Overlap over radius above which contact laws are hardly valid.
+const DEEP_OVERLAP: f64 = 0.05;
+
+/// The remarks on a scene in its present state.
+pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let mut remarks = Vec::new();
+    remarks.extend(time_step(scene, simulation));
+    remarks.extend(intervals(scene));
+    remarks.extend(moduli(scene));
+    remarks.extend(unusual(scene));
+    remarks.extend(unread(scene));
+    remarks.extend(passed_through(scene));
+    remarks.extend(cohesion(scene));
+    remarks.extend(friction(scene));
+    remarks.extend(overlap(simulation));
+    remarks.extend(falling(scene));
+    remarks.extend(full(scene, simulation));
+    remarks
+}
+
+/// On a given step near the stable one.
+fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
+    let Step::Given(step) = scene.run.step else { return None };
+    let stable = simulation.state().clock.stable;
+    if scene.run.allow_unstable {
+        let found = if stable.is_finite() { format!(" ({stable:.3e} s as last found)") } else { String::new() };
+        return Some(format!(
+            "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one{found}; its numbers are worth nothing then"
+        ));
+    }
+    (step > NEAR_THE_BOUND * stable).then(|| {
+        format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
+    })
+}
+
+/// On what insertions did not let come for want of room.
+fn full(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let feeds = simulation.state().exchange.iter().flat_map(|exchange| &exchange.feeds);
+    let told = scene.insertions.iter().zip(feeds).filter(|(_, feed)| feed.dropped > 0.0);
+    told.map(|(insertion, feed)| {
+        let what = match insertion.amount {
+            Amount::CountRate(_) => "particles",
+            Amount::MassRate(_) | Amount::Mass(_) => "kg",
+        };
+        format!(
+            "[insertion.{}]: {:.4e} {what} found no room; a larger region, or one from which spheres move away faster, lets more come",
+            insertion.name, feed.dropped
+        )
+    })
+    .collect()
+}
+
+/// Remarks on intervals that are not a whole number of given steps.
+fn intervals(scene: &Scene) -> Vec<String> {
+    let Step::Given(step) = scene.run.step else { return Vec::new() };
+    let output = &scene.output;
+    let named = [
+        ("history_interval", output.history_interval),
+        ("frame_interval", output.frame_interval),
+        ("checkpoint_interval", output.checkpoint_interval),
+    ];
+    let uneven = |interval: f64| ((interval / step).round() * step - interval).abs() > 1e-6 * step;
+    (named.into_iter())
+        .filter_map(|(key, interval)| interval.filter(|interval| uneven(*interval)).map(|interval| (key, interval)))
+        .map(|(key, interval)| {
+            format!(
+                "[output] {key}: {interval:e} s is not a whole number of steps of {step:e} s; they are shortened to fit"
+            )
+        })
+        .collect()
+}
+
+/// On moduli that others would ask to confirm.
+fn moduli(scene: &Scene) -> Vec<String> {
+    let [soft, hard] = USUAL_MODULI;
+    let outside = |modulus: &f64| *modulus < soft || *modulus > hard;
+    (scene.materials.iter())
+        .filter_map(|material| material.youngs_modulus.filter(outside).map(|modulus| (&material.name, modulus)))
+        .map(|(name, modulus)| {
+            let effect = if modulus < soft { "overlaps will be large" } else { "time steps will be short" };
+            format!("[material.{name}] youngs_modulus: {modulus:e} Pa is outside {soft:e} to {hard:e} Pa, which particle programs usually take; {effect}")
+        })
+        .collect()
+}
+
+/// Numbers that scenes usually have, in SI units; what is outside is often a slip of units or sign.
+const USUAL_DENSITIES: [f64; 2] = [50.0, 25_000.0];
+/// Radii from powders to boulders \[m\].
+const USUAL_RADII: [f64; 2] = [1e-7, 2.0];
+/// Coefficients of friction.
+const USUAL_FRICTION: [f64; 2] = [0.0, 2.0];
+/// Gravity, that of centrifuges included \[m/s²\].
+const USUAL_GRAVITY: [f64; 2] = [0.0, 2000.0];
+/// Surface energies \[J/m²\].
+const USUAL_SURFACE_ENERGIES: [f64; 2] = [0.0, 10.0];
+
+/// On numbers outside of the usual range, with the range.
+fn unusual(scene: &Scene) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let mut look = |key: String, value: f64, unit: &str, [least, most]: [f64; 2]| {
+        if value < least || value > most {
+            remarks
+                .push(format!("{key}: expected {least:e} to {most:e}{unit} as usual, found {value:e}; check the unit"));
+        }
+    };
+    for material in &scene.materials {
+        look(format!("[material.{}] density", material.name), material.density, " kg/m³", USUAL_DENSITIES);
+    }
+    let gravity = scene.gravity.iter().map(|part| part * part).sum::<f64>().sqrt();
+    look("gravity".to_owned(), gravity, " m/s²", USUAL_GRAVITY);
+    for (set, name) in scene.sets.iter().enumerate() {
+        let radii =
+            || scene.particles.iter().filter(|particle| particle.set.index() == set).map(|particle| particle.radius);
+        let key = || format!("[particles.{name}] radius");
+        if let Some(least) = radii().reduce(f64::min).filter(|least| *least < USUAL_RADII[0]) {
+            look(key(), least, " m", USUAL_RADII);
+        }
+        if let Some(most) = radii().reduce(f64::max).filter(|most| *most > USUAL_RADII[1]) {
+            look(key(), most, " m", USUAL_RADII);
+        }
+    }
+    for (table, properties) in pairs(scene) {
+        let keys = [
+            ("friction", properties.friction, "", USUAL_FRICTION),
+            ("rolling_friction", properties.rolling_friction, "", USUAL_FRICTION),
+            ("surface_energy", properties.surface_energy, " J/m²", USUAL_SURFACE_ENERGIES),
+        ];
+        for (key, value, unit, range) in keys {
+            if let Some(value) = value {
+                look(format!("[{table}] {key}"), value.get(), unit, range);
+            }
+        }
+    }
+    remarks
+}
+
+/// The tables of pairs of materials, by name, each once.
+fn pairs(scene: &Scene) -> impl Iterator<Item = (String, &PairProperties)> {
+    let count = scene.materials.len();
+    let name = |index: usize| &scene.materials[index].name;
+    let entries = (0..count).flat_map(move |a| (a..count).map(move |b| (a, b)));
+    entries.map(move |(a, b)| (format!("pair.{}.{}", name(a), name(b)), &scene.pairs[a * count + b]))
+}
+
+/// On properties of pairs of materials that nothing reads.
+fn unread(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let entries = (0..count).flat_map(|a| (a..count).map(move |b| (a, b)));
+    let mut remarks = Vec::new();
+    for ((a, b), (table, properties)) in entries.zip(pairs(scene)) {
+        let laws: Vec<_> = scene.contacts.iter().filter(|law| law.between[a * count + b]).collect();
+        let with = |law: &ContactLaw, properties: &PairProperties| {
+            let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
+            law.choice().coefficients(&pair).ok()
+        };
+        let is_read = |variants: &[PairProperties; 2]| {
+            laws.iter().any(|law| variants.iter().any(|other| with(law, other) != with(law, properties)))
+        };
+        let keys: Vec<_> =
+            properties.variants().filter(|(_, variants)| !is_read(variants)).map(|(key, _)| key).collect();
+        if keys.is_empty() {
+            continue;
+        }
+        let expected = if laws.is_empty() {
+            "a [contact] law for these materials"
+        } else {
+            "a sub-model of [contact] that takes it, or no such key"
+        };
+        remarks.push(format!("[{table}] {}: nothing reads it; expected {expected}", keys.join(", ")));
+    }
+    remarks
+}
+
+/// On particles that pass through boundaries because no law is for their contacts.
+fn passed_through(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let mut present: Vec<u32> = scene.particles.iter().map(|particle| particle.material.0).collect();
+    present.extend(scene.insertions.iter().map(|insertion| insertion.material.0));
+    present.sort_unstable();
+    present.dedup();
+    let mut remarks = Vec::new();
+    for boundary in &scene.boundaries {
+        let Some(material) = boundary.shape.material() else { continue };
+        let bonded = scene.bonds.iter().any(|bond| bond.plane.is_some());
+        let lawless = |particle: &&u32| {
+            let entry = **particle as usize * count + material.index();
+            !scene.contacts.iter().any(|law| law.between[entry])
+        };
+        if let Some(particle) = present.iter().find(lawless).filter(|_| !bonded) {
+            let [particle, other] = [*particle as usize, material.index()].map(|index| &scene.materials[index].name);
+            remarks.push(format!(
+                "[boundary.{}]: particles of {particle} pass through it: expected a [contact] law for {particle} and {other}",
+                boundary.name
+            ));
+        }
+    }
+    remarks
+}
+
+/// On cohesion that pulls contacts deep into each other.
+fn cohesion(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let pairs = (0..count).flat_map(|a| (a..count).map(move |b| (a, b)));
+    let deep = pairs.filter_map(|(a, b)| {
+        let ratio = scene.cohesion_ratio(a, b).filter(|ratio| *ratio > DEEP_COHESION)?;
+        let density = scene.pairs[a * count + b].cohesion_energy_density?.get();
+        let effect = if ratio > COLLAPSING_COHESION { "contacts collapse" } else { "contacts rest deep in each other" };
+        let [a, b] = [a, b].map(|index| &scene.materials[index].name);
+        Some(format!(
+            "[pair.{a}.{b}] cohesion_energy_density: {density:e} J/m³ is {ratio:.2e} of the effective modulus; above {DEEP_COHESION} {effect}"
+        ))
+    });
+    deep.collect()
+}
+
+/// On friction whose dashpot stretches its spring backwards where it exceeds the limit, as it does at first touch: what follows then depends
+/// on how deep the first time step finds the contact.
+fn friction(scene: &Scene) -> Vec<String> {
+    let named = scene.contacts.iter().filter(|law| law.choice().stretches_backwards());
+    let told = named.map(|law| {
+        format!(
+            "[contact.{}] tangential: with {}, rebounds of impacts that slide first may depend on the time step by some percent, and a shorter one need not help; with backward_spring = false, or history, they converge",
+            law.name,
+            law.tangential.name()
+        )
+    });
+    told.collect()
+}
+
+/// On overlaps that contact laws are not made for.
+fn overlap(simulation: &Simulation) -> Option<String> {
+    let overlap = simulation.largest_overlap();
+    (overlap > DEEP_OVERLAP)
+        .then(|| format!("the largest overlap is {overlap:.3} of a radius; contact laws hold for small ones"))
+}
+
+/// On particles that fall for ever.
+fn falling(scene: &Scene) -> Option<String> {
+    let endless =
+        scene.boundaries.is_empty() && scene.domain.is_none() && scene.gravity.iter().any(|part| *part != 0.0);
+    endless.then(|| "gravity acts and there is no boundary and no [domain]: particles fall for ever".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    /// A scene with these lines about the pair and the law.
+    fn scene(pair: &str, law: &str, density: f64) -> Scene {
+        let text = format!(
+            "gravity = [0.0, 0.0, -9.81]\n[material.g]\ndensity = {density:?}\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\n\
+             [pair.g.g]\n{pair}\n{law}\n[particles.a]\nmaterial = \"g\"\nlist = [{{ position = [0.0, 0.0, 0.02], radius = 0.01 }}]\n\
+             [boundary.floor]\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}\nmaterial = \"g\"\n"
+        );
+        let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+        Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn what_nothing_reads_is_remarked() {
+        let (pair, law) =
+            ("restitution = 0.5\nfriction = 0.4", "[contact.c.normal.hertz]\n[contact.c.tangential.history]");
+        assert!(unread(&scene(pair, law, 2500.0)).is_empty());
+        let forgotten = scene(pair, "", 2500.0);
+        assert_eq!(
+            unread(&forgotten),
+            ["[pair.g.g] restitution, friction: nothing reads it; expected a [contact] law for these materials"]
+        );
+        assert_eq!(
+            passed_through(&forgotten),
+            ["[boundary.floor]: particles of g pass through it: expected a [contact] law for g and g"]
+        );
+        let more = format!("{pair}\ncohesion_energy_density = 1e4\nrolling_friction = 0.3");
+        let told = unread(&scene(&more, law, 2500.0));
+        assert!(
+            told[0].starts_with("[pair.g.g] rolling_friction, cohesion_energy_density: nothing reads it"),
+            "{told:?}"
+        );
+        let read = format!("{law}\n[contact.c.rolling.cdt]\n[contact.c.cohesion.sjkr]");
+        assert!(unread(&scene(&more, &read, 2500.0)).is_empty());
+    }
+
+    #[test]
+    fn what_is_outside_of_the_usual_range_is_remarked_with_the_range() {
+        let law = "[contact.c.normal.hertz]\n[contact.c.tangential.history]";
+        assert!(unusual(&scene("restitution = 0.5\nfriction = 0.4", law, 2500.0)).is_empty());
+        let told = unusual(&scene("restitution = 0.5\nfriction = 40.0", law, 2.5));
+        assert_eq!(
+            told,
+            [
+                "[material.g] density: expected 5e1 to 2.5e4 kg/m³ as usual, found 2.5e0; check the unit",
+                "[pair.g.g] friction: expected 0e0 to 2e0 as usual, found 4e1; check the unit",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_spring_that_its_dashpot_stretches_backwards_is_remarked() {
+        let told = |tangential: &str, damping: &str| {
+            let text = format!(
+                "[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\n\
+                 [contact.c]\ntangential_damping = {damping}\n[contact.c.normal.hertz]\n[contact.c.tangential.{tangential}]\n\
+                 [particles.p]\nmaterial = \"a\"\nlist = [{{ position = [0.0, 0.0, 0.0], radius = 1e-3 }}]\n"
+            );
+            let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+            friction(&Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")))
+        };
+        assert!(told("turned_history", "true")[0].starts_with("[contact.c] tangential: with turned_history, rebounds"));
+        assert!(told("turned_history]\nbackward_spring = false\n[contact.c.rolling.none", "true").is_empty());
+        for [tangential, damping] in [["turned_history", "false"], ["history", "true"], ["no_history", "true"]] {
+            assert!(told(tangential, damping).is_empty(), "{tangential}, damping {damping}");
+        }
+    }
+}

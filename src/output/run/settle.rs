@@ -1,0 +1,275 @@
+//! A scene brought to rest, as a start for others.
+
+use crate::engine::simulation::{Description, Simulation};
+use crate::output::results::files::{Checkpoint, write_checkpoint};
+use crate::output::results::{Failure, Refusal};
+use crate::scene::{AxisMotion, Boundary, Scene, SceneDraft};
+use std::collections::VecDeque;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Time steps between two looks at the unbalanced force.
+const STEPS_BETWEEN_LOOKS: u32 = 100;
+
+/// Looks in a row that must find the packing at rest: one alone may meet a swing at its middle, where forces balance.
+const LOOKS: usize = 10;
+
+/// Looks after which the smallest ratio is compared with that of the time before.
+const LOOKS_TO_COMPARE: u32 = 400;
+
+/// Part of the smallest ratio before that counts as nearer to rest.
+const NEARER: f64 = 0.8;
+
+/// What is to be settled, and where to.
+#[derive(Clone, Copy, Debug)]
+pub struct SettleOrder<'a> {
+    /// The scene.
+    pub scene: &'a Arc<Scene>,
+    /// Its file name, for messages.
+    pub scene_name: &'a str,
+    /// The checkpoint that it begins with, which may be another scene's; none: the scene as its file has it.
+    pub from: Option<&'a Path>,
+    /// The file that gets the state.
+    pub checkpoint: &'a Path,
+    /// Time steps after which the attempt is given up.
+    pub most_steps: u64,
+    /// Set from outside to stop.
+    pub stop: &'a AtomicBool,
+}
+
+/// How far settling is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SettleProgress {
+    /// Time steps made.
+    pub steps: u64,
+    /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
+    pub ratio: f64,
+    /// The ratio below which settling is done.
+    pub tolerance: f64,
+}
+
+/// A packing at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settled {
+    /// Time steps made.
+    pub steps: u64,
+    /// Time they took in the scene \[s\].
+    pub time: f64,
+    /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
+    pub ratio: f64,
+    /// The ratio below which settling is done.
+    pub tolerance: f64,
+    /// Contacts, those with planes included.
+    pub contacts: usize,
+    /// Kinetic energy that is left \[J\].
+    pub kinetic_energy: f64,
+    /// Wall time \[s\].
+    pub wall_time: f64,
+    /// What could not be taken over from the checkpoint of another scene.
+    pub left_behind: Vec<String>,
+}
+
+/// Runs a scene with damping, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
+/// tolerance; then writes the state as one at time 0, contact histories kept, velocities as they are.
+pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> Result<Settled, Failure> {
+    let begun = Instant::now();
+    let refused = |source| Refusal::Start { scene: order.scene_name.to_owned(), source };
+    let still = standing_still(order.scene);
+    let (mut simulation, left_behind) = match order.from {
+        None => (Simulation::new(Arc::clone(&still)).map_err(refused)?, Vec::new()),
+        Some(path) => {
+            let not = |error| Refusal::not_taken_over(order.scene_name, error);
+            let taken = Checkpoint::read(path)?.taken_over(&still).map_err(not)?;
+            (taken.simulation, taken.left_behind)
+        }
+    };
+    let steps_before = simulation.state().clock.steps;
+    simulation.damp_rest(order.scene.run.settle_damping);
+    let come = match come_to_rest(&mut simulation, &order, watch) {
+        Err(Failure::Run(error)) => return Err(error.into()),
+        come => come,
+    };
+    let (steps, time) = (simulation.state().clock.steps - steps_before, simulation.time());
+    let reached = simulation.state().clone();
+    let simulation = match order.from {
+        None => Simulation::settled(Arc::clone(order.scene), reached)?,
+        Some(_) => {
+            let from = Description::of(&still, order.scene_name, time);
+            Simulation::taken_over(Arc::clone(order.scene), &reached, &from)?.0
+        }
+    };
+    let ratio = match come {
+        Ok(ratio) => ratio,
+        Err(unsettled) => {
+            write_checkpoint(&kept(order.checkpoint), simulation.state(), order.scene, order.scene_name)?;
+            return Err(unsettled);
+        }
+    };
+    write_checkpoint(order.checkpoint, simulation.state(), order.scene, order.scene_name)?;
+    Ok(Settled {
+        steps,
+        time,
+        ratio,
+        tolerance: order.scene.run.settle_tolerance,
+        contacts: simulation.contact_count(),
+        kinetic_energy: simulation.kinetic_energy(),
+        wall_time: begun.elapsed().as_secs_f64(),
+        left_behind,
+    })
+}
+
+/// Where the state of a packing goes that has not come to rest: nobody is to take it for one that has.
+fn kept(checkpoint: &Path) -> PathBuf {
+    let mut name = checkpoint.file_name().map_or_else(OsString::new, OsString::from);
+    name.push(".unsettled");
+    checkpoint.with_file_name(name)
+}
+
+/// Steps until several looks in a row find the unbalanced force below the tolerance. Returns the largest of them.
+fn come_to_rest(
+    simulation: &mut Simulation,
+    order: &SettleOrder<'_>,
+    watch: &mut dyn FnMut(SettleProgress),
+) -> Result<f64, Failure> {
+    let tolerance = order.scene.run.settle_tolerance;
+    let before = simulation.state().clock.steps;
+    let mut looks = VecDeque::from(vec![f64::INFINITY; LOOKS]);
+    let mut course = Course::default();
+    loop {
+        let clock = simulation.state().clock;
+        let ratio = looks.iter().copied().fold(0.0, f64::max);
+        let steps = clock.steps - before;
+        watch(SettleProgress { steps, ratio, tolerance });
+        if ratio < tolerance {
+            return Ok(ratio);
+        }
+        let latest = looks.back().copied().unwrap_or(ratio);
+        if order.stop.load(Ordering::Relaxed) {
+            return Err(Failure::SettlingInterrupted { kept: kept(order.checkpoint), steps, ratio: latest });
+        }
+        if steps >= order.most_steps {
+            return Err(Failure::Unsettled {
+                kept: kept(order.checkpoint),
+                steps,
+                time: simulation.time(),
+                ratio: latest,
+                tolerance,
+            });
+        }
+        if let Some(best) = course.stalled(ratio, simulation) {
+            let why = why_not(simulation);
+            return Err(Failure::Restless {
+                kept: kept(order.checkpoint),
+                steps,
+                time: simulation.time(),
+                ratio: best,
+                tolerance,
+                why,
+            });
+        }
+        let left = order.most_steps - steps;
+        let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
+        simulation.advance(count * clock.step)?;
+        looks.pop_front();
+        looks.push_back(if simulation.is_filling() { f64::INFINITY } else { unbalanced_force(simulation) });
+    }
+}
+
+/// How settling has gone so far: whether it comes nearer to rest.
+struct Course {
+    /// Looks since the last comparison.
+    looks: u32,
+    /// When that was \[s\].
+    since: f64,
+    /// The smallest ratio since then, and that of the time before.
+    best: [f64; 2],
+    /// Comparisons in a row in which it came no nearer.
+    idle: u32,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { looks: 0, since: 0.0, best: [f64::INFINITY; 2], idle: 0 }
+    }
+}
+
+impl Course {
+    /// The smallest ratio so far, if the scene comes no nearer to rest: twice in a row, or ten times where particles are
+    /// still on their way.
+    fn stalled(&mut self, ratio: f64, simulation: &Simulation) -> Option<f64> {
+        self.looks += 1;
+        self.best[0] = self.best[0].min(ratio);
+        if self.looks < LOOKS_TO_COMPARE {
+            return None;
+        }
+        let [now, before] = self.best;
+        let nearer = now < NEARER * before;
+        let elapsed = simulation.time() - self.since;
+        let on_their_way = simulation.fastest().is_some_and(|(_, speed, radius)| speed * elapsed > radius);
+        *self =
+            Self { looks: 0, since: simulation.time(), best: [f64::INFINITY, now.min(before)], idle: self.idle + 1 };
+        if nearer || !now.is_finite() && on_their_way {
+            self.idle = 0;
+        }
+        (self.idle >= if on_their_way { 10 } else { 2 }).then_some(now.min(before))
+    }
+}
+
+/// Why a scene does not come to rest.
+fn why_not(simulation: &Simulation) -> String {
+    let scene = simulation.scene();
+    let rolls = |law: &&crate::scene::ContactLaw| law.rolling.name() == "cdt";
+    let rubs = |pair: &crate::laws::contact::PairProperties| {
+        pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0)
+    };
+    if let Some(law) = scene.contacts.iter().find(rolls).filter(|_| scene.pairs.iter().any(rubs)) {
+        return format!(
+            "[contact.{}.rolling.cdt] has a torque of constant size that changes its sign from step to step about rest: bodies \
+             tremble for ever; settle without it, or with a larger settle_tolerance",
+            law.name
+        );
+    }
+    if let Some(damping) = scene.damping.iter().find(|damping| !damping.gravity_damped)
+        && scene.gravity != [0.0; 3]
+    {
+        return format!(
+            "[damping.{}]: expected gravity_damped = true while it settles, found false, which leaves a part of the \
+             load undamped, so that bodies swing about rest",
+            damping.name
+        );
+    }
+    match simulation.fastest() {
+        Some((id, speed, radius)) if speed > 0.0 => format!(
+            "it still moves: particle {id} (radius {radius:.3e} m) at {speed:.3e} m/s, fastest of all; a bed that flows, or a \
+             particle that nothing holds, never rests"
+        ),
+        _ => "nothing moves, and still the forces do not balance".to_owned(),
+    }
+}
+
+/// Unbalanced force over the mean force of the contacts or bonds, damping apart; 0 where nothing moves by the forces on it.
+fn unbalanced_force(simulation: &mut Simulation) -> f64 {
+    let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
+    let free = |boundary: &Boundary| boundary.axes.iter().any(AxisMotion::is_free);
+    let nothing_moves = held && !simulation.scene().boundaries.iter().any(free);
+    if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
+}
+
+/// The scene with boundaries that stand still but for their free axes, insertions without a rate, and without books to keep.
+fn standing_still(scene: &Scene) -> Arc<Scene> {
+    let mut still = SceneDraft::clone(scene);
+    for boundary in &mut still.boundaries {
+        for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
+            *axis = AxisMotion::Fixed;
+        }
+    }
+    for insertion in &mut still.insertions {
+        insertion.stop();
+    }
+    still.output.energy = false;
+    // What stands still is right wherever what moves is.
+    Arc::new(Scene::of_checked(still))
+}

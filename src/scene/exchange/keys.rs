@@ -1,0 +1,162 @@
+//! `[insertion.<name>]`, `[outlet.<name>]`, `[flow_meter.<name>]` as a scene writes them.
+
+use super::size_keys::SizesKeys;
+use super::{Polygon, Sizes};
+use crate::base::document::Mistake;
+use crate::base::quantity::{NonNegative, Positive, Triple};
+use crate::laws::surface::direction;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+
+/// The key that is wrong, and why.
+type Wrong = (&'static str, Mistake);
+
+/// Sizes, amount, velocity \[m/s\] and scatter \[m/s\] of what comes.
+type Read = (Sizes, Amount, [f64; 3], f64);
+
+/// What happens to a particle outside the domain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outside {
+    /// The run stops.
+    #[default]
+    Stop,
+    /// The particle is taken away.
+    Remove,
+}
+
+/// How much comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amount {
+    /// So much in each second \[kg/s\].
+    MassRate(f64),
+    /// So many in each second \[1/s\].
+    CountRate(f64),
+    /// So much in all, as soon as there is room \[kg\].
+    Mass(f64),
+}
+
+/// `[insertion.<name>]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InsertionKeys {
+    /// Name of the region in which every new sphere lies whole.
+    pub(crate) region: String,
+    /// Name of the material.
+    pub(crate) material: String,
+    /// How radii are distributed.
+    sizes: SizesKeys,
+    /// Mass in each second \[kg/s\].
+    mass_rate: Option<NonNegative>,
+    /// Number in each second \[1/s\].
+    count_rate: Option<NonNegative>,
+    /// Mass in all \[kg\].
+    mass: Option<Positive>,
+    /// Velocity \[m/s\]; absent: at rest.
+    velocity: Option<Triple>,
+    /// By how much each component of the velocity differs from that at most, all values equally likely \[m/s\].
+    scatter: Option<NonNegative>,
+}
+
+impl InsertionKeys {
+    /// Sizes, amount, velocity and scatter; otherwise the key that is wrong.
+    pub(crate) fn read(&self) -> Result<Read, Wrong> {
+        let sizes = self.sizes.sizes()?;
+        let amount = match (self.mass_rate, self.count_rate, self.mass) {
+            (Some(rate), None, None) => Amount::MassRate(rate.get()),
+            (None, Some(rate), None) => Amount::CountRate(rate.get()),
+            (None, None, Some(mass)) => Amount::Mass(mass.get()),
+            (None, None, None) => {
+                let expected = "one of mass_rate, count_rate, mass says how much comes".to_owned();
+                return Err(("", Mistake::Missing { expected }));
+            }
+            _ => {
+                let found = "several".to_owned();
+                let expected = "one of mass_rate, count_rate and mass".to_owned();
+                return Err(("", Mistake::Unexpected { found, expected }));
+            }
+        };
+        let velocity = self.velocity.map_or([0.0; 3], |velocity| velocity.0);
+        Ok((sizes, amount, velocity, self.scatter.map_or(0.0, NonNegative::get)))
+    }
+}
+
+/// `[outlet.<name>]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutletKeys {
+    /// Name of the region whose particles are taken away.
+    pub(crate) region: Option<String>,
+    /// A plane beyond which they are.
+    pub(crate) beyond: Option<BeyondKeys>,
+}
+
+/// `beyond = "<boundary>"`, or a plane.
+#[derive(Clone, Debug)]
+pub(crate) enum BeyondKeys {
+    /// The far side of the boundary of this name.
+    Boundary(String),
+    /// That of a plane.
+    Plane(PlaneKeys),
+}
+
+impl<'de> Deserialize<'de> for BeyondKeys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a name or a table.
+        struct NameOrTable;
+        impl<'de> Visitor<'de> for NameOrTable {
+            type Value = BeyondKeys;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("the name of a boundary, or { point, normal }")
+            }
+            fn visit_str<E: Error>(self, name: &str) -> Result<BeyondKeys, E> {
+                Ok(BeyondKeys::Boundary(name.to_owned()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BeyondKeys, A::Error> {
+                PlaneKeys::deserialize(MapAccessDeserializer::new(map)).map(BeyondKeys::Plane)
+            }
+        }
+        deserializer.deserialize_any(NameOrTable)
+    }
+}
+
+/// `beyond = { point, normal }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaneKeys {
+    /// A point on the plane \[m\].
+    point: Triple,
+    /// Towards what stays, of any length but 0.
+    normal: Triple,
+}
+
+impl PlaneKeys {
+    /// Point \[m\] and unit normal; otherwise the key that is wrong.
+    pub(crate) fn plane(&self) -> Result<[[f64; 3]; 2], Wrong> {
+        let normal = direction(self.normal.0).ok_or_else(|| {
+            let (found, expected) =
+                ("one of length 0".to_owned(), "a normal that points towards what stays".to_owned());
+            ("beyond.normal", Mistake::Unexpected { found, expected })
+        });
+        Ok([self.point.0, normal?])
+    }
+}
+
+/// `[flow_meter.<name>]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MeterKeys {
+    /// Corners, counter-clockwise as seen from where the flow goes \[m\].
+    polygon: Vec<Triple>,
+}
+
+impl MeterKeys {
+    /// The polygon; otherwise the key that is wrong.
+    pub(crate) fn polygon(&self) -> Result<Polygon, Wrong> {
+        let corners = self.polygon.iter().map(|corner| corner.0).collect();
+        let expected = "at least three corners, in one plane and not on one line".to_owned();
+        Polygon::new(corners).map_err(|found| ("polygon", Mistake::Unexpected { found, expected }))
+    }
+}

@@ -1,0 +1,14 @@
+//! How particles come and go, as a scene writes it: sizes of what comes, how much of it, polygons that are passed.
+//!
+//! Pure functions and keys. Who comes where and when is found in [`crate::engine::flow`].
+
+mod keys;
+pub(crate) mod parts;
+mod polygon;
+mod size_keys;
+mod sizes;
+
+pub use keys::{Amount, Outside};
+pub(crate) use keys::{BeyondKeys, InsertionKeys, MeterKeys, OutletKeys};
+pub use polygon::Polygon;
+pub use sizes::Sizes;

@@ -1,0 +1,176 @@
+//! `sizes` of an insertion as a scene writes them.
+
+use super::Sizes;
+use crate::base::document::Mistake;
+use crate::base::quantity::{Numbers, Positive};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+
+/// Share of the draws of a normal distribution that must lie between its bounds.
+const LEAST_SHARE: f64 = 0.05;
+
+/// `sizes = { .. }`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SizesKeys {
+    /// Radius, or radii of classes \[m\].
+    radius: Option<Radii>,
+    /// Shares of the number, class by class.
+    by_number: Option<Shares>,
+    /// Shares of the mass, class by class.
+    by_mass: Option<Shares>,
+    /// Least and largest radius, all between equally likely \[m\].
+    uniform: Option<Bounds>,
+    /// A normal distribution by number.
+    normal: Option<NormalKeys>,
+}
+
+/// `normal = { mean, deviation, between }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NormalKeys {
+    /// Mean radius \[m\].
+    mean: Positive,
+    /// Standard deviation \[m\].
+    deviation: Positive,
+    /// Least and largest radius \[m\].
+    between: Bounds,
+}
+
+/// One radius or several \[m\].
+#[derive(Clone, Debug)]
+struct Radii(Vec<f64>);
+
+impl<'de> Deserialize<'de> for Radii {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a number or a list.
+        struct OneOrMore;
+        /// What is expected.
+        const EXPECTED: &str = "a number above 0, or a list of such numbers";
+        impl<'de> Visitor<'de> for OneOrMore {
+            type Value = Radii;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(EXPECTED)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
+                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
+                Positive::new(value).map(|radius| Radii(vec![radius.get()])).ok_or_else(refused)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
+                let radii: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|radius| radius.get()).collect();
+                if radii.is_empty() || radii.iter().any(|radius| *radius <= 0.0) {
+                    return Err(A::Error::custom(format!("expected {EXPECTED}, found {radii:?}")));
+                }
+                Ok(Radii(radii))
+            }
+        }
+        deserializer.deserialize_any(OneOrMore)
+    }
+}
+
+/// Shares of classes, of any sum above 0.
+#[derive(Clone, Debug)]
+struct Shares(Vec<f64>);
+
+impl<'de> Deserialize<'de> for Shares {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let shares: Vec<f64> = deserializer.deserialize_seq(Numbers)?.iter().map(|share| share.get()).collect();
+        let sum: f64 = shares.iter().sum();
+        if shares.iter().all(|share| *share >= 0.0) && sum.is_normal() {
+            return Ok(Self(shares));
+        }
+        Err(D::Error::custom(format!("expected shares of 0 or above, not all of them 0, found {shares:?}")))
+    }
+}
+
+/// Least and largest radius \[m\].
+#[derive(Clone, Copy, Debug)]
+struct Bounds([f64; 2]);
+
+impl<'de> Deserialize<'de> for Bounds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let bounds: Vec<f64> = deserializer.deserialize_seq(Numbers)?.iter().map(|radius| radius.get()).collect();
+        match bounds[..] {
+            [least, most] if least > 0.0 && least <= most => Ok(Self([least, most])),
+            _ => Err(D::Error::custom(format!("expected [least, largest] above 0, found {bounds:?}"))),
+        }
+    }
+}
+
+impl SizesKeys {
+    /// The sizes; otherwise the key that is wrong, below `sizes`.
+    pub(super) fn sizes(&self) -> Result<Sizes, (&'static str, Mistake)> {
+        let one = "radius, uniform or normal";
+        let chosen = [self.radius.is_some(), self.uniform.is_some(), self.normal.is_some()];
+        match chosen.iter().filter(|chosen| **chosen).count() {
+            1 => {}
+            0 => return Err(("sizes", Mistake::Missing { expected: format!("one of {one}") })),
+            _ => {
+                let found = "several".to_owned();
+                return Err(("sizes", Mistake::Unexpected { found, expected: format!("one of {one}") }));
+            }
+        }
+        if self.radius.is_none() && (self.by_number.is_some() || self.by_mass.is_some()) {
+            let found = "shares without classes".to_owned();
+            let expected = "radius = [..] beside by_number or by_mass".to_owned();
+            return Err(("sizes", Mistake::Unexpected { found, expected }));
+        }
+        match (&self.radius, self.uniform, self.normal) {
+            (Some(Radii(radii)), ..) => self.classes(radii),
+            (_, Some(Bounds(bounds)), _) => Ok(Sizes::Uniform(bounds)),
+            (_, _, Some(normal)) => normal.sizes(),
+            (None, None, None) => Err(("sizes", Mistake::Missing { expected: format!("one of {one}") })),
+        }
+    }
+
+    /// One radius, or classes with their shares.
+    fn classes(&self, radii: &[f64]) -> Result<Sizes, (&'static str, Mistake)> {
+        let (shares, by_mass) = match (&self.by_number, &self.by_mass) {
+            (Some(Shares(shares)), None) => (shares, false),
+            (None, Some(Shares(shares))) => (shares, true),
+            (None, None) if radii.len() == 1 => return Ok(Sizes::Fixed(radii[0])),
+            _ => {
+                let expected = "by_number or by_mass = [..] gives the shares of the radii".to_owned();
+                return Err(("sizes", Mistake::Missing { expected }));
+            }
+        };
+        if shares.len() != radii.len() {
+            let found = format!("{} radii and {} shares", radii.len(), shares.len());
+            return Err(("sizes", Mistake::Unexpected { found, expected: "a share for each radius".to_owned() }));
+        }
+        let number = |(radius, share): (&f64, &f64)| if by_mass { share / radius.powi(3) } else { *share };
+        let numbers: Vec<f64> = radii.iter().zip(shares).map(number).collect();
+        let sum: f64 = numbers.iter().sum();
+        let mut so_far = 0.0;
+        let mut classes = Vec::new();
+        for (radius, number) in radii.iter().zip(numbers).filter(|(_, number)| *number > 0.0) {
+            so_far += number / sum;
+            classes.push([*radius, so_far]);
+        }
+        Ok(Sizes::Classes(classes))
+    }
+}
+
+impl NormalKeys {
+    /// The sizes; otherwise what is wrong.
+    fn sizes(&self) -> Result<Sizes, (&'static str, Mistake)> {
+        let (mean, deviation, Bounds(between)) = (self.mean.get(), self.deviation.get(), self.between);
+        let below = |radius: f64| 0.5 * libm::erfc((mean - radius) / (deviation * std::f64::consts::SQRT_2));
+        let share = below(between[1]) - below(between[0]);
+        if share < LEAST_SHARE {
+            let found = format!("{:.1} % between {between:?}", 100.0 * share);
+            return Err((
+                "sizes.normal",
+                Mistake::Unexpected {
+                    found,
+                    expected: "at least 5 % of the normal distribution between the bounds".to_owned(),
+                },
+            ));
+        }
+        Ok(Sizes::Normal { mean, deviation, between })
+    }
+}

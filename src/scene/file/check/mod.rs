@@ -1,0 +1,222 @@
+//! Checks across tables: from tables that are right by themselves to a scene that is right as a whole.
+
+mod body;
+mod bonded_pairs;
+mod bonds;
+mod boundaries;
+mod consistency;
+mod contacts;
+mod damping;
+mod exchange;
+mod finding;
+mod motion;
+mod named_tables;
+mod particles;
+mod place;
+pub(super) mod raw_tables;
+mod selection;
+mod set_reader;
+mod tables;
+mod values;
+
+use super::tables::{RunTable, StepKey};
+use crate::base::document::{Document, Faults, Mistake, SceneErrors};
+use crate::laws::region;
+use crate::laws::surface::Files;
+use crate::scene::file::parameters;
+use crate::scene::packing::PackingProgress;
+use crate::scene::{Models, Output, Region, Run, Scene, SceneDraft, Source, Step};
+use finding::Finding;
+use raw_tables::RawTables;
+
+/// The scene that a source describes. Mistakes found so far are in `faults`.
+pub(super) fn scene(
+    source: &Source,
+    document: &Document,
+    mut faults: Faults,
+    models: &Models,
+    tell: &mut dyn FnMut(PackingProgress),
+) -> Result<Scene, SceneErrors> {
+    let written = RawTables::read(document, models, &mut faults);
+    faults.so_far()?;
+    let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
+    let materials = contacts::materials(&written);
+    let run = run(&written.run, &mut faults);
+    let output = output(&written.output, &mut faults);
+    let pairs = contacts::pairs(&written, &materials, &mut faults);
+    let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
+    let born = particles::particles(&written, source, &materials, &mut faults, tell);
+    faults.so_far()?;
+    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
+    let bonds = bonds::bonds(&written, document, source, &born, &run, &mut faults);
+    let damping = damping::damping(&written, &materials, &born, &mut faults);
+    motion::damping(&boundaries, &damping, &mut faults);
+    let forces = damping::forces(&written, &born, &mut faults);
+    let regions = regions(&written, source, &mut faults);
+    let exchange::Parts { insertions, outlets, meters } =
+        exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
+    let mut draft = SceneDraft {
+        bonds,
+        run,
+        gravity: written.gravity.0,
+        materials,
+        pairs,
+        contacts: laws,
+        sets: born.sets,
+        particles: born.particles,
+        boundaries,
+        damping,
+        forces,
+        regions,
+        outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
+        domain: written.domain.map(|domain| domain.corners.0),
+        insertions,
+        outlets,
+        meters,
+        output,
+        parameters: Vec::new(),
+        fingerprint: source.fingerprint(),
+    };
+    draft.parameters = parameters::of_scene(&draft, document);
+    relations(&draft, document, &mut faults);
+    faults.finish().map(|()| Scene::of_checked(draft))
+}
+
+impl SceneDraft {
+    /// The scene, if it can be run: every number is one that its key takes, every index points at something, laws have their
+    /// properties, particles are where they may be, boundaries can do what they are to do. Otherwise all mistakes, each with the table
+    /// and the key that a scene file would have it in.
+    pub fn build(self) -> Result<Scene, SceneErrors> {
+        let document = Document::parse("", "")?;
+        let mut faults = Faults::new(&document);
+        values::check(&self, &mut faults);
+        faults.so_far()?;
+        boundaries::check(&self, &mut faults);
+        bonds::check(&self, &mut faults);
+        motion::damping(&self.boundaries, &self.damping, &mut faults);
+        relations(&self, &document, &mut faults);
+        faults.finish().map(|()| Scene::of_checked(self))
+    }
+}
+
+/// Reports what the parts of a scene are not to each other.
+fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
+    if let Some([found, expected]) = draft.stiffness_objection() {
+        faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
+    }
+    let found =
+        consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
+    for finding in found {
+        report(finding, document, faults);
+    }
+}
+
+/// Reports a mistake in the scene, at the line of its table in the text.
+fn report(finding: Finding, document: &Document, faults: &mut Faults) {
+    let Finding { mut table, key, otherwise, mistake } = finding;
+    if !document.has(&table)
+        && let [kind, a, b] = table.split('.').collect::<Vec<_>>()[..]
+        && document.has(&format!("{kind}.{b}.{a}"))
+    {
+        table = format!("{kind}.{b}.{a}");
+    }
+    match document.has(&table) {
+        true => faults.add(&table, &key, mistake),
+        false => faults.at_line(document.line_of(&otherwise, ""), &table, &key, mistake),
+    }
+}
+
+/// `[run]`
+fn run(table: &RunTable, faults: &mut Faults) -> Run {
+    let defaults = Run::default();
+    let accuracy = table.accuracy.unwrap_or(defaults.accuracy);
+    if let (Some(StepKey::Given(_)), Some(_)) = (table.step, table.safety) {
+        let (what, expected) = ("a given step has no safety", "write step = \"auto\", or leave safety out");
+        faults.add(
+            "run",
+            "safety",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
+    }
+    if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
+        let (what, expected) =
+            ("an automatic step is never above the stable one", "give a step, or leave allow_unstable out");
+        faults.add(
+            "run",
+            "allow_unstable",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
+    }
+    if table.plane_particles.is_some() && table.plane.is_none() {
+        let (what, expected) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
+        faults.add(
+            "run",
+            "plane_particles",
+            Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
+        );
+    }
+    Run {
+        end: table.end.map(crate::base::quantity::Positive::get),
+        step: match table.step {
+            Some(StepKey::Given(step)) => Step::Given(step),
+            Some(StepKey::Automatic) | None => {
+                Step::Automatic { safety: table.safety.map_or(accuracy.safety(), crate::base::quantity::Safety::get) }
+            }
+        },
+        accuracy,
+        scheme: table.scheme.unwrap_or(accuracy.scheme()),
+        allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
+        threads: table.threads.map(|threads| threads.get() as usize),
+        seed: table.seed.unwrap_or(defaults.seed),
+        skin: table.skin.map(crate::base::quantity::Positive::get),
+        settle_tolerance: table
+            .settle_tolerance
+            .map_or(defaults.settle_tolerance, crate::base::quantity::Positive::get),
+        settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::base::quantity::Fraction::get),
+        max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::base::quantity::NonNegative::get),
+        plane: table.plane,
+        central_derivatives: table.central_derivatives.unwrap_or(defaults.central_derivatives),
+        derivative_displacement: table
+            .derivative_displacement
+            .map_or(defaults.derivative_displacement, crate::base::quantity::Positive::get),
+    }
+}
+
+/// `[output]`
+fn output(table: &Output, faults: &mut Faults) -> Output {
+    let with_frames = [(table.contacts, "contacts"), (table.boundaries, "boundaries")];
+    if let Some((_, what)) = with_frames.iter().find(|(wanted, _)| *wanted && table.frame_interval.is_none()) {
+        let expected = format!("{what} are written with the frames");
+        faults.add("output", "frame_interval", Mistake::Missing { expected });
+    }
+    *table
+}
+
+/// All regions.
+fn regions(written: &RawTables, source: &Source, faults: &mut Faults) -> Vec<Region> {
+    let boundaries: Vec<&str> = written.boundaries.iter().map(|(name, _)| name.as_str()).collect();
+    let mut region = |(name, keys): &(String, region::Keys)| {
+        Region::of(name, keys, &boundaries, &mut WrittenRegion { table: format!("region.{name}"), source, faults })
+    };
+    written.regions.iter().filter_map(&mut region).collect()
+}
+
+/// A region as it is written, with what it refers to.
+struct WrittenRegion<'a, 'b, 'c> {
+    /// Its name, as `region.core`.
+    table: String,
+    /// The files of the scene.
+    source: &'a Source,
+    /// Where mistakes go.
+    faults: &'a mut Faults<'b, 'c>,
+}
+
+impl Files for WrittenRegion<'_, '_, '_> {
+    fn file(&self, name: &str) -> Option<&[u8]> {
+        self.source.files.get(name).map(Vec::as_slice)
+    }
+
+    fn report(&mut self, key: &str, mistake: Mistake) {
+        self.faults.add(&self.table, key, mistake);
+    }
+}

@@ -1,0 +1,96 @@
+//! From particle sets as they are written to the particles of the scene.
+
+use super::named_tables::Named;
+use super::place::Place;
+use super::raw_tables::RawTables;
+use super::set_reader::{SetReader, Unnumbered};
+use crate::base::document::Faults;
+use crate::base::document::Mistake;
+use crate::base::quantity::{ParticleId, SetIndex};
+use crate::laws::contact::Material;
+use crate::scene::Source;
+use crate::scene::file::tables::ParticlesTable;
+use crate::scene::import::REPORTED;
+use crate::scene::packing::PackingProgress;
+use crate::scene::{Particle, Run};
+use std::collections::BTreeMap;
+
+/// All particles, and where each comes from.
+#[derive(Default)]
+pub(super) struct ReadParticles {
+    /// By ascending number.
+    pub(super) particles: Vec<Particle>,
+    /// Row in its set, of each.
+    pub(super) rows: Vec<u32>,
+    /// Names of the sets.
+    pub(super) sets: Vec<String>,
+    /// Columns of each set that damping asks for.
+    pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
+}
+
+/// Reads all sets.
+pub(super) fn particles(
+    written: &RawTables,
+    source: &Source,
+    materials: &[Material],
+    faults: &mut Faults,
+    tell: &mut dyn FnMut(PackingProgress),
+) -> ReadParticles {
+    let extra: Vec<String> = written
+        .damping
+        .iter()
+        .filter_map(|(_, damping)| damping.scale.as_ref().and_then(|scale| scale.column.clone()))
+        .collect();
+    let seed = written.run.seed.unwrap_or(Run::default().seed);
+    let shape = written.run.plane_particles.unwrap_or_default();
+    let mut born = ReadParticles::default();
+    let mut places = Vec::new();
+    let mut newborn = Vec::new();
+    for (index, (name, table)) in written.particles.iter().enumerate() {
+        let set = SetIndex(index as u32);
+        let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed, shape };
+        let (list, place, columns) = reader.read(source, &extra, faults, tell);
+        newborn.extend((0..).zip(list));
+        born.sets.push(name.clone());
+        born.columns.push(columns);
+        places.push(place);
+    }
+    number(newborn, &mut born, &places, &written.particles, faults);
+    born
+}
+
+/// Gives numbers to those who have none, above all given ones, and sorts by number.
+fn number(
+    newborn: Vec<(u32, Unnumbered)>,
+    born: &mut ReadParticles,
+    places: &[Place],
+    sets: &Named<ParticlesTable>,
+    faults: &mut Faults,
+) {
+    let mut next = newborn.iter().filter_map(|(_, newborn)| newborn.id).max().map_or(1, |id| u64::from(id) + 1);
+    let mut all: Vec<(u64, u32, Particle)> = Vec::with_capacity(newborn.len());
+    for (row, newborn) in newborn {
+        let id = newborn.id.map_or(next, u64::from);
+        next += u64::from(newborn.id.is_none());
+        all.push((id, row, newborn.particle));
+    }
+    all.sort_by_key(|(id, ..)| *id);
+    for two in all.windows(2).filter(|two| two[0].0 == two[1].0).take(REPORTED) {
+        let (id, row, particle) = &two[1];
+        let other = sets[two[0].2.set.index()].0.clone();
+        let mistake = Mistake::DuplicateId { id: *id as u32, other };
+        let set = particle.set.index();
+        places[set].report(&format!("particles.{}", sets[set].0), *row as usize, "id", mistake, faults);
+    }
+    if let Some((id, ..)) = all.last().filter(|(id, ..)| *id > u64::from(u32::MAX)) {
+        let expected = "numbers up to 4294967295".to_owned();
+        faults.add("particles", "", Mistake::Unexpected { found: format!("particle {id}"), expected });
+    }
+    born.particles.reserve_exact(all.len());
+    born.rows.reserve_exact(all.len());
+    for (id, row, mut particle) in all {
+        particle.id = ParticleId(id as u32);
+        born.particles.push(particle);
+        born.rows.push(row);
+    }
+}

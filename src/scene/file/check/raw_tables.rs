@@ -1,0 +1,282 @@
+//! Every table of the text as its own type; from here on only relations between tables can be wrong.
+
+use super::named_tables::{Named, all, names};
+use crate::base::document::Mistake;
+use crate::base::document::messages;
+use crate::base::document::{Document, Faults};
+use crate::laws::bond::keys::Keys;
+use crate::laws::contact::{
+    CohesionModel, Model, ModelRow, NormalModel, PairProperties, RollingModel, TangentialModel,
+};
+use crate::laws::region;
+use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
+use crate::scene::file::tables::{
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
+    TABLES, Triple,
+};
+use crate::scene::{AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
+use std::collections::BTreeMap;
+
+/// The whole text.
+pub(in crate::scene::file) struct RawTables {
+    /// `[run]`
+    pub(super) run: RunTable,
+    /// `gravity`
+    pub(super) gravity: Triple,
+    /// `[material.<name>]`
+    pub(super) materials: Named<MaterialTable>,
+    /// `[pair.<a>.<b>]`
+    pub(super) pairs: Vec<([String; 2], PairProperties)>,
+    /// `[contact.<name>]`
+    pub(super) contacts: Named<Law>,
+    /// `[bond.<name>]`
+    pub(super) bonds: Named<Keys>,
+    /// `[particles.<name>]`
+    pub(super) particles: Named<ParticlesTable>,
+    /// `[boundary.<name>]`
+    pub(super) boundaries: Named<BoundaryTable>,
+    /// `[damping.<name>]`
+    pub(super) damping: Named<DampingTable>,
+    /// `[force.<name>]`
+    pub(super) forces: Named<ForceTable>,
+    /// `[region.<name>]`
+    pub(super) regions: Named<region::Keys>,
+    /// `[insertion.<name>]`
+    pub(super) insertions: Named<InsertionKeys>,
+    /// `[outlet.<name>]`
+    pub(super) outlets: Named<OutletKeys>,
+    /// `[flow_meter.<name>]`
+    pub(super) meters: Named<MeterKeys>,
+    /// `[domain]`
+    pub(super) domain: Option<DomainTable>,
+    /// `[output]`
+    pub(super) output: Output,
+}
+
+/// A contact law and its sub-models.
+pub(super) struct Law {
+    /// What stands in the table itself.
+    pub(super) table: ContactTable,
+    /// Normal sub-model.
+    pub(super) normal: NormalModel,
+    /// Tangential sub-model.
+    pub(super) tangential: TangentialModel,
+    /// Rolling sub-model.
+    pub(super) rolling: RollingModel,
+    /// Cohesion sub-model.
+    pub(super) cohesion: CohesionModel,
+}
+
+/// How many materials a scene may have: what each two have in common is kept as a square.
+const MOST_MATERIALS: usize = 256;
+
+/// A file that a scene names: the table, the key, and the name.
+pub(in crate::scene::file) type FileName = (String, &'static str, String);
+
+/// The files that a scene names.
+pub(in crate::scene::file) fn files(document: &Document) -> Vec<FileName> {
+    let mut files = Vec::new();
+    for (kind, key) in
+        [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file"), ("region", "mesh.file")]
+    {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            if let Some(file) = document.text(&format!("{table}.{key}")) {
+                files.push((table, key, file.to_owned()));
+            }
+        }
+    }
+    for kind in ["boundary", "region"] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            for file in document.texts(&format!("{table}.mesh.joined")) {
+                files.push((table.clone(), "mesh.joined", file.to_owned()));
+            }
+        }
+    }
+    for name in document.names("boundary") {
+        let table = format!("boundary.{name}");
+        for axis in AxisMotion::WORDS {
+            // A rotation is a quoted key.
+            let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
+            let law = format!("{table}.motion.prescribed.{quoted}.table");
+            if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
+                files.push((table.clone(), "motion.prescribed", file.to_owned()));
+            }
+        }
+    }
+    files
+}
+
+impl RawTables {
+    /// Reads all tables; `None` if any has a mistake.
+    pub(super) fn read(document: &Document, models: &Models, faults: &mut Faults) -> Option<Self> {
+        unknown_tables(document, faults);
+        let run = document.read("run", faults);
+        let gravity = match document.has("gravity") {
+            true => document.read_key("", "gravity", faults),
+            false => Some(Triple::default()),
+        };
+        let count = document.names("material").len();
+        if count > MOST_MATERIALS {
+            let (found, expected) = (format!("{count}"), format!("at most {MOST_MATERIALS} materials"));
+            faults.add("material", "", Mistake::Unexpected { found, expected });
+            return None;
+        }
+        let materials = all(document, "material", faults);
+        let pairs = pairs(document, faults);
+        let contacts = laws(document, models, faults);
+        let bonds = all(document, "bond", faults);
+        let particles = all(document, "particles", faults);
+        let boundaries = all(document, "boundary", faults);
+        let damping = all(document, "damping", faults);
+        let forces = all(document, "force", faults);
+        let regions = all(document, "region", faults);
+        let insertions = all(document, "insertion", faults);
+        let outlets = all(document, "outlet", faults);
+        let meters = all(document, "flow_meter", faults);
+        let domain = document.has("domain").then(|| document.read("domain", faults));
+        let output = document.read("output", faults);
+        if faults.count() > 0 {
+            return None;
+        }
+        let (run, gravity, output) = (run?, gravity?, output?);
+        let domain = domain.flatten();
+        Some(Self {
+            run,
+            gravity,
+            materials,
+            pairs,
+            contacts,
+            bonds,
+            particles,
+            boundaries,
+            damping,
+            forces,
+            regions,
+            insertions,
+            outlets,
+            meters,
+            domain,
+            output,
+        })
+    }
+}
+
+/// Reports tables and keys at the top that have no meaning.
+fn unknown_tables(document: &Document, faults: &mut Faults) {
+    for name in document.names("") {
+        if TABLES.contains(&name.as_str()) {
+            continue;
+        }
+        let known = TABLES.map(str::to_owned).to_vec();
+        let mistake = messages::absent(&name).unwrap_or(match document.is_table_below("", &name) {
+            true => Mistake::UnknownTable { found: name.clone(), known },
+            false => Mistake::UnknownKey { found: name.clone(), known },
+        });
+        let line = document.line_of_name("", &name);
+        match document.is_table_below("", &name) {
+            true => faults.at_line(line, &name, "", mistake),
+            false => faults.at_line(line, "", &name, mistake),
+        }
+    }
+}
+
+/// All properties of pairs; both orders of one pair must say the same.
+fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
+    let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+    let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
+    for a in names(document, "pair", faults) {
+        for b in names(document, &format!("pair.{a}"), faults) {
+            let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
+            let mirrored = [b.clone(), a.clone()];
+            match known.get(&mirrored) {
+                Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),
+                Some(_) => {}
+                None => {
+                    known.insert([a.clone(), b.clone()], pairs.len());
+                    pairs.push(([a.clone(), b], properties));
+                }
+            }
+        }
+    }
+    pairs
+}
+
+/// Reports each key in which `[pair.<a>.<b>]` differs from `[pair.<b>.<a>]`.
+fn asymmetric(document: &Document, a: &str, b: &str, faults: &mut Faults) {
+    let (here, there) = (format!("pair.{a}.{b}"), format!("pair.{b}.{a}"));
+    let value = |table: &str, key: &str| match document.written(&format!("{table}.{key}")) {
+        "" => "nothing".to_owned(),
+        value => value.to_owned(),
+    };
+    let number = |text: &str| text.replace('_', "").parse::<f64>().ok();
+    let mut keys = document.names(&here);
+    keys.extend(document.names(&there).into_iter().filter(|key| !document.has(&format!("{here}.{key}"))));
+    for key in keys {
+        let (found, other) = (value(&here, &key), value(&there, &key));
+        if number(&found).is_none() || number(&found) != number(&other) {
+            faults.add(&here, &key, Mistake::Asymmetric { found, other, table: there.clone() });
+        }
+    }
+}
+
+/// All contact laws.
+fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law> {
+    let mut laws = Vec::new();
+    for name in names(document, "contact", faults) {
+        let path = format!("contact.{name}");
+        let table = document.read(&path, faults);
+        let normal = model(document, &path, "normal", &models.normal, faults);
+        if table.is_some() && !document.has(&format!("{path}.normal")) {
+            let expected = format!("a table [{path}.normal.<model>]");
+            faults.add(&path, "normal", Mistake::Missing { expected });
+        }
+        let tangential = model(document, &path, "tangential", &models.tangential, faults);
+        let rolling = model(document, &path, "rolling", &models.rolling, faults);
+        let cohesion = model(document, &path, "cohesion", &models.cohesion, faults);
+        if let (Some(table), Some(normal)) = (table, normal) {
+            let law = Law {
+                table,
+                normal,
+                tangential: tangential.unwrap_or(SMOOTH),
+                rolling: rolling.unwrap_or(ROLLING_FREELY),
+                cohesion: cohesion.unwrap_or(DRY),
+            };
+            laws.push((name, law));
+        }
+    }
+    laws
+}
+
+/// The sub-model of a kind, if the law names one.
+fn model<F>(
+    document: &Document,
+    law: &str,
+    kind: &'static str,
+    known: &[&'static ModelRow<F>],
+    faults: &mut Faults,
+) -> Option<Model<F>> {
+    let path = format!("{law}.{kind}");
+    if !document.has(&path) {
+        return None;
+    }
+    if !document.is_table(&path) {
+        let (found, expected) = (document.written(&path).to_owned(), format!("a table [{path}.<model>]"));
+        faults.add(law, kind, Mistake::Unexpected { found, expected });
+        return None;
+    }
+    let models = document.names(&path);
+    let [name] = &models[..] else {
+        let found = if models.is_empty() { "no model".to_owned() } else { models.join(" and ") };
+        faults.add(&path, "", Mistake::Unexpected { found, expected: format!("one {kind} model") });
+        return None;
+    };
+    let Some(row) = known.iter().find(|row| row.name() == name) else {
+        let known = known.iter().map(|row| row.name().to_owned()).collect();
+        let table = format!("{path}.{name}");
+        faults.add(&table, "", Mistake::UnknownModel { found: name.clone(), kind, known });
+        return None;
+    };
+    row.read(document, &path, faults)
+}

@@ -1,0 +1,140 @@
+//! Which numbers of a scene's text are parameters of its unit.
+
+mod rows;
+
+use crate::base::document::Document;
+use crate::base::quantity::MaterialIndex;
+use crate::scene::{Parameter, Run, SceneDraft, Step};
+use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, SWITCH, is_of};
+
+/// The parameters of a scene that was read from this text.
+pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter> {
+    let mut all = settings(scene);
+    let mut leaves = Vec::new();
+    for table in ["run", "material", "pair", "damping", "bond"] {
+        find_numbers(document, table, &mut leaves);
+    }
+    for (name, value) in leaves {
+        all.extend(row(scene, &name, value).or_else(|| strength(scene, &name, value)));
+    }
+    all.retain(|parameter| !is_written_twice(document, &parameter.name));
+    all
+}
+
+/// Settings of the run that every scene has.
+fn settings(scene: &SceneDraft) -> Vec<Parameter> {
+    let (step, safety) = match scene.run.step {
+        Step::Given(step) => (step, Run::SAFETY),
+        Step::Automatic { safety } => (0.0, safety),
+    };
+    let threads = scene.run.threads.unwrap_or(0) as f64;
+    let number = |name: &str, value, unit, range, about: &str| {
+        let (name, about) = (name.to_owned(), about.to_owned());
+        Parameter { name, value, unit, range, tunable: false, about }
+    };
+    vec![
+        number(TIME_STEP, step, Some("s"), NON_NEGATIVE, "time step; 0: automatic"),
+        number(
+            "run.safety",
+            safety,
+            Some("1"),
+            SAFETY,
+            "fraction of the stable step that an automatic time step takes",
+        ),
+        number(THREADS, threads, None, COUNT, "threads; 0: as many as the machine offers"),
+        number(
+            CENTRAL_DERIVATIVES,
+            f64::from(u8::from(scene.run.central_derivatives)),
+            None,
+            SWITCH,
+            "whether directional derivatives are differences of both sides: two steps in place of one; 0: no, 1: yes",
+        ),
+        number(
+            "run.derivative_displacement",
+            scene.run.derivative_displacement,
+            Some("1"),
+            POSITIVE,
+            "how far directional derivatives displace inputs, over what the program chooses",
+        ),
+    ]
+}
+
+/// The time step, 0 where it is automatic.
+pub(crate) const TIME_STEP: &str = "run.time_step";
+/// The number of threads, 0 where the machine decides.
+pub(crate) const THREADS: &str = "run.threads";
+/// Whether derivatives are differences of both sides, 0 or 1.
+pub(crate) const CENTRAL_DERIVATIVES: &str = "run.central_derivatives";
+
+/// All numbers at or below a key, with their dotted keys, in the order of the text.
+fn find_numbers(document: &Document, path: &str, found: &mut Vec<(String, f64)>) {
+    if document.is_table(path) {
+        for name in document.names(path) {
+            find_numbers(document, &format!("{path}.{name}"), found);
+        }
+    } else if let Ok(value) = document.written(path).replace('_', "").parse() {
+        found.push((path.to_owned(), value));
+    }
+}
+
+/// Whether the properties of a pair of materials stand in the text in both orders: neither can be changed alone.
+fn is_written_twice(document: &Document, name: &str) -> bool {
+    match name.split('.').collect::<Vec<_>>()[..] {
+        ["pair", a, b, _] => a != b && document.has(&format!("pair.{b}.{a}")),
+        _ => false,
+    }
+}
+
+/// The parameter of this name, if it is one of the rows.
+fn row(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
+    let row = ROWS.iter().find(|row| is_of(name, row.keys))?;
+    let unit = match row.unit {
+        Always(unit) => unit,
+        ByLaw(unit) => {
+            let [a, b] = scene.pair_of(name)?.map(MaterialIndex::index);
+            unit(scene.contacts.iter().find(|law| law.between[a * scene.materials.len() + b])?)
+        }
+    };
+    let (name, about) = (name.to_owned(), row.about.to_owned());
+    Some(Parameter { name, value, unit: Some(unit), range: row.range, tunable: row.tunable, about })
+}
+
+/// The parameter of this name, if it is a strength of a bond law.
+fn strength(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
+    let (bond, key) = scene.strength_of(name)?;
+    let mut keys = scene.bonds[bond].keys.breakage?;
+    let unit = keys.strengths().iter().find(|strength| strength.key == key)?.unit;
+    let about = format!("strength of bonds: {}", key.replace(['.', '_'], " "));
+    Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range: POSITIVE, tunable: true, about })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::contact::PairProperties;
+    use crate::scene::Range;
+
+    #[test]
+    fn every_property_of_a_pair_is_a_parameter() {
+        let nonsense = toml::Table::from_iter([("nonsense".to_owned(), 0.0.into())]);
+        let said = nonsense.try_into::<PairProperties>().unwrap_err().to_string();
+        let keys: Vec<&str> = said.split('`').skip(3).step_by(2).collect();
+        assert!(keys.len() > 15, "{said}");
+        for key in keys {
+            assert!(ROWS.iter().any(|row| is_of(&format!("pair.a.b.{key}"), row.keys)), "{key}");
+        }
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused_in_the_words_of_the_scene() {
+        let refused = |range: &Range, value: f64| range.check(value).unwrap_err();
+        assert_eq!(refused(&NON_NEGATIVE, -0.1), "expected a number of 0 or above, found -0.1");
+        assert_eq!(refused(&SAFETY, 1.0), "expected a number above 0 and below 1, found 1.0");
+        for row in ROWS {
+            let Range { minimum, maximum, .. } = row.range;
+            for bound in minimum.into_iter().chain(maximum) {
+                assert_eq!(row.range.check(bound), Ok(()), "{}", row.keys);
+            }
+        }
+    }
+}

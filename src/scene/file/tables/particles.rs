@@ -1,0 +1,58 @@
+//! `[particles.<name>]`
+
+use crate::base::quantity::{Positive, Triple};
+use crate::scene::import::{Format, Units};
+use crate::scene::packing::{LatticeTable, PackingTable};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// `[particles.<name>]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct ParticlesTable {
+    /// Material of those that name none.
+    pub(in crate::scene::file) material: Option<String>,
+    /// Material of each type or material that the file names.
+    #[serde(default)]
+    pub(in crate::scene::file) materials: BTreeMap<String, String>,
+    /// Density of those that have none of their own \[kg/m³\].
+    pub(in crate::scene::file) density: Option<Positive>,
+    /// Velocity of those that have none of their own \[m/s\].
+    pub(in crate::scene::file) velocity: Option<Triple>,
+    /// Angular velocity of those that have none of their own \[rad/s\].
+    pub(in crate::scene::file) angular_velocity: Option<Triple>,
+    /// The particles, one by one.
+    pub(in crate::scene::file) list: Option<Vec<ListEntry>>,
+    /// A file of particles.
+    pub(in crate::scene::file) file: Option<String>,
+    /// What the file is, where its name does not say.
+    pub(in crate::scene::file) format: Option<Format>,
+    /// The file's units.
+    pub(in crate::scene::file) units: Option<Units>,
+    /// The snapshot of a dump file; absent: the last.
+    pub(in crate::scene::file) timestep: Option<u64>,
+    /// A regular order.
+    pub(in crate::scene::file) lattice: Option<LatticeTable>,
+    /// A random packing.
+    pub(in crate::scene::file) packing: Option<PackingTable>,
+}
+
+/// A particle in a list.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct ListEntry {
+    /// Position of the centre \[m\].
+    pub(in crate::scene::file) position: Triple,
+    /// Radius \[m\].
+    pub(in crate::scene::file) radius: Positive,
+    /// Its number.
+    pub(in crate::scene::file) id: Option<u32>,
+    /// Its material.
+    pub(in crate::scene::file) material: Option<String>,
+    /// Its density \[kg/m³\].
+    pub(in crate::scene::file) density: Option<Positive>,
+    /// Its velocity \[m/s\].
+    pub(in crate::scene::file) velocity: Option<Triple>,
+    /// Its angular velocity \[rad/s\].
+    pub(in crate::scene::file) angular_velocity: Option<Triple>,
+}

@@ -1,0 +1,183 @@
+//! Data files of LIGGGHTS and LAMMPS (`read_data`, `write_data`) with spheres.
+
+use super::{FileFault, REPORTED, Request, Rows, non_spherical, periodic};
+use crate::base::document::Mistake;
+use std::collections::BTreeMap;
+
+/// Columns of a line of atoms, by the atom style that its section names.
+const STYLES: [(&str, &[&str]); 3] = [
+    ("sphere", &["id", "type", "diameter", "density", "x", "y", "z"]),
+    ("granular", &["id", "type", "diameter", "density", "x", "y", "z"]),
+    ("bpm/sphere", &["id", "molecule", "type", "diameter", "density", "x", "y", "z"]),
+];
+
+/// Columns of a line of velocities.
+const VELOCITIES: [&str; 7] = ["id", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+/// Columns that particles get from the file, beside their type.
+const NAMES: [&str; 12] = ["id", "diameter", "density", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+/// What has been read so far.
+#[derive(Default)]
+struct Reader {
+    /// Lines, labels.
+    rows: Rows,
+    /// Numbers by column.
+    columns: BTreeMap<&'static str, Vec<f64>>,
+    /// Mistakes.
+    faults: Vec<FileFault>,
+    /// How many atoms the head announces, and where.
+    announced: Option<(usize, usize)>,
+}
+
+/// Reads the text of a data file, and the units it states.
+pub(crate) fn read(text: &str, _request: &Request) -> Result<(Rows, Option<String>), Vec<FileFault>> {
+    let mut reader = Reader::default();
+    let title = text.lines().next().unwrap_or_default();
+    let units = title.split_once("units = ").map(|(_, units)| units.trim().to_owned());
+    let mut section = ("", "");
+    // Velocities may stand before the atoms.
+    let mut velocities = Vec::new();
+    for (number, line) in (1..).zip(text.lines()).skip(1) {
+        let (content, comment) = line.split_once('#').unwrap_or((line, ""));
+        let content = content.trim();
+        if content.is_empty() {
+            continue;
+        }
+        if content.starts_with(|first: char| first.is_ascii_alphabetic()) {
+            section = (content, comment.trim());
+            if ["Ellipsoids", "Bodies", "Lines", "Triangles"].contains(&content) {
+                return Err(non_spherical(number));
+            }
+            continue;
+        }
+        match section.0 {
+            "" => reader.head(number, content)?,
+            "Atoms" => reader.atom(number, content, section.1)?,
+            "Velocities" => velocities.push((number, content)),
+            _ => {}
+        }
+        if reader.faults.len() >= REPORTED {
+            break;
+        }
+    }
+    reader.velocities(&velocities);
+    reader.finish().map(|rows| (rows, units))
+}
+
+impl Reader {
+    /// A line before the first section.
+    fn head(&mut self, number: usize, content: &str) -> Result<(), Vec<FileFault>> {
+        let words: Vec<&str> = content.split_whitespace().collect();
+        match words[..] {
+            [count, "atoms"] => match count.parse() {
+                Ok(count) => self.announced = Some((count, number)),
+                Err(_) => {
+                    let (found, expected) = (format!("{count:?} atoms"), "a whole number of atoms".to_owned());
+                    return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
+                }
+            },
+            [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
+                return Err(non_spherical(number));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A line of the section Atoms.
+    fn atom(&mut self, number: usize, content: &str, style: &str) -> Result<(), Vec<FileFault>> {
+        let words: Vec<&str> = content.split_whitespace().collect();
+        let wanted = if style.is_empty() { "sphere" } else { style };
+        if ["ellipsoid", "superquadric", "body", "line", "tri"].iter().any(|other| style.contains(other)) {
+            return Err(non_spherical(number));
+        }
+        let Some((_, columns)) = STYLES.iter().find(|(known, _)| *known == wanted) else {
+            let (found, expected) = (format!("atom style {style}"), "sphere, granular or bpm/sphere".to_owned());
+            return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
+        };
+        if words.len() != columns.len() && words.len() != columns.len() + 3 {
+            let found = format!("{} numbers", words.len());
+            let expected = format!("{}, and perhaps ix iy iz, of atom style {wanted}", columns.join(" "));
+            return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
+        }
+        if words[columns.len()..].iter().any(|image| *image != "0") {
+            return Err(periodic(number));
+        }
+        for (word, column) in words.iter().zip(*columns) {
+            match *column {
+                "type" => self.rows.push_label(word),
+                "molecule" => {}
+                column => self.number(number, column, word),
+            }
+        }
+        self.rows.lines.push(number as u32);
+        Ok(())
+    }
+
+    /// Notes a number.
+    fn number(&mut self, line: usize, column: &'static str, word: &str) {
+        match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => self.columns.entry(column).or_default().push(value),
+            _ => self.faults.push(FileFault::number(line, column, word)),
+        }
+    }
+
+    /// The lines of the section Velocities.
+    fn velocities(&mut self, lines: &[(usize, &str)]) {
+        if lines.is_empty() || !self.faults.is_empty() {
+            return;
+        }
+        let count = self.rows.lines.len();
+        let ids = self.columns.get("id").map_or(&[][..], Vec::as_slice);
+        let row_of: BTreeMap<u64, usize> = ids.iter().map(|id| *id as u64).zip(0..).collect();
+        let mut columns = [const { Vec::new() }; 6];
+        columns.iter_mut().for_each(|column| column.resize(count, 0.0));
+        for (number, content) in lines {
+            let words: Vec<&str> = content.split_whitespace().collect();
+            let row = words.first().and_then(|id| id.parse().ok()).and_then(|id: u64| row_of.get(&id).copied());
+            let Some(row) = row.filter(|_| words.len() == 4 || words.len() == VELOCITIES.len()) else {
+                let found = format!("{content:?}");
+                let expected = "the number of an atom of this file, and vx vy vz wx wy wz".to_owned();
+                self.faults.push(FileFault::at(*number, "", Mistake::Unexpected { found, expected }));
+                continue;
+            };
+            for ((word, name), column) in words[1..].iter().zip(&VELOCITIES[1..]).zip(&mut columns) {
+                match word.parse::<f64>() {
+                    Ok(value) if value.is_finite() => column[row] = value,
+                    _ => self.faults.push(FileFault::number(*number, name, word)),
+                }
+            }
+            if self.faults.len() >= REPORTED {
+                return;
+            }
+        }
+        self.columns.extend(VELOCITIES[1..].iter().copied().zip(columns));
+    }
+
+    /// All rows.
+    fn finish(mut self) -> Result<Rows, Vec<FileFault>> {
+        let count = self.rows.lines.len();
+        match self.announced {
+            Some((announced, line)) if announced != count && self.faults.is_empty() => {
+                let (found, expected) = (count.to_string(), format!("{announced} atoms, as announced"));
+                self.faults.push(FileFault::at(line, "", Mistake::Unexpected { found, expected }));
+            }
+            None if count == 0 => {
+                let expected = "\"<number> atoms\" and a section Atoms of a data file".to_owned();
+                self.faults.push(FileFault::whole(Mistake::Unexpected { found: "no atoms".to_owned(), expected }));
+            }
+            _ => {}
+        }
+        if !self.faults.is_empty() {
+            return Err(self.faults);
+        }
+        let mut rows = Rows { count, label_column: "type".to_owned(), ..self.rows };
+        for name in NAMES {
+            if let Some(column) = self.columns.remove(name) {
+                rows.insert(name, column);
+            }
+        }
+        Ok(rows)
+    }
+}
