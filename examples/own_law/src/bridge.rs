@@ -235,8 +235,10 @@ mod tests {
         };
         let angle = told(SCENE.replace("contact_angle = 0.5", "contact_angle = 2.0"));
         assert!(angle.contains("expected an angle from 0 to below π/2, found 2"), "{angle}");
-        let name = told(SCENE.replace("cohesion.liquid_bridge", "cohesion.liquid_bridges"));
-        assert!(name.contains("liquid_bridge") && name.contains("sjkr"), "the names and the nearest: {name}");
+        let near = told(SCENE.replace("cohesion.liquid_bridge", "cohesion.liquid_bridges"));
+        assert!(near.contains("liquid_bridge"), "the nearest name: {near}");
+        let far = told(SCENE.replace("cohesion.liquid_bridge", "cohesion.glue"));
+        assert!(far.contains("none, sjkr, sjkr2, liquid_bridge"), "all names: {far}");
         let hooke = told(SCENE.replace("normal.hertz]", "normal.hooke]\ncharacteristic_velocity = 1.0"));
         assert!(hooke.contains("beyond touch"), "{hooke}");
     }

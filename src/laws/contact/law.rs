@@ -46,6 +46,8 @@ pub struct Law {
     history_places: HistoryPlaces,
     /// Where coefficients stand.
     places: CoefficientPlaces,
+    /// Whether its cohesion model acts beyond touch.
+    parts: bool,
     /// What the scene named.
     choice: LawChoice,
 }
@@ -172,7 +174,8 @@ impl Law {
             cohesion: after_rolling,
             count: after_rolling + cohesion.row().count,
         };
-        Self { history, history_places, places, choice: *choice }
+        let parts = cohesion.row().does.beyond_touch;
+        Self { history, history_places, places, parts, choice: *choice }
     }
 
     /// Where the coefficients of each sub-model stand in a row of them.
@@ -202,7 +205,7 @@ impl Law {
 
     /// Whether a number is kept of each near pair.
     pub fn has_pair_constant(&self) -> bool {
-        self.normal().has_pair_constant || self.cohesion().beyond_touch
+        self.normal().has_pair_constant || self.parts
     }
 
     /// Whether bodies feel friction from it.
@@ -247,7 +250,7 @@ impl Law {
 
     /// Whether bodies that have touched hold together beyond touch: as far as their pair constant says.
     pub fn holds_beyond_touch(&self) -> bool {
-        self.pulls_beyond_touch() || self.cohesion().beyond_touch
+        self.pulls_beyond_touch() || self.parts
     }
 
     /// Whether the normal model does that: its dashpot acts beyond touch, too.
@@ -257,23 +260,23 @@ impl Law {
 
     /// Whether the cohesion model does that, which beyond touch acts alone.
     pub(crate) fn parts(&self) -> bool {
-        self.cohesion().beyond_touch
+        self.parts
     }
 
     /// Whether bodies of such an overlap \[m\] are apart, and the cohesion model acts alone.
     fn is_apart(&self, overlap: f64) -> bool {
-        self.parts() && overlap < 0.0
+        self.parts && overlap < 0.0
     }
 
     /// Whether its force can be taken from the overlap beyond an offset, as contacts need that a bond suppresses: where it is a
     /// spring's that does not remember, and nothing else remembers or acts beyond touch.
     pub fn takes_offset(&self) -> bool {
-        self.presses() && !self.parts() && self.history_places.cohesion.is_none()
+        self.presses() && !self.parts && self.history_places.cohesion.is_none()
     }
 
     /// How far beyond touch bodies of this effective radius hold together \[m\].
     pub fn reach(&self, row: &[f64], radius: f64) -> f64 {
-        if self.parts() {
+        if self.parts {
             return (self.cohesion().reach)(&row[self.places.cohesion..], radius);
         }
         (self.normal().reach)(row, radius)
@@ -281,7 +284,7 @@ impl Law {
 
     /// What is kept of each near pair: how far it holds together beyond touch, or what the normal model wants to know.
     pub fn pair_constant(&self, row: &[f64], radius: f64, mass: f64) -> f64 {
-        if self.parts() { self.reach(row, radius) } else { (self.normal().pair_constant)(row, radius, mass) }
+        if self.parts { self.reach(row, radius) } else { (self.normal().pair_constant)(row, radius, mass) }
     }
 
     /// Switches in a row of coefficients.
@@ -447,10 +450,9 @@ impl Law {
     pub fn elastic_energy(&self, row: &[f64], contact: &Contact, offset: f64, history: &[Row]) -> f64 {
         let of = |place: Option<usize>| place.and_then(|place| history.get(place).copied());
         let mut energy = self.normal_energy(row, contact, offset, history);
-        let response = self.response(row, contact);
         if let Some(spring) = of(self.spring()).map(Vector::from) {
-            let stiffness =
-                (self.tangential().stiffness)(&row[self.places.tangential..], response.tangential_stiffness);
+            let from_normal_model = self.response(row, contact).tangential_stiffness;
+            let stiffness = (self.tangential().stiffness)(&row[self.places.tangential..], from_normal_model);
             energy += 0.5 * stiffness * spring.dot(spring);
         }
         energy + self.rolling_energy(row, contact, history)
