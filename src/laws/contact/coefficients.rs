@@ -38,8 +38,8 @@ macro_rules! coefficients {
             }
         }
 
-        impl $crate::laws::contact::Coefficients for $name {
-            type Lanes<N: $crate::base::number::Number> = $name<N>;
+        impl $crate::contact::Coefficients for $name {
+            type Lanes<N: $crate::number::Number> = $name<N>;
             const COUNT: usize = <[&str]>::len(&[$(stringify!($field)),*]);
             fn write(&self, _row: &mut Vec<f64>) {
                 $(_row.push(self.$field);)*
@@ -48,7 +48,7 @@ macro_rules! coefficients {
                 Self::lanes(row)
             }
             #[inline(always)]
-            fn lanes<N: $crate::base::number::Number>(row: &[N]) -> $name<N> {
+            fn lanes<N: $crate::number::Number>(row: &[N]) -> $name<N> {
                 let mut _row = row.iter();
                 $(let $field = *_row.next().expect("a row has as many numbers as the sub-model");)*
                 $name { $($field,)* marker: std::marker::PhantomData }
