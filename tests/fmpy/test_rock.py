@@ -28,11 +28,7 @@ BRIEFLY = ["--speed", "1", "--end", "6e-5", "--no-picture"]
 def pair(request, tmp_path_factory):
     """The disc and the press as units."""
     program = ROOT / request.config.getoption("--program")
-    return laboratory.units(
-        program,
-        ROOT / "models" / "brazilian" / "scene.toml",
-        tmp_path_factory.mktemp("rock"),
-    )
+    return laboratory.units(program, ROOT / "models" / "brazilian" / "scene.toml", tmp_path_factory.mktemp("rock"))
 
 
 def rows(ways, *arguments):
@@ -59,10 +55,7 @@ def test_libcosimpy_couples_to_the_numbers_of_our_own_master(pair):
 
 def test_an_implicit_exchange_closes_the_book_between_the_units(pair):
     taken = rows(machine.with_fmpy, *pair, PARAMETERS, INTERVAL, "implicit")
-    work, specimen = (
-        taken[:, machine.COLUMNS.index(name)]
-        for name in ("upper.work", "press.specimen_work")
-    )
+    work, specimen = (taken[:, machine.COLUMNS.index(name)] for name in ("upper.work", "press.specimen_work"))
     moved = np.abs(np.diff(taken[:, 1], prepend=0.0)).sum()
     assert work[-1] > 1e-6
     # The master repeats steps until the forces agree to a thousandth of a newton.
@@ -72,9 +65,7 @@ def test_an_implicit_exchange_closes_the_book_between_the_units(pair):
 def test_the_press_keeps_its_energy_book(pair):
     taken = rows(machine.with_fmpy, *pair, PARAMETERS, INTERVAL, "sequential")
     names = ("press.drive_work", "press.specimen_work", "press.energy", "press.loss")
-    drive, specimen, energy, loss = (
-        taken[-1, machine.COLUMNS.index(name)] for name in names
-    )
+    drive, specimen, energy, loss = (taken[-1, machine.COLUMNS.index(name)] for name in names)
     assert drive > 1e-3
     assert abs(drive + specimen - energy - loss) < 1e-14 * drive * STEPS
 
@@ -86,9 +77,7 @@ def test_a_replay_gives_the_bits_of_the_coupled_unit(pair, cograin, tmp_path):
         own = [machine.COLUMNS.index(name) for name in ("time", machine.PLATEN)]
         csv.writer(text).writerows([["time", machine.PLATEN], *taken[:, own].tolist()])
     scene = ROOT / "models" / "brazilian" / "scene.toml"
-    cograin(
-        "run", scene, "--inputs", tmp_path / "couple.csv", "-o", tmp_path / "replay"
-    )
+    cograin("run", scene, "--inputs", tmp_path / "couple.csv", "-o", tmp_path / "replay")
     names, replayed = table(tmp_path / "replay" / "history.csv")
     assert len(replayed) == STEPS + 1
     for name in (*machine.READ, "bonds.broken"):
@@ -101,8 +90,7 @@ def test_a_replay_gives_the_bits_of_the_coupled_unit(pair, cograin, tmp_path):
 
 def test_disc_and_core_are_of_one_material():
     core, disc = (
-        tomllib.loads((ROOT / "models" / name / "scene.toml").read_text())
-        for name in ("rock_core", "brazilian")
+        tomllib.loads((ROOT / "models" / name / "scene.toml").read_text()) for name in ("rock_core", "brazilian")
     )
     for key in ("material", "pair", "contact", "damping"):
         assert core[key] == disc[key], key
@@ -119,14 +107,7 @@ def test_disc_and_core_are_of_one_material():
 def test_the_tests_of_rock_begin_as_expected(specimen, request, tmp_path):
     folder = ROOT / "models" / specimen
     program = ROOT / request.config.getoption("--program")
-    command = [
-        sys.executable,
-        folder / "couple.py",
-        "--program",
-        program,
-        "--output",
-        tmp_path,
-    ]
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
     subprocess.run([*command, *BRIEFLY], check=True, capture_output=True)
     # Spheres that touch one after the other make more of a last bit: some ten times as much in a communication step.
     compare(table(tmp_path / "couple.csv"), table(folder / "expected.csv"), 1e-6)
