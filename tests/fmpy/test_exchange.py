@@ -136,7 +136,9 @@ def test_what_is_inserted_has_the_velocity_the_scatter_and_the_seed_that_are_ask
 def test_a_run_that_is_interrupted_and_resumed_leaves_the_same_files(request, cograin, chute, tmp_path):
     whole, scene, _ = chute
     program = ROOT / request.config.getoption("--program")
-    with subprocess.Popen([program, "run", scene, "-o", tmp_path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
+    # A test that runs in the background may have inherited that interruptions are ignored.
+    command = ["env", "--default-signal=INT", program, "run", scene, "-o", tmp_path]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
         while not (tmp_path / "particles_000003.vtu").exists() and run.poll() is None:
             time.sleep(0.002)
         run.send_signal(signal.SIGINT)

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 
 /// Starts a run of many steps, stops it as told, and returns the folder; also the folder of a run that was left alone.
 fn broken_and_whole(place: &Place, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf, PathBuf) {
-    let scene = place.scene("end = 1.0\nstep = 1e-6", ALL_OUTPUTS);
+    let scene = place.scene("end = 0.4\nstep = 1e-6", ALL_OUTPUTS);
     let (broken, whole) = break_off(place, &scene, stop);
     (scene, broken, whole)
 }
@@ -15,8 +15,14 @@ fn broken_and_whole(place: &Place, stop: impl FnOnce(Child)) -> (PathBuf, PathBu
 /// The same for a scene of its own, which writes more than seventeen rows.
 fn break_off(place: &Place, scene: &Path, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf) {
     let (broken, whole) = (place.at("broken"), place.at("whole"));
-    let mut child =
-        cograin(&[&"run", &scene, &"-o", &broken]).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    // A test that runs in the background may have inherited that interruptions are ignored.
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT", env!("CARGO_BIN_EXE_cograin"), "run"]).args([
+        scene,
+        Path::new("-o"),
+        &broken,
+    ]);
+    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     wait_for_rows(&mut child, &broken, 17);
     stop(child);
     complaint(&cograin(&[&"run", &scene, &"-o", &whole]).output().unwrap(), 0);
