@@ -115,7 +115,8 @@ class Coupling:
         """The rows until a time, which is a multiple of the step, one after the other."""
         count = (end - self._start) / self.step
         if abs(count - round(count)) > 1e-6:
-            raise ValueError(f"end: expected a whole number of steps of {self.step:g} s, found {count:.10g} up to {end:g} s")
+            found = f"{count:.10g} up to {end:g} s"
+            raise ValueError(f"end: expected a whole number of steps of {self.step:g} s, found {found}")
         while self._place < round(count):
             yield self.advance()
 

@@ -115,7 +115,8 @@ class Interface:
         if substeps < 1:
             raise ValueError(f"substeps: expected at least 1, found {substeps}")
         if through is not None and through.shape[0] != len(inputs):
-            raise ValueError(f"through: expected a row for each of {len(inputs)} displacements, found {through.shape[0]}")
+            found = through.shape[0]
+            raise ValueError(f"through: expected a row for each of {len(inputs)} displacements, found {found}")
         self._parts = [_Part(unit, inputs, ends, means, through)]
         self.substeps = substeps
         self._refresh()
@@ -266,7 +267,8 @@ def _answer(name: str, kind: int) -> str:
     parts = name.split(".")
     if len(parts) < 3 or parts[-2] not in _ANSWERS:
         expected = "<boundary>.displacement.<axis> or <boundary>.rotation.<axis>"
-        raise ValueError(f"expected {expected}, found {name}; name forces and mean_forces where a unit calls them otherwise")
+        advice = "name forces and mean_forces where a unit calls them otherwise"
+        raise ValueError(f"expected {expected}, found {name}; {advice}")
     return ".".join([*parts[:-2], _ANSWERS[parts[-2]][kind], parts[-1]])
 
 

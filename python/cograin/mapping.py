@@ -83,7 +83,9 @@ def _checked(nodes: ArrayLike, triangles: ArrayLike, points: ArrayLike) -> tuple
         if not np.all(np.isfinite(rows)):
             raise ValueError(f"{name}: expected finite numbers, found others")
     if faces.min() < 0 or faces.max() >= len(corners):
-        raise ValueError(f"triangles: expected nodes from 0 to {len(corners) - 1}, found {faces.min()} to {faces.max()}")
+        raise ValueError(
+            f"triangles: expected nodes from 0 to {len(corners) - 1}, found {faces.min()} to {faces.max()}"
+        )
     a, b, c = (corners[faces[:, corner]] for corner in range(3))
     flat = np.linalg.norm(np.cross(b - a, c - a), axis=1) == 0.0
     if flat.any():

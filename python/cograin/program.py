@@ -34,7 +34,7 @@ class Program:
         return self("settle", scene, "-o", checkpoint, "--overwrite")
 
     def export(self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None) -> Path:
-        """Packages a scene as a unit, in a settled state if one is given, in place of an earlier file; returns its path."""
+        """Packages a scene, settled if a state is given, in place of an earlier file; returns the unit's path."""
         settled = () if start is None else ("--from", start)
         self("export", scene, *settled, "-o", unit, "--overwrite")
         return Path(unit)

@@ -340,5 +340,5 @@ def test_watched_values_are_the_same_read_together_or_one_by_one(drop):
 
 
 def test_the_end_is_a_whole_number_of_steps(drop):
-    with pytest.raises(ValueError, match="expected a whole number of steps of 0.001 s, found 10.5 up to 0.0105 s"):
+    with pytest.raises(ValueError, match=r"expected a whole number of steps of 0\.001 s, found 10\.5 up to 0\.0105 s"):
         falls(drop, Secant(), step=1e-3, end=0.0105)

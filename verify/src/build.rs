@@ -46,7 +46,14 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
     let draft = SceneDraft {
-        run: Run { step: Step::Given(step), allow_unstable: true, threads: Some(1), ..Run::default() },
+        // Cases may begin with any overlap.
+        run: Run {
+            step: Step::Given(step),
+            allow_unstable: true,
+            threads: Some(1),
+            max_overlap: f64::MAX,
+            ..Run::default()
+        },
         gravity: finite("gravity", case.gravity)?,
         materials,
         pairs,

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 const BOND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/bond");
 
 /// Where the table stands.
-const DOCUMENTATION: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bonds.md");
+const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bond_formulations.md");
 
 /// Steps of a case that are compared at most.
 const MOST: u64 = 2000;
@@ -110,7 +110,7 @@ fn difference(case: &Value, theirs: &[[[f64; 3]; 3]], ours: &[[[f64; 3]; 3]]) ->
     (0..3).fold(0.0, |most, quantity| (worst[quantity] / scale[quantity].max(f64::MIN_POSITIVE)).max(most))
 }
 
-/// What becomes of a difference at the step as it is halved three times, as the documentation writes it.
+/// What becomes of a difference at the step as it is halved three times, as the table writes it.
 ///
 /// The first ratio does not count: the step of a case need not lie in the range where the first order rules. In
 /// `cantilever_10` spheres turn against the shear of their bonds at ω² = k_t A L² / (2/5 m r²) = 4e9 · 7.85e-5 · 0.0101² /
@@ -129,9 +129,9 @@ fn class([whole, half, quarter, eighth]: [f64; 4]) -> String {
 }
 
 #[test]
-fn the_table_of_differences_is_that_of_the_documentation() {
+fn the_table_of_differences_holds() {
     let scratch = Scratch(std::env::temp_dir().join(format!("cograin-formulations-{}", std::process::id())));
-    let documentation = fs::read_to_string(DOCUMENTATION).expect("the documentation");
+    let table = fs::read_to_string(TABLE).expect("the table");
     let mut wrong = Vec::new();
     for folder in find(&[BOND.into()]).expect("cases") {
         let name = folder.file_name().expect("a name").to_string_lossy().into_owned();
@@ -152,11 +152,11 @@ fn the_table_of_differences_is_that_of_the_documentation() {
             class(found)
         });
         let row = format!("| {name} | {} | {} |", classes[0], classes[1]);
-        if !documentation.contains(&row) {
+        if !table.contains(&row) {
             wrong.push(row);
         }
     }
-    assert!(wrong.is_empty(), "not in the documentation:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "not in the table:\n{}", wrong.join("\n"));
 }
 
 /// The case with this share of its velocities.

@@ -295,7 +295,7 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
     let with = |from: &str, to: &str| changed(&good, from, to);
     let table = [
         ("syntax", "{\n \"dt\": ,".to_owned(), "case.json, line 2: expected value at line 2 column 8"),
-        ("step", with("\"dt\": ", "\"dt\": -"), "case.json, dt: -"),
+        ("step", with("\"dt\": ", "\"dt\": -"), "case.json, dt: expected a number above 0, found -"),
         (
             "steps",
             with("\"steps\": 450", "\"steps\": 0"),
@@ -329,7 +329,11 @@ fn bad_cases_are_refused_with_field_finding_and_remedy() {
                                                       2, found 3",
         ),
         ("id", with("\"id\": 2", "\"id\": 1"), "case.json, particles: two of them have id 1"),
-        ("radius", with("\"radius\": 0.0", "\"radius\": -0.0"), "case.json, particles[0].radius: -0.0"),
+        (
+            "radius",
+            with("\"radius\": 0.0", "\"radius\": -0.0"),
+            "case.json, particles[0].radius: expected a number above 0, found -0.0",
+        ),
         (
             "speed",
             with("\"normal\": \"hertz\"", "\"normal\": \"hooke\""),

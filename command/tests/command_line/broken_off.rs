@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 
 /// Starts a run of many steps, stops it as told, and returns the folder; also the folder of a run that was left alone.
 fn broken_and_whole(place: &Place, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf, PathBuf) {
-    let scene = place.scene("end = 0.4\nstep = 1e-6", ALL_OUTPUTS);
+    let scene = place.scene("end = 1.0\nstep = 1e-6", ALL_OUTPUTS);
     let (broken, whole) = break_off(place, &scene, stop);
     (scene, broken, whole)
 }

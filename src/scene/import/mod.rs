@@ -433,7 +433,7 @@ mod tests {
         wrong("id type xs ys zs x y z radius", "1 1 0.25 0 0 0.75 0 0 0.1", "0.75 of x and 0.5 of xs");
         wrong("id type x y z radius diameter", "1 1 0 0 0 0.1 0.1", "0.1 of radius and 0.05 of diameter");
         wrong("id type x y z radius density mass", "1 1 0 0 0 0.1 2500 1", "2500.0 of density");
-        wrong("id type x y z radius", "1 1 0 0 0 0.1 7", "7 numbers");
+        wrong("id type x y z radius", "1 1 0 0 0 0.1 7", "6 numbers");
         let labels = read_as("a.csv", b"x,y,z,radius,type,material\n0,0,0,1,1,glass\n").unwrap_err();
         assert!(labels.contains("both columns material and type"), "{labels}");
     }

@@ -108,7 +108,7 @@ fn names_are_those_of_the_files() {
         ("rolling", rolling::STANDARD.iter().map(|row| row.name()).collect()),
         ("cohesion", cohesion::STANDARD.iter().map(|row| row.name()).collect()),
     ];
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/contact");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/laws/contact");
     for (axis, names) in axes {
         for name in names {
             assert!(folder.join(axis).join(name).with_extension("rs").is_file(), "{axis}/{name}");
