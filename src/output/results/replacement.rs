@@ -121,7 +121,7 @@ enum Kind {
 }
 
 /// Who has written a file with the name of a result, as its first bytes show; frames are those that a run's own list of them, the
-/// `.pvd` beside them, names, and the next one of the list, which a run that was broken off may have left.
+/// `.pvd` beside them, names, and those that follow the last one named.
 fn kind_of(path: &Path) -> Result<Kind, OutputError> {
     let about = match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kind::Absent),
@@ -146,12 +146,15 @@ fn kind_of(path: &Path) -> Result<Kind, OutputError> {
     Ok(if own { Kind::Own } else { Kind::Foreign })
 }
 
-/// Whether a frame stands in the list of frames of its kind, or comes next there.
+/// Whether a frame stands in the list of frames of its kind, or follows it there.
 fn is_listed(path: &Path, name: &str) -> bool {
     let Some((kind, number)) = name.rsplit_once('_').zip(frame_number(name)) else { return false };
     let Ok(list) = fs::read_to_string(path.with_file_name(super::collection_name(kind.0))) else { return false };
-    let listed = |number: usize| list.contains(&format!("file=\"{}\"", super::frame_name(kind.0, number)));
-    list.starts_with(collection::HEAD) && (listed(number) || number.checked_sub(1).is_none_or(listed))
+    let frame = |number: usize| super::frame_name(kind.0, number);
+    // A run that was broken off may have left frames that its list does not name yet: they follow each other from the last one named on.
+    let known = |number: &usize| list.contains(&format!("file=\"{}\"", frame(*number)));
+    let mut before = (0..=number).rev().take_while(|before| path.with_file_name(frame(*before)).exists());
+    list.starts_with(collection::HEAD) && (before.any(|before| known(&before) || before == 0))
 }
 
 /// Whether a file has a name that runs give.
