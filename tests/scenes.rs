@@ -1,6 +1,6 @@
 //! Scenes that are accepted, and scenes that are refused with the very message they hold after `#!`.
 
-use cograin::bond::breakage::Rule;
+use cograin::bond::breakage::stress::StressLimits;
 use cograin::quantity::MaterialIndex;
 use cograin::scene::{AxisMotion, InputCourse, Scene, SceneDraft, Source, Step};
 use rand_chacha::ChaCha8Rng;
@@ -89,10 +89,10 @@ fn everything_written_arrives() {
     assert_eq!(scene.pairs[3].friction, None);
     assert_eq!(scene.contacts[0].between, [true, false, false, false]);
     assert_eq!(scene.contacts[1].between, [false, true, true, false]);
-    assert_eq!(scene.contacts[0].switches.least_force, 0.0);
-    assert_eq!(scene.contacts[1].switches.least_force, f64::NEG_INFINITY);
-    assert_eq!(scene.contacts[0].switches.tangential_damping_factor, 1.0);
-    assert_eq!(scene.contacts[1].switches.tangential_damping_factor, 0.0);
+    assert_eq!(scene.contacts[0].choice.switches.least_force, 0.0);
+    assert_eq!(scene.contacts[1].choice.switches.least_force, f64::NEG_INFINITY);
+    assert_eq!(scene.contacts[0].choice.switches.tangential_damping_factor, 1.0);
+    assert_eq!(scene.contacts[1].choice.switches.tangential_damping_factor, 0.0);
     assert_eq!(scene.domain, Some([[-1.0; 3], [1.0; 3]]));
     assert_eq!(scene.output.frame_interval, Some(1e-2));
     assert!(scene.output.contacts && scene.output.energy);
@@ -386,11 +386,11 @@ fn damaged_data_of_a_vtk_file_are_told_in_words() {
 fn bonds_arrive_by_distance_and_by_list() {
     let scene = good("bonded.toml");
     let (beam, chain) = (&scene.bonds[0], &scene.bonds[1]);
-    assert_eq!((beam.name.as_str(), beam.create_distance), ("beam", Some(1.6e-3)));
+    assert_eq!((beam.name.as_str(), beam.create_distance()), ("beam", Some(1.6e-3)));
     assert_eq!(beam.between.map(|set| set.0), [0, 0]);
     let ids: Vec<[u32; 2]> =
         chain.pairs.iter().map(|pair| pair.map(|index| scene.particles[index as usize].id.0)).collect();
     assert_eq!(ids, [[20, 10], [30, 10]]);
-    let limits = &chain.law.breakage[..];
-    assert!(matches!(limits, [Rule::StressLimits(rule)] if rule.compression_strength == 1e7), "{limits:?}");
+    let [rule] = &scene.bond_law(1).breakage[..] else { panic!("one rule") };
+    assert_eq!(rule.numbers::<StressLimits>().map(|limits| limits.compression_strength), Some(1e7));
 }

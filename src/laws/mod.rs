@@ -2,6 +2,7 @@
 
 pub mod bond;
 pub mod contact;
+mod kept;
 pub mod motion;
 pub mod region;
 pub mod surface;
