@@ -1,7 +1,8 @@
 //! Scenes that are accepted, and scenes that are refused with the very message they hold after `#!`.
 
 use cograin::bond::breakage::stress::StressLimits;
-use cograin::quantity::MaterialIndex;
+use cograin::contact::Scheme;
+use cograin::quantity::{MaterialIndex, Positive};
 use cograin::scene::{AxisMotion, InputCourse, Scene, SceneDraft, Source, Step};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -218,6 +219,30 @@ fn a_value_that_no_key_takes_is_refused_in_a_draft() {
         let errors = draft.build().expect_err(&format!("case {number} is refused"));
         assert_eq!((&*errors.list[0].table, &*errors.list[0].key), (*table, *key), "case {number}: {errors}");
     }
+}
+
+#[test]
+fn a_draft_that_says_two_things_is_refused() {
+    let refused = |scene: &str, spoil: fn(&mut SceneDraft)| {
+        let mut draft = good(scene).into_draft();
+        spoil(&mut draft);
+        let error = draft.build().expect_err("it says two things").list.remove(0);
+        format!("{} {}", error.table, error.key)
+    };
+    let scheme = |draft: &mut SceneDraft| draft.run.scheme = Scheme::Engine;
+    assert_eq!(refused("everything.toml", scheme), "contact.grains scheme");
+    let bonded = |spoil| refused("bonded.toml", spoil);
+    assert_eq!(bonded(|draft| draft.bonds[0].keys.between[0] = "nobody".into()), "bond.beam between");
+    assert_eq!(bonded(|draft| draft.bonds[0].pairs = vec![[0, 1]]), "bond.beam create");
+    assert_eq!(bonded(|draft| draft.bonds[1].pairs.swap(0, 1)), "bond.chain create.pairs");
+    assert_eq!(bonded(|draft| draft.bonds[1].pairs.clear()), "bond.chain create.pairs");
+}
+
+#[test]
+fn the_numbers_of_a_bond_are_those_of_its_keys() {
+    let mut draft = good("bonded.toml").into_draft();
+    draft.bonds[0].keys.normal_stiffness = Positive::new(3e9).unwrap();
+    assert_eq!(draft.build().unwrap().bond_law(0).elasticity.tension, 3e9);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What bodies do to each other, what a boundary is and how it moves: pure functions, without `unsafe`.
+//! What bodies do to each other, what a boundary is and how it moves: pure functions. `unsafe` stands in `contact/batch` alone.
 
 pub mod bond;
 pub mod contact;
