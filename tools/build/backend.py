@@ -1,7 +1,8 @@
 """Makes the wheel: the command, the library of units and the Python package, in one.
 
-What `pip install .` calls (PEP 517). The command and the library are built by cargo, unless they are built already and named:
-`--config-settings program=PATH`, or the environment variable COGRAIN_PROGRAM; the library is then the one beside it.
+What `pip install .` calls (PEP 517). The command and the library are built by cargo, unless they are built already and
+named: `--config-settings program=PATH`, or the environment variable COGRAIN_PROGRAM; the library is then the one beside
+it.
 `--config-settings platform=TAG` names another platform than that of this machine.
 
 An editable wheel has the Python package alone: whoever changes the tree builds the command with cargo.
@@ -42,7 +43,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     named = settings.get("program") or os.environ.get("COGRAIN_PROGRAM")
     program, library = built_before(Path(named)) if named else built_now()
     platform = settings.get("platform") or sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    files = {f"cograin/{path.name}": path.read_bytes() for path in sorted((ROOT / "python/cograin").glob("*.py*"))}
+    package = [path for path in sorted((ROOT / "python/cograin").iterdir()) if path.is_file()]
+    files = {f"cograin/{path.name}": path.read_bytes() for path in package}
     programs = {
         f"{NAME}.data/scripts/{program.name}": program.read_bytes(),
         f"{NAME}.data/data/lib/cograin/{library.name}": library.read_bytes(),
@@ -76,7 +78,9 @@ def built_now():
     try:
         subprocess.run(command, cwd=ROOT, check=True)
     except FileNotFoundError:
-        raise SystemExit("cargo: not found; install Rust 1.95 or later, or name a program: COGRAIN_PROGRAM=PATH") from None
+        raise SystemExit(
+            "cargo: not found; install Rust 1.95 or later, or name a program: COGRAIN_PROGRAM=PATH"
+        ) from None
     described = subprocess.run(
         [cargo, "metadata", "--format-version", "1", "--no-deps"], cwd=ROOT, check=True, capture_output=True
     )
