@@ -9,4 +9,4 @@ with Unit("beam.fmu") as beam:
         beam["tip.displacement.z"] = -1e-8 * step
         beam.step(1e-4)
         if step % 10 == 0:
-            print(f"{1e-8 * step:.3g},{-beam['tip.force.z']:.5g}")
+            print(f"{1e-8 * step:.3g},{beam['tip.force.z']:.5g}")
