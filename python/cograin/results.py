@@ -22,10 +22,17 @@ from numpy.typing import NDArray
 
 from cograin.vector import Vector
 
-#: Units of the variables of a unit, by the last of these words in their names.
-UNITS = {
+#: Units of the columns of a history or a record, by the first word of their names.
+FIRST = {
     "time": "s",
+    "time_step": "s",
     "length": "s",
+    "energy": "J",
+    "interface_energy": "J",
+    "exchanged_work": "J",
+}
+#: By the last of these words behind the name of a boundary, a region and so on.
+UNITS = {
     "displacement": "m",
     "velocity": "m/s",
     "rotation": "rad",
@@ -40,23 +47,20 @@ UNITS = {
     "mean_moment": "N.m",
     "applied_moment": "N.m",
     "work": "J",
-    "energy": "J",
     "elastic_energy": "J",
     "dissipated_energy": "J",
-    "interface_energy": "J",
-    "exchanged_work": "J",
     "mass": "kg",
     "mass_flow": "kg/s",
     "stress": "Pa",
     "temperature": "m2/s2",
     "stiffness": "N/m",
-    "time_step": "s",
 }
 
 
 def unit_of(name: str) -> str:
     """The unit of a variable of a unit or a column of a history; ``1`` for counts and ratios."""
-    return next((UNITS[word] for word in reversed(name.split(".")) if word in UNITS), "1")
+    first, *words = name.split(".")
+    return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
 
 
 class ResultError(Exception):
