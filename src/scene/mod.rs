@@ -3,6 +3,7 @@
 //! A [`SceneDraft`] has public parts that code may fill in; [`SceneDraft::build`] checks all of them and makes a [`Scene`], which nothing
 //! changes any more. The text of a scene becomes a draft, too, and passes the same checks. Later code need not check again.
 
+mod about;
 mod accuracy;
 mod body;
 mod boundary;
@@ -26,6 +27,7 @@ pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::laws::surface::Shape;
 pub use crate::scene::exchange::Outside;
 pub use crate::scene::packing::PackingProgress;
+pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
@@ -76,6 +78,8 @@ use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct SceneDraft {
+    /// What the scene says of itself.
+    pub about: About,
     /// Settings of the run.
     pub run: Run,
     /// Acceleration of gravity \[m/s²\].

@@ -56,6 +56,7 @@ pub(super) fn scene(
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
     let mut draft = SceneDraft {
+        about: written.about,
         bonds,
         run,
         gravity: written.gravity.0,

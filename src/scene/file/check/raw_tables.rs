@@ -15,11 +15,13 @@ use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
-use crate::scene::{AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
+use crate::scene::{About, AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
 /// The whole text.
 pub(in crate::scene::file) struct RawTables {
+    /// `[about]`
+    pub(super) about: About,
     /// `[run]`
     pub(super) run: RunTable,
     /// `gravity`
@@ -110,6 +112,7 @@ impl RawTables {
     /// Reads all tables; `None` if any has a mistake.
     pub(super) fn read(document: &Document, models: &Models, faults: &mut Faults) -> Option<Self> {
         unknown_tables(document, faults);
+        let about = document.read("about", faults);
         let run = document.read("run", faults);
         let gravity = match document.has("gravity") {
             true => document.read_key("", "gravity", faults),
@@ -138,9 +141,10 @@ impl RawTables {
         if faults.count() > 0 {
             return None;
         }
-        let (run, gravity, output) = (run?, gravity?, output?);
+        let (about, run, gravity, output) = (about?, run?, gravity?, output?);
         let domain = domain.flatten();
         Some(Self {
+            about,
             run,
             gravity,
             materials,
