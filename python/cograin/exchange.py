@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Protocol
+from typing import Any, Protocol
 
 from cograin.step import Force, Outcome, Step
 from cograin.vector import Matrix, Vector
@@ -86,6 +86,14 @@ class Exchange(ABC):
         """The partner takes the step."""
         partner.advance(outcome.partner_force, outcome.displacement, step)
 
+    def memory(self) -> Any:
+        """What it knows from earlier steps."""
+        return {name: list(value) if isinstance(value, list) else value for name, value in vars(self).items()}
+
+    def recall(self, memory: Any) -> None:
+        """Knows that again, and nothing of what came after."""
+        vars(self).update(memory)
+
 
 class GaussSeidel(Exchange):
     """The two sides take turns: the partner takes the force of the last step, then the units follow its displacement.
@@ -117,8 +125,8 @@ class Jacobi(Exchange):
 
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
         begin = partner.displacement
-        found = side.advance(begin, step, self.force)
         moved = partner.predict(last, step) - begin
+        found = side.advance(begin, step, self.force)
         return Outcome(begin, found, last, float(abs(moved).max()))
 
     def commit(self, partner: Taker, step: Step, outcome: Outcome) -> None:
