@@ -24,7 +24,6 @@ from cograin import (
     Program,
     QuasiNewton,
     Secant,
-    StepControl,
     Unit,
     Verlet,
 )
@@ -69,11 +68,10 @@ def arguments():
 
 def cell(side, problem, make, mass, step):
     """One run of the bed, as figures of BED_COLUMNS."""
-    control = StepControl(unconverged="accept", halvings=0)
     began, said = taken_by(side), ""
     coupling = None
     try:
-        coupling = Coupling(side, Oscillator(mass, problem.spring), make(), step, control=control)
+        coupling = Coupling(side, Oscillator(mass, problem.spring), make(), step)
         for row in coupling.steps(round(problem.end / step) * step):
             if not abs(row.displacement[0]) < 1000 * problem.sag:
                 said = "it grows without bound"
@@ -143,7 +141,7 @@ def grows(unit, make, mass, step):
     partner = Oscillator(mass, problem.outer, 2.0 * DAMPING * np.sqrt(problem.outer * mass))
     unit.reset()
     control = StepControl(unconverged="stop", halvings=0)
-    coupling = Coupling(Interface(unit, "right.displacement.x"), partner, make(), step, control=control)
+    coupling = Coupling(Interface(unit, "right.displacement.x"), partner, make(), step)
     try:
         for _ in range(STEPS):
             if not abs(coupling.advance().displacement[0]) < LIMIT:

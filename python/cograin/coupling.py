@@ -35,9 +35,10 @@ class StepControl:
     ``unconverged`` says what happens to a step whose sides do not agree: ``"shorten"``, ``"accept"`` it and note it, or
     ``"stop"``. ``halvings`` is how often a length is halved.
 
-    ``"shorten"`` ends where a shorter step does not help: the force of the particles jumps, and the partner has no mass
-    or damping and moves as far in a shorter step; or the length is halved as often as it may be. The best trial is then
-    kept and noted if its sides differ by less than a tenth of the farthest move in a step; otherwise the run ends.
+    ``"shorten"`` ends where a shorter step does not help: the length is halved as often as it may be, or the force of
+    the particles jumps, and the partner has no mass or damping and moves as far in a shorter step, or the step before
+    ended at a jump, too. The best trial is then kept and noted if the force jumps, or if its sides differ by less than
+    a tenth of the farthest move in a step; otherwise the run ends.
 
     Lengths are the given one over powers of two and stay on its grid: every multiple of the given length is met.
     """
@@ -57,7 +58,7 @@ class StepControl:
     def objection(self, outcome: Outcome, defect: float, last: bool) -> str:
         """Why a step is not accepted; empty if it is accepted. ``last``: a shorter one is not to be had or no help."""
         if not outcome.converged and self.unconverged != "accept":
-            kept = last and self.unconverged == "shorten" and outcome.spread < KEPT
+            kept = last and self.unconverged == "shorten" and (outcome.jumps or outcome.spread < KEPT)
             return "" if kept else outcome.reason
         # The shortest step is accepted as it is, and the record says so.
         if self.energy is not None and abs(defect) > self.energy and not last:
@@ -114,6 +115,7 @@ class Coupling:
         self._place = 0.0  # in steps since the start, exact
         self._level = 0  # how often the step is halved now
         self._lengths = (step, step)  # of the last two steps [s]
+        self._jumped = False  # whether the last step was kept at a jump of the force
         self._broken = ""
         if len(interface.names) == len(partner.displacement):
             for place in partner.turning() if hasattr(partner, "turning") else ():
@@ -173,6 +175,7 @@ class Coupling:
         try:
             step, outcome, defect, evaluations, refusals = self._agreed()
             moved = True
+            self._jumped = outcome.jumps
             row = self._commit(step, outcome, evaluations, refusals)
             self._place += 0.5**self._level
             aligned = (self._place * 2.0 ** (self._level - 1)).is_integer()
@@ -229,7 +232,7 @@ class Coupling:
             return None, 0.0, str(refusal)
         start = expected if self.exchange.repeats else outcome.partner_force
         defect = float((outcome.force - start) @ (outcome.displacement - begin))
-        last = self._level >= self.control.halvings or (outcome.jumps and not self._softens(step))
+        last = self._level >= self.control.halvings or (outcome.jumps and (self._jumped or not self._softens(step)))
         return outcome, defect, self.control.objection(outcome, defect, last)
 
     def _softens(self, step: Step) -> bool:

@@ -138,18 +138,20 @@ class Search:
         direction each trial bounds it on both sides. A target that is farther from one of the trials gives way to the
         middle between the best trial and the nearest one that says the opposite, or to the middle of u and u + r.
         """
-        if self.measure.skew > SKEW:
-            # No work measures such a partner.
-            return target
         best, place = self.best, self.measure.root() @ target
-        if self.gives_way():
-            # No bound holds; a target that is far off is brought nearer all the same.
-            far = float(np.linalg.norm(place - best.place)) / (2.0 * float(np.linalg.norm(best.way)))
+        bound = 2.0 * float(np.linalg.norm(best.way))
+        if self.measure.skew > SKEW or bound == 0.0:
+            # No work measures such a partner, or such a residual.
+            return target
+        far = float(np.linalg.norm(place - best.place)) / bound
+        slow = len(self.trials) > 3 and best.size > 0.5 * min(trial.size for trial in self.trials[:-3])
+        if self.gives_way() or len(target) > 1:
+            # In several directions a bound on one of them cuts off too much of the others; only what strays is held.
+            if slow and len(self.trials) % 2 == 0:
+                return self.middle()
             return target if far <= 1.0 else best.displacement + (target - best.displacement) / far
         halves = [(trial.place + 0.5 * trial.way, 0.5 * float(np.linalg.norm(trial.way))) for trial in self.trials]
-        slack = 1.0 + 1e-6 + 4.0 * self.measure.skew
-        outside = any(float(np.linalg.norm(place - middle)) > half * slack for middle, half in halves)
-        slow = len(self.trials) > 3 and best.size > 0.5 * min(trial.size for trial in self.trials[:-3])
+        outside = any(float(np.linalg.norm(place - middle)) > half * (1.0 + 1e-6) for middle, half in halves)
         return self.middle() if outside or slow else target
 
     def gives_way(self) -> bool:
@@ -161,7 +163,7 @@ class Search:
         return float(moved @ (now.way - before.way)) > -(1.0 - 1e-6) * float(moved @ moved)
 
     def middle(self) -> Vector:
-        """Half-way between the two nearest trials that point at each other; without such, of the best one's residual."""
+        """Half-way between the two nearest trials that point at each other; without such, of the best residual."""
         pair = self.pair()
         if pair is None:
             return self.best.displacement + 0.5 * self.best.residual
@@ -349,6 +351,16 @@ class Aitken(FixedPoint):
     One factor for all directions: in one direction it is the secant, in several it is slower than `QuasiNewton`.
     """
 
+    def __init__(
+        self,
+        relaxation: float = 1.0,
+        *,
+        tolerance: Tolerance | None = None,
+        force: Force = "mean",
+        limit: int = 60,
+    ) -> None:
+        super().__init__(relaxation, tolerance=tolerance, force=force, limit=limit)
+
     def correct(self, search: Search) -> Vector:
         if len(search.trials) > 1:
             before, now = search.trials[-2:]
@@ -504,7 +516,7 @@ class Newton(Implicit):
         perturbation: float | None = None,
         tolerance: Tolerance | None = None,
         force: Force = "mean",
-        limit: int = 30,
+        limit: int = 60,
     ) -> None:
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         if derivative not in ("unit", "differences"):
@@ -527,6 +539,8 @@ class Newton(Implicit):
     def correct(self, search: Search) -> Vector:
         now = search.last
         slow = len(search.trials) > 1 and now.size > 0.1 * search.trials[-2].size
+        # A force that jumps has no derivative: what costs evaluations of its own is not asked for time and again.
+        slow = slow and (self.derivative == "unit" or len(search.trials) <= 4)
         if self._known is None or slow or not self.keep:
             self._known = self._change(search, now)
         return search.within(now.displacement + self._closing(search, now.residual, self._known))

@@ -254,39 +254,39 @@ class RigidBody:
         central = self._weight + loads[:3]
         momentum = now.momentum + length * (given[:, :3].sum(axis=0) + central) if self.free else now.momentum
         place = now.place + (0.5 * length / self.mass) * (now.momentum + momentum)
-        # Forces with their arms at the beginning. Without a pivot what acts at the mass centre has none.
-        acting = [(turned(now.attitude, arm), pull) for arm, pull in zip(self._arms, given[:, :3], strict=True)]
+        # Sum of the products of arms at the beginning and forces; without a pivot the mass centre has no arm.
+        axes = matrix(now.attitude)
+        levers = axes @ (self._arms.T @ given[:, :3])
         if not self.free:
-            acting.append((turned(now.attitude, self._centre), central))
-        moment = given[:, 3:].sum(axis=0) + loads[3:]
-        way, spin = self._turn(acting, moment, length)
+            levers = levers + np.outer(axes @ self._centre, central)
+        way, spin = self._turn(levers, given[:, 3:].sum(axis=0) + loads[3:], length)
         end = _Motion(place, momentum, after(quaternion(way), now.attitude), spin, way)
         end.attitude = end.attitude / np.sqrt(float(end.attitude @ end.attitude))
         self._tried = (step, vector(force), end)
         return end
 
-    def _turn(self, acting: list[tuple[Vector, Vector]], moment: Vector, length: float) -> tuple[Vector, Vector]:
+    def _turn(self, levers: Matrix, moment: Vector, length: float) -> tuple[Vector, Vector]:
         """The turn of a step and the angular momentum at its end, by Newton's method."""
         now = self._now
-        soft = matrix(now.attitude) @ self._soft  # from the body's axes to those at the beginning
-        begin = self.angular_velocity
+        axes = matrix(now.attitude)
+        soft = axes @ self._soft  # from the body's axes to those at the beginning
+        begin = soft @ (axes.T @ now.spin)
+        stiff = (0.5 * length) * (levers - np.trace(levers) * np.eye(3))
         way, last = length * begin, np.inf
         for _ in range(30):
             bent = tangent(way)
-            spin = now.spin + length * moment
-            stiff = np.zeros((3, 3))
-            for arm, pull in acting:
-                spin = spin + length * np.cross(bent @ arm, pull)
-                stiff = stiff + (0.5 * length) * (cross(pull) @ cross(arm))
-            attitude = after(quaternion(way), now.attitude)
-            residual = way - 0.5 * length * (begin + soft @ turned(back(attitude), spin))
+            turning = bent @ levers
+            torque = np.array([turning[b, c] - turning[c, b] for b, c in ((1, 2), (2, 0), (0, 1))])
+            spin = now.spin + length * (moment + torque)
+            back_to_body = soft @ matrix(after(quaternion(way), now.attitude)).T
+            residual = way - 0.5 * length * (begin + back_to_body @ spin)
             slope = cross(spin) @ bent + stiff
-            change = np.linalg.solve(np.eye(3) - 0.5 * length * soft @ matrix(attitude).T @ slope, residual)
+            change = np.linalg.solve(np.eye(3) - 0.5 * length * back_to_body @ slope, residual)
             size, scale = float(np.linalg.norm(change)), float(np.linalg.norm(way))
             if not scale < pi:
                 break
             # The last correction is made as long as it still brings the solution nearer.
-            if size == 0.0 or (size <= 1e-12 * scale and size >= last):
+            if size <= 1e-16 * scale or (size <= 1e-12 * scale and size >= last):
                 return way, spin
             way, last = way - change, size
         said = f"rigid body: a step of {length:g} s turns it by half a turn or more"

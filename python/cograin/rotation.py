@@ -57,7 +57,14 @@ def turned(attitude: Vector, arm: Vector) -> Vector:
 
 def matrix(attitude: Vector) -> Matrix:
     """The rotation matrix of a quaternion."""
-    return np.array([turned(attitude, arm) for arm in np.eye(3)]).T
+    w, x, y, z = attitude.tolist()
+    return np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )
 
 
 def cross(left: Vector) -> Matrix:
@@ -90,8 +97,8 @@ def secant(before: Vector, now: Vector) -> Matrix:
 
 def _cross(left: Vector, right: Vector) -> Vector:
     """Cross product, without what numpy looks at before."""
-    a, b, c = left
-    x, y, z = right
+    a, b, c = left.tolist()
+    x, y, z = right.tolist()
     return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
