@@ -24,6 +24,7 @@ from cograin import (
     Program,
     QuasiNewton,
     Secant,
+    StepControl,
     Unit,
     Verlet,
 )
@@ -141,7 +142,7 @@ def grows(unit, make, mass, step):
     partner = Oscillator(mass, problem.outer, 2.0 * DAMPING * np.sqrt(problem.outer * mass))
     unit.reset()
     control = StepControl(unconverged="stop", halvings=0)
-    coupling = Coupling(Interface(unit, "right.displacement.x"), partner, make(), step)
+    coupling = Coupling(Interface(unit, "right.displacement.x"), partner, make(), step, control=control)
     try:
         for _ in range(STEPS):
             if not abs(coupling.advance().displacement[0]) < LIMIT:

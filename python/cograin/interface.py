@@ -75,7 +75,7 @@ class _Turn:
         """Change of what the unit is given, by change of the directions."""
         if not self.turns:
             return np.eye(len(self.axes))
-        found: Matrix = np.linalg.solve(tangent(self.given), tangent(turn(self.before, self.given)))
+        found: Matrix = np.linalg.inv(tangent(self.given)) @ tangent(turn(self.before, self.given))
         return found
 
 

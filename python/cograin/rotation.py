@@ -26,7 +26,8 @@ def after(second: Vector, first: Vector) -> Vector:
 
 def back(attitude: Vector) -> Vector:
     """The quaternion of the opposite rotation."""
-    return attitude * np.array([1.0, -1.0, -1.0, -1.0])
+    found: Vector = attitude * np.array([1.0, -1.0, -1.0, -1.0])
+    return found
 
 
 def rotation_vector(attitude: Vector, near: Vector | None = None) -> Vector:
