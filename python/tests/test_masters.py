@@ -159,8 +159,8 @@ def test_a_partner_with_mass_gets_through_a_jump_by_shorter_steps(make):
     plate = Oscillator(1.0, 0.0, load=lambda time: 3.0)
     record = couple(Latch(5.0, 1e-3), plate, make(), step=1e-2, end=0.08, progress=False)
     assert record["time"][-1] == pytest.approx(0.08)
-    # It is pressed against the jump and stays there; what the force has no value for is left.
-    assert plate.displacement[0] == pytest.approx(1e-3, abs=1e-4)
+    # It is pressed against the jump and stays there, within the way that the load takes it in a step.
+    assert abs(plate.displacement[0] - 1e-3) <= 3.0 * 1e-2**2
     assert record["evaluations"].sum() < 100 * len(record)
 
 
