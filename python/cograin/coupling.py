@@ -100,6 +100,9 @@ class Coupling:
     ) -> None:
         if not 0.0 < step < float("inf"):
             raise ValueError(f"step: expected a finite number above 0, found {step}")
+        if not isinstance(exchange, Exchange):
+            raise ValueError(f"exchange: expected an exchange, such as Secant(), found {exchange!r}")
+        exchange.fresh()
         self.interface = interface
         self.partner = partner
         self.exchange = exchange

@@ -71,7 +71,7 @@ class Exchange(ABC):
     """One way to agree. `evaluate` steps the units and does not change the partner; `commit` then steps the partner.
 
     If `evaluate` raises, the partner is unchanged. ``force`` is the kind of force that is exchanged. An exchange stores
-    slopes from step to step, so use each instance for one run only.
+    slopes from step to step, so each run at the same time needs an instance of its own.
     """
 
     force: Force = "mean"
@@ -93,6 +93,14 @@ class Exchange(ABC):
     def recall(self, memory: Any) -> None:
         """Knows that again, and nothing of what came after."""
         vars(self).update(memory)
+
+    def fresh(self) -> None:
+        """Begins a run, with what it was made with: nothing of an earlier run changes a bit."""
+        first = vars(self).get("_made")
+        if first is None:
+            vars(self)["_made"] = self.memory()
+        else:
+            self.recall(first)
 
 
 class GaussSeidel(Exchange):

@@ -528,6 +528,19 @@ def test_what_is_only_looked_at_changes_no_bit(opened):
         assert np.array_equal(coupling.record[name], whole[name])
 
 
+@pytest.mark.parametrize("name", MAKES)
+def test_an_exchange_begins_every_run_as_its_first(opened, name):
+    text = DROP.replace("motion = { driven", 'input = "quadratic"\nmotion = { driven')
+    exchange, found = MAKES[name](), []
+    for _ in range(3):
+        found.append(couple(Interface(opened(text), FLOOR), Oscillator(1.0, 1e4), exchange, step=1e-3, end=0.07))
+    for record in found[1:]:
+        assert np.array_equal(record[FLOOR], found[0][FLOOR])
+        assert np.array_equal(record["evaluations"], found[0]["evaluations"])
+    with pytest.raises(ValueError, match=r"exchange: expected an exchange, such as Secant\(\), found <class"):
+        Coupling(Interface(opened(text), FLOOR), Oscillator(1.0, 1e4), Secant, 1e-3)
+
+
 def test_stiffness_needs_no_length_where_the_units_give_derivatives(chain):
     area = np.pi * 0.05**2
     found = stiffness(Interface(chain, ENDS), 1e-4)
