@@ -127,7 +127,7 @@ impl Page<'_> {
         for variable in variables {
             let start = variable.start.map(|start| start.to_string()).or(variable.start_text().map(str::to_owned));
             let start =
-                if has_start { format!("<td>{}</td>", escape(&start.unwrap_or_default())) } else { String::new() };
+                if has_start { format!("<td>{}</td>", escape(start.unwrap_or_default())) } else { String::new() };
             let tunable = causality == Causality::Parameter && variable.variability == Variability::Tunable;
             let _ = writeln!(
                 rows,
@@ -135,7 +135,7 @@ impl Page<'_> {
                 escape(variable.name.as_str()),
                 escape(variable.quantity.unit().unwrap_or("")),
                 escape(variable.description.as_str()),
-                escape(&range(variable)),
+                escape(range(variable)),
                 if tunable { "; tunable" } else { "" },
             );
         }
