@@ -62,14 +62,16 @@ def _interesting(table: Table) -> dict[str, list[str]]:
         if name == "time" or name.startswith("time_step") or (".moment." in name and not turns) or not finite.size:
             continue
         spread = float(finite.max() - finite.min())
-        if spread > 0.0 and ".mean_" not in name and not name.endswith((".residual", ".physical_residual")):
+        is_mean = ".mean_" in name and name.replace(".mean_", ".") in table
+        if spread > 0.0 and not is_mean and not name.endswith((".residual", ".physical_residual")):
             key = unit_of(name) if unit_of(name) != "1" else name
             groups.setdefault(key, []).append((spread, name))
     chosen = {}
     for key, columns in groups.items():
         columns.sort(reverse=True)
         chosen[key] = [name for spread, name in columns if spread > 0.01 * columns[0][0]][:MOST_LINES]
-    return chosen
+    # What has a unit comes before counts and ratios.
+    return dict(sorted(chosen.items(), key=lambda group: unit_of(group[1][0]) == "1"))
 
 
 def history(table: Table, columns: Sequence[str] | None = None) -> Any:
