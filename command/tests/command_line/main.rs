@@ -3,6 +3,8 @@
 mod broken_off;
 mod charts;
 mod checks;
+mod chosen;
+mod economy;
 mod folders;
 mod ground;
 mod hostile;
@@ -11,3 +13,4 @@ mod protocols;
 mod refusals;
 mod runs;
 mod settling;
+mod shells;

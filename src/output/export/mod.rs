@@ -12,7 +12,7 @@ pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIB
 pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
 use crate::engine::state::State;
-use crate::interface::Interface;
+use crate::interface::{ChosenError, Interface};
 use crate::scene::{Scene, Source};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,9 @@ pub enum PackageError {
     /// No usable library.
     #[error(transparent)]
     Library(#[from] LibraryError),
+    /// An output that the scene names and does not have.
+    #[error(transparent)]
+    Chosen(#[from] ChosenError),
     /// The file was not written.
     #[error("{}: {cause}; take a path that can be written", path.display())]
     Write {
@@ -49,6 +52,7 @@ pub fn export(
         Some(state) => Interface::of(scene).starting_in(state),
         None => Interface::of(scene),
     };
+    interface.check_names(scene)?;
     let bytes = state.map(|state| state.to_bytes(scene.fingerprint));
     let identifier = identifier(output);
     let written = |cause| PackageError::Write { path: output.to_owned(), cause };
