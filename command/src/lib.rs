@@ -4,12 +4,13 @@
 
 mod chart;
 mod progress;
+mod recipes;
 mod shell;
 
 use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
-use cograin::export::{PackageError, export, find_library};
+use cograin::export::{PackageError, export, find_libraries};
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
@@ -44,6 +45,8 @@ struct Arguments {
 /// The commands.
 #[derive(Subcommand)]
 enum Command {
+    /// Write a commented scene to start from
+    New(recipes::NewArguments),
     /// Read a scene; say what it uses, how long its time step may be, what it costs and what is risky in it
     Check(CheckArguments),
     /// Run a scene to its end and write its results
@@ -156,9 +159,9 @@ struct ExportArguments {
     /// The unit's file
     #[arg(short, long, value_name = "FMU")]
     output: PathBuf,
-    /// The unit's library, if it is not in the folder of this program
-    #[arg(long, value_name = "FILE")]
-    library: Option<PathBuf>,
+    /// The unit's library, if it is not in the folder of this program; may be given several times, once for each platform
+    #[arg(long = "library", value_name = "FILE")]
+    libraries: Vec<PathBuf>,
     /// Replace the file if it is there
     #[arg(long)]
     overwrite: bool,
@@ -224,6 +227,7 @@ pub fn main_with(models: &Models, library: &str) -> ExitCode {
     tell_of_full_files();
     let Arguments { command, quiet } = Arguments::parse();
     let ended = match command {
+        Command::New(arguments) => recipes::new(&arguments),
         Command::Check(arguments) => check(models, &arguments, quiet),
         Command::Run(arguments) => run(models, &arguments, quiet),
         Command::Settle(arguments) => settle(models, &arguments, quiet),
@@ -386,8 +390,9 @@ fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(
 fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: bool) -> Result<(), Ending> {
     let (scene, source) = read(models, &arguments.scene, quiet)?;
     let scene = Arc::new(scene);
-    let library = find_library(library, arguments.library.as_deref()).map_err(Ending::failed)?;
-    let read = files_read(&arguments.scene.scene, &source, &[&arguments.from, &Some(library.clone())]);
+    let libraries = find_libraries(library, &arguments.libraries).map_err(Ending::failed)?;
+    let mut read = files_read(&arguments.scene.scene, &source, &[&arguments.from]);
+    read.extend_from_slice(&libraries);
     claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {
@@ -397,11 +402,11 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: b
         None => None,
     };
     let state = begun.as_ref().map(|begun| begun.simulation.state());
-    let exported = export(&source, &scene, state, &library, &arguments.output);
+    let exported = export(&source, &scene, state, &libraries, &arguments.output);
     exported.map_err(|error| match error {
-        PackageError::Library(error) => Ending::refused(error),
+        PackageError::Write { .. } => Ending::failed(error),
         PackageError::Chosen(error) => Ending::refused(format_args!("{}, {error}", source.name)),
-        error => Ending::failed(error),
+        error => Ending::refused(error),
     })?;
     let left_behind = begun.map_or_else(Vec::new, |begun| begun.left_behind);
     left_behind.iter().filter(|_| !quiet).try_for_each(|left| say(format_args!("not taken along: {left}")))

@@ -81,7 +81,7 @@ fn small_grains(scene: &Scene, present: &Simulation) -> Option<String> {
 fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<String> {
     let [set, other] = bond.between;
     let is_whole =
-        set == other && bond.plane.is_none() && bond.keys.breakage.is_none() && bond.keys.relaxation.is_none();
+        set == other && bond.plane.is_none() && bond.keys.breakage.is_empty() && bond.keys.relaxation.is_none();
     let members: Vec<u32> =
         (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set).map(|(index, _)| index).collect();
     let owned = |index: &u32| scene.boundaries.iter().any(|boundary| boundary.shape.members().contains(index));
@@ -138,7 +138,7 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
 fn soft_enough(scene: &Scene, present: &Simulation, speed: f64) -> Option<String> {
     let given = |motion: &AxisMotion| motion.is_driven() || motion.takes_force() || motion.takes_load();
     let pushed = scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(given)) || !scene.forces.is_empty();
-    let hertzian = |law: &crate::scene::ContactLaw| law.normal.name() == "hertz";
+    let hertzian = |law: &crate::scene::ContactLaw| law.choice.normal.name() == "hertz";
     let is_hertzian = !scene.contacts.is_empty() && scene.contacts.iter().all(hertzian);
     if pushed || !is_hertzian || !scene.bonds.is_empty() || scene.particles.is_empty() {
         return None;

@@ -91,14 +91,14 @@ fn unused(scene: &Scene) -> Vec<Unused> {
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             unused.push(Unused { what, without });
         };
-        if law.tangential.row().is_active() && zero(|pair| pair.friction) {
-            add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
+        if law.choice.tangential.row().is_active() && zero(|pair| pair.friction) {
+            add("tangential", law.choice.tangential.name(), "friction", |law| law.choice.tangential = SMOOTH);
         }
-        if law.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
-            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = ROLLING_FREELY);
+        if law.choice.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+            add("rolling", law.choice.rolling.name(), "rolling_friction", |law| law.choice.rolling = ROLLING_FREELY);
         }
-        if law.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
-            add("cohesion", law.cohesion.name(), "cohesion_energy_density", |law| law.cohesion = DRY);
+        if law.choice.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+            add("cohesion", law.choice.cohesion.name(), "cohesion_energy_density", |law| law.choice.cohesion = DRY);
         }
     }
     for (index, damping) in scene.damping.iter().enumerate() {
@@ -133,14 +133,11 @@ fn is_read(scene: &Scene) -> bool {
 /// A scene in which the bonds of a law never break, if they may.
 fn without_breakage(scene: &Scene, bond: usize) -> Option<Unused> {
     let what = format!("[bond.{}] breakage, if its strengths are never reached", scene.bonds[bond].name);
-    scene.bonds[bond].keys.breakage.as_ref()?;
     let mut without = SceneDraft::clone(scene);
-    let changed = &mut without.bonds[bond];
-    changed.keys.breakage = None;
-    changed.law = changed.keys.law(scene.run.scheme.predicts()).ok()?;
+    let breakage = std::mem::take(&mut without.bonds[bond].keys.breakage);
     // Its strengths are none.
     without.parameters.clear();
-    Some(Unused { what, without })
+    (!breakage.is_empty()).then_some(Unused { what, without })
 }
 
 /// Whether a property is given as 0 for all pairs of a law that say it.
