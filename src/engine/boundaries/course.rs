@@ -154,11 +154,13 @@ impl BoundaryTravel {
 }
 
 /// Largest speed that each boundary has, or gets in the communication step that has begun, of the particles that it
-/// carries or, where it is a surface that turns, may meet \[m/s\].
+/// carries or, where it is a surface that turns, may meet; what forces move gains speed by its load in a time step of this length
+/// \[s\] \[m/s\].
 pub(crate) fn speeds<'a>(
     scene: &'a Scene,
     bodies: &'a [Option<RigidBody>],
     state: &'a State,
+    step: f64,
 ) -> impl Iterator<Item = f64> + 'a {
     let time = state.clock.time;
     let extents = state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
@@ -172,7 +174,10 @@ pub(crate) fn speeds<'a>(
         let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
         let about = Vector::from([0, 1, 2].map(|axis| speed(3 + axis, moved.angular_velocity[axis]))).length();
         let bent = state.nodes_of(place).map_or(0.0, |nodes| nodes.fastest);
-        along + body.as_ref().map_or(0.0, |body| about * body.farthest.max(extent)) + bent
+        let Some(body) = body else { return along + bent };
+        let extent = body.farthest.max(extent);
+        let gained = if body.is_free() && body.is_surface() { step * body.acceleration(moved, extent) } else { 0.0 };
+        along + about * extent + gained + bent
     })
 }
 

@@ -84,8 +84,8 @@ impl BoundaryState {
     /// Counts impulse and work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.total_impulse, self.work) = ([0.0; 3], 0.0);
-        let Inertial { applied_impulse, support_impulse, added_impulse, .. } = &mut self.inertial;
-        (*applied_impulse, *support_impulse, *added_impulse) = ([0.0; 6], [0.0; 6], [0.0; 6]);
+        let Inertial { applied_impulse, support_impulse, .. } = &mut self.inertial;
+        (*applied_impulse, *support_impulse) = ([0.0; 6], [0.0; 6]);
     }
 }
 
@@ -110,19 +110,10 @@ pub struct Inertial {
     pub applied: [f64; 6],
     /// What springs and dashpots to the ground do at the present time \[N, N m\].
     pub support: [f64; 6],
-    /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
-    /// \[N/m, N, N m\].
-    pub stiffness: [[f64; 6]; 6],
-    /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
-    pub damping: [[f64; 6]; 6],
-    /// How many contacts there were when these were found.
-    pub contacts: u64,
     /// Impulse of the input loads since time 0 \[N s, N m s\].
     pub applied_impulse: [f64; 6],
     /// Impulse of springs and dashpots to the ground since time 0 \[N s, N m s\].
     pub support_impulse: [f64; 6],
-    /// Impulse of what stiff contacts add to the inertia since time 0 \[N s, N m s\].
-    pub added_impulse: [f64; 6],
 }
 
 /// A unit quaternion: scalar, x, y, z.

@@ -20,8 +20,6 @@ pub enum Source {
     Applied,
     /// Springs and dashpots from bodies to the ground.
     Support,
-    /// What stiff contacts add to the inertia of light bodies.
-    AddedInertia,
 }
 
 impl Source {
@@ -36,10 +34,9 @@ impl Source {
         Self::Gravity,
         Self::Applied,
         Self::Support,
-        Self::AddedInertia,
     ];
     /// How many there are.
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 7;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -51,7 +48,6 @@ impl Source {
             Self::Gravity => "gravity",
             Self::Applied => "applied",
             Self::Support => "support",
-            Self::AddedInertia => "added_inertia",
         }
     }
 }
