@@ -6,9 +6,9 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
-use crate::engine::state::State;
+use crate::engine::state::{BoundaryState, State};
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::Step;
+use crate::scene::{Boundary, Step};
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
@@ -17,7 +17,7 @@ const FAR_BELOW: f64 = 1.5;
 const MOST_FORESEEN: f64 = 10.0;
 
 /// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
-const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
+const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
 
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
@@ -147,19 +147,30 @@ impl Simulation {
         self.check_contacts()
     }
 
-    /// Finds the impedance of what servos press on, now and then.
+    /// Looks at what servos press on, where it has changed, and now and then.
     pub(super) fn follow_contacts(&mut self) {
-        if self.serves && self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_IMPEDANCES) {
-            self.find_impedances();
+        let is_due = |simulation: &Self| {
+            let changed =
+                |moved: &BoundaryState| moved.pressed.iter().zip(moved.force).any(|(it, force)| it.has_changed(force));
+            let served = |boundary: &Boundary| boundary.axes.iter().any(|axis| axis.servo().is_some());
+            let mut boundaries = simulation.scene.boundaries.iter().zip(&simulation.state.boundaries);
+            boundaries.any(|(boundary, moved)| served(boundary) && changed(moved))
+        };
+        if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
+            self.look_at_pressed();
         }
     }
 
-    /// Finds the impedance of what servos press on.
-    pub(super) fn find_impedances(&mut self) {
-        if self.serves {
-            let impedances = self.system().impedances();
-            for (moved, impedance) in self.state.boundaries.iter_mut().zip(impedances) {
-                moved.impedance = impedance;
+    /// Looks at what servos press on.
+    pub(super) fn look_at_pressed(&mut self) {
+        if !self.serves {
+            return;
+        }
+        let resistances = self.system().resistances();
+        for (moved, [stiffness, impedance]) in self.state.boundaries.iter_mut().zip(resistances) {
+            for axis in 0..3 {
+                let found = [stiffness[axis], impedance[axis], moved.force[axis]];
+                moved.pressed[axis].take(found, moved.target[axis]);
             }
         }
     }

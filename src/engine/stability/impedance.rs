@@ -1,16 +1,19 @@
-//! The mechanical impedance of what servos press on.
+//! What servos press on.
 
 use super::System;
 use crate::engine::contacts::SearchLimits;
 
+/// Stiffness \[N/m\] and mechanical impedance \[kg/s\] of what touches a boundary, along x, y, z.
+pub(crate) type Resistance = [[f64; 3]; 2];
+
 impl System<'_> {
-    /// The mechanical impedance of what touches each boundary with a servo, along x, y, z \[kg/s\]: that of a chain of the
-    /// touching particles' masses and the springs of their contacts, √(k m), at least what the dashpots do; summed over contacts and
-    /// bonds. Zeros for other boundaries.
-    pub(crate) fn impedances(&self) -> Vec<[f64; 3]> {
+    /// Stiffness of what touches each boundary with a servo, and its mechanical impedance: that of a chain of the touching particles'
+    /// masses and the springs of their contacts, √(k m), at least what the dashpots do; summed over contacts and bonds. Zeros for other
+    /// boundaries.
+    pub(crate) fn resistances(&self) -> Vec<Resistance> {
         let served =
             |boundary: usize| self.scene.boundaries[boundary].axes.iter().any(|motion| motion.servo().is_some());
-        let mut impedances = vec![[0.0; 3]; self.scene.boundaries.len()];
+        let mut resistances = vec![[[0.0; 3]; 2]; self.scene.boundaries.len()];
         let particles = &self.state.particles;
         let owner = |slot: u32| (particles.owner[slot as usize] as usize).checked_sub(1);
         for pass in self.passes {
@@ -25,14 +28,16 @@ impl System<'_> {
                         continue;
                     };
                     let mass = particles.velocity[other as usize][3];
-                    for (sum, part) in impedances[boundary].iter_mut().zip(link.normal.to_array()) {
+                    let [stiffnesses, impedances] = &mut resistances[boundary];
+                    for (axis, part) in link.normal.to_array().into_iter().enumerate() {
                         let along = |[normal, across, ..]: [f64; 4]| across + (normal - across) * part * part;
-                        let damping = along(link.damping);
-                        *sum += (along(link.stiffness) * mass + damping * damping).sqrt();
+                        let (stiffness, damping) = (along(link.stiffness), along(link.damping));
+                        stiffnesses[axis] += stiffness;
+                        impedances[axis] += (stiffness * mass + damping * damping).sqrt();
                     }
                 }
             });
         }
-        impedances
+        resistances
     }
 }

@@ -104,7 +104,9 @@ impl System<'_> {
     fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
-        blocks::quick_root(&bodies, supports, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
+        blocks::quick_root(&bodies, supports, |tell| {
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell))
+        })
     }
 
     /// Whether there are bonds, or are about to be.
@@ -168,7 +170,13 @@ impl System<'_> {
             // Behind what the passes tell stand the springs to the ground.
             let boundary = network.supported(place)?;
             let mode = if part < 2 { Mode::Normal } else { Mode::Torsion };
-            return Some(Limiter { kind: LimiterKind::Support, first: GONE, second: None, boundary: Some(boundary), mode });
+            return Some(Limiter {
+                kind: LimiterKind::Support,
+                first: GONE,
+                second: None,
+                boundary: Some(boundary),
+                mode,
+            });
         };
         let name = |slot: u32| self.state.particles.id[slot as usize];
         Some(Limiter {

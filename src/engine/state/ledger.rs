@@ -26,15 +26,8 @@ impl Source {
     /// Kinds that passes make, in the order in which they are added up.
     pub const PASSES: usize = 3;
     /// All kinds, those of passes first.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Contacts,
-        Self::Bonds,
-        Self::Walls,
-        Self::Damping,
-        Self::Gravity,
-        Self::Applied,
-        Self::Support,
-    ];
+    pub const ALL: [Self; Self::COUNT] =
+        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support];
     /// How many there are.
     pub const COUNT: usize = 7;
 

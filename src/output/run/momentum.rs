@@ -49,16 +49,7 @@ pub struct MomentumBalance {
 impl MomentumBalance {
     /// Whether every number is finite.
     pub(super) fn is_finite(&self) -> bool {
-        let Self {
-            change,
-            gravity,
-            applied,
-            boundaries,
-            damping,
-            support,
-            exchanged,
-            relative_residual,
-        } = self;
+        let Self { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual } = self;
         let impulses = [change, gravity, applied, boundaries, damping, support];
         impulses.into_iter().chain(exchanged).flatten().chain([relative_residual]).all(|number| number.is_finite())
     }
@@ -106,16 +97,7 @@ impl Start {
         let [gravity, applied, boundaries, damping, ..] = terms;
         let relative_residual = if scale > 0.0 { largest(&rest) / scale } else { 0.0 };
         let exchanged = simulation.scene().changes_number().then_some(exchanged);
-        MomentumBalance {
-            change,
-            gravity,
-            applied,
-            boundaries,
-            damping,
-            support,
-            exchanged,
-            relative_residual,
-        }
+        MomentumBalance { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual }
     }
 }
 

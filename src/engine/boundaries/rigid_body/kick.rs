@@ -87,9 +87,11 @@ impl RigidBody {
         let whole = inertia::turned(&self.inertia, orientation);
         let free = |axis: usize| self.freedoms()[3 + axis];
         let held = |row: usize, column: usize| if row == column { 1.0 } else { 0.0 };
-        let own = whole.map_with_location(|row, column, part| if free(row) && free(column) { part } else { held(row, column) });
+        let own = whole
+            .map_with_location(|row, column, part| if free(row) && free(column) { part } else { held(row, column) });
         let resisting = own + Matrix3::from_diagonal(&Vector3::from(dashpots.to_array()));
-        let turn = resisting.cholesky().map_or(Vector3::repeat(f64::NAN), |it| it.solve(&Vector3::from(twist.to_array())));
+        let turn =
+            resisting.cholesky().map_or(Vector3::repeat(f64::NAN), |it| it.solve(&Vector3::from(twist.to_array())));
         self.about_free(inertia::times(&own, <[f64; 3]>::from(turn).into()).to_array())
     }
 

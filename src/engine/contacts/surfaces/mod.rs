@@ -115,7 +115,8 @@ impl AtSurface {
         let touched = match boundary.shifting_plane() {
             Some(surface::Plane { point, normal, .. }) => {
                 let (point, normal, velocity) = (point.into(), normal.into(), Vector::zero());
-                let (mobility, conveying) = (body.as_ref().map(|body| body.yields_along(normal)), sphere::along(conveying, normal));
+                let (mobility, conveying) =
+                    (body.as_ref().map(|body| body.yields_along(normal)), sphere::along(conveying, normal));
                 Touched::Plane(Plane { point, normal, velocity, conveying, mobility })
             }
             None => match boundary.shape.deforming().filter(|_| boundary.driven_nodes() > 0) {
