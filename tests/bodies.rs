@@ -82,12 +82,9 @@ fn an_elastic_impact_keeps_energy_and_momentum_at_any_ratio_of_masses() {
         assert!((energy - 1.0).abs() < 0.006, "{shape} of {ratio}: {energy} of the energy");
         let momentum = ball + ratio * body;
         assert!((momentum - 1.0).abs() < 1e-12, "{shape} of {ratio}: {momentum} of the momentum");
-        // Of what the lighter one turns over.
-        let turned = 4.0 * ratio / (1.0 + ratio).powi(2);
-        assert!(
-            (energy - 1.0).abs() < 0.01 * turned.max(1e-10),
-            "{shape} of {ratio}: {energy} with {turned} turned over"
-        );
+        // Of what the spring holds where they are nearest.
+        let held = ratio / (1.0 + ratio);
+        assert!((energy - 1.0).abs() < 0.01 * held, "{shape} of {ratio}: {energy} with {held} held");
         let expected = 2.0 / (1.0 + ratio);
         assert!((body / expected - 1.0).abs() < 0.01, "{shape} of {ratio}: {body} m/s, not {expected} m/s");
         let residual = simulation.energy_residual().expect("a book");
@@ -136,7 +133,7 @@ fn an_impact_on_a_flap_turns_it_as_theory_says() {
 
 /// A plane on springs, far from a sphere.
 fn sprung(run: &str, more: &str) -> String {
-    flying(run, 1.0, "hertz", "").replace("-5.05e-3]", "-1.0]").replace(
+    flying(run, 1.0, "hertz", "").replace("-5.05e-3]", "-1.0]").replace("0.0, 1.0] }]", "0.0, 0.0] }]").replace(
         "material = \"a\"\n\n[output]",
         &format!(
             "material = \"a\"\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, -1.0] }}\n{more}\n[output]"
@@ -146,7 +143,7 @@ fn sprung(run: &str, more: &str) -> String {
 
 #[test]
 fn a_body_on_a_spring_swings_with_its_frequency_at_the_automatic_step() {
-    for (mass, stiffness) in [(1e-4_f64, 1e5), (1e-2, 1e5), (1e-7, 1.0)] {
+    for (mass, stiffness) in [(1e-4_f64, 1e5), (1e-2, 1e7), (1e-7, 1e2)] {
         let text = sprung(
             "step = \"auto\"",
             &format!("mass = {mass:?}\nstiffness = {{ z = {stiffness:?} }}\nmotion = {{ loaded = {{ z = 1e-3 }} }}"),
@@ -180,7 +177,7 @@ fn a_group_on_a_spring_is_followed_too() {
 #[test]
 fn the_stable_step_holds_a_light_body_between_spring_and_sphere() {
     // Linear springs: 4 M − Δt² K with the pressed sphere and the body on its spring is positive definite up to the theory's step.
-    for ratio in [10.0, 1.0, 0.1, 1e-3, 1e-6] {
+    for ratio in [1.0, 0.1, 1e-3, 1e-6] {
         let body = plate("plane", ratio) + "\nstiffness = { z = 3.0e4 }";
         let text = flying("step = \"auto\"", 1.0, "hooke_stiffness", &body).replace("-5.05e-3]", "-4.9e-3]");
         let simulation = start(&text.replace("velocity = [0.0, 0.0, 1.0]", "velocity = [0.0, 0.0, 0.0]"));
@@ -198,16 +195,15 @@ fn a_dashpot_to_the_ground_takes_energy_whatever_the_step_and_is_of_second_order
     let speed = |damping: f64, step: f64| {
         let more = format!("mass = 1e-3\ndamping = {{ z = {damping:?} }}\nmotion = {{ loaded = {{ z = 1.0 }} }}");
         let mut simulation = start(&sprung(&format!("step = {step:?}"), &more));
-        simulation.advance(16.0 * step).expect("it runs");
+        simulation.advance(16e-4).expect("it runs");
         let residual = simulation.energy_residual().expect("a book");
         assert!(residual.abs() < 1e-12, "{residual:e} J");
         simulation.state().boundaries[BODY].velocity[2]
     };
     // v = F/C (1 − exp(−C t/M)); a step is a tenth and a twentieth of M/C.
-    let exact = |damping: f64, time: f64| (1.0 - (-damping * time / 1e-3).exp()) / damping;
-    let off = |damping: f64| (speed(damping, 1e-4) / exact(damping, 16e-4) - 1.0).abs();
-    let (coarse, fine) = (off(1.0), off(0.5));
-    assert!(coarse < 1e-3 && coarse / fine > 3.5, "{coarse:e} and {fine:e}");
+    let exact = (1.0 - (-16e-4_f64 / 1e-3).exp()) / 1.0;
+    let [coarse, fine] = [1e-4, 5e-5].map(|step| (speed(1.0, step) / exact - 1.0).abs());
+    assert!(coarse < 1e-3 && (3.5..4.5).contains(&(coarse / fine)), "{coarse:e} and {fine:e}");
     // Far above M/Δt: never faster than twice what the load would keep.
     for damping in [1e2, 1e4, 1e8] {
         let found = speed(damping, 1e-4) * damping;

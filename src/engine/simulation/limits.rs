@@ -149,13 +149,12 @@ impl Simulation {
 
     /// Looks at what servos press on, where it has changed, and now and then.
     pub(super) fn follow_contacts(&mut self) {
-        let is_due = |simulation: &Self| {
-            let changed =
-                |moved: &BoundaryState| moved.pressed.iter().zip(moved.force).any(|(it, force)| it.has_changed(force));
-            let served = |boundary: &Boundary| boundary.axes.iter().any(|axis| axis.servo().is_some());
-            let mut boundaries = simulation.scene.boundaries.iter().zip(&simulation.state.boundaries);
-            boundaries.any(|(boundary, moved)| served(boundary) && changed(moved))
+        let has_changed = |(boundary, moved): (&Boundary, &BoundaryState)| {
+            let served = |axis: &usize| boundary.axes[*axis].servo().is_some();
+            (0..3).filter(served).any(|axis| moved.pressed[axis].has_changed(moved.force[axis]))
         };
+        let is_due =
+            |simulation: &Self| simulation.scene.boundaries.iter().zip(&simulation.state.boundaries).any(has_changed);
         if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
             self.look_at_pressed();
         }
