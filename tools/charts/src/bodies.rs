@@ -39,8 +39,12 @@ const SPRING: [f64; 2] = [1e-4, 1e5];
 const STEPS: [f64; 8] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95];
 
 /// Columns of the table.
-const COLUMNS: [&str; 4] =
-    ["mass of body over sphere", "energy after over before", "step over stable one", "frequency over theory"];
+const COLUMNS: [&str; 4] = [
+    "mass of body over sphere",
+    "energy of relative motion, after over before",
+    "step over stable one",
+    "frequency over theory",
+];
 
 /// Mass of the sphere \[kg\].
 fn mass() -> f64 {
@@ -58,7 +62,7 @@ fn text(run: &str, law: &str, gap: f64, body: &str) -> String {
     )
 }
 
-/// Energy after an elastic impact over that before.
+/// Energy of the relative motion of sphere and body, after an elastic impact over before: the whole loses what this one loses.
 fn energy(law: &str, ratio: f64, gap: f64) -> Result<f64, ChartError> {
     let body = format!("mass = {:?}\nmotion = {{ free = [\"z\"] }}", ratio * mass());
     let mut stage = Stage::of(&text("step = \"auto\"", law, gap, &body))?;
@@ -70,7 +74,7 @@ fn energy(law: &str, ratio: f64, gap: f64) -> Result<f64, ChartError> {
             break;
         }
     }
-    Ok(stage.simulation.kinetic_energy() / begun)
+    Ok(1.0 + (stage.simulation.kinetic_energy() / begun - 1.0) * (1.0 + ratio) / ratio)
 }
 
 /// The frequency of a body on its spring over theory, at this part of the stable step.

@@ -64,22 +64,19 @@ impl RigidBody {
         let (orientation, inertial) = (Quaternion::from(moved.orientation), &moved.inertial);
         let [shifting, turning] = self.dashpots().map(|dashpots| dashpots * (0.5 * step));
         let force = self.along_free(inertial.load);
-        let velocity = match shifting == Vector::zero() {
-            true => force * if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass },
-            false => {
-                let (force, shifting) = ((force * (0.5 * step)).to_array(), shifting.to_array());
-                Vector::from([0, 1, 2].map(|axis| force[axis] / (self.mass + shifting[axis])))
-            }
+        let (shift, pulled) = if shifting == Vector::zero() {
+            let per_mass = if self.moves == [false; 3] { 0.0 } else { 0.5 * step / self.mass };
+            (force * per_mass, Vector::zero())
+        } else {
+            let (push, shifting) = ((force * (0.5 * step)).to_array(), shifting.to_array());
+            let shift = Vector::from([0, 1, 2].map(|axis| push[axis] / (self.mass + shifting[axis])));
+            (shift, shift * self.mass - push.into())
         };
         let twist = self.twist(moved, step);
         let turned = if turning == Vector::zero() { twist } else { self.slowed(orientation, twist, turning) };
         let momentum = Vector::from(inertial.angular_momentum) + turned;
-        let shifted = match shifting == Vector::zero() {
-            true => Vector::zero(),
-            false => velocity * self.mass - force * (0.5 * step),
-        };
-        let motion = [self.along_free(moved.velocity) + velocity, self.spin(orientation, momentum)];
-        Kick { motion, momentum, following: [shifted, turned - twist] }
+        let motion = [self.along_free(moved.velocity) + shift, self.spin(orientation, momentum)];
+        Kick { motion, momentum, following: [pulled, turned - twist] }
     }
 
     /// The angular momentum that an angular impulse gives against dashpots about the axes \[kg m²/s\].
