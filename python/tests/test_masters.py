@@ -359,6 +359,16 @@ def test_names_that_are_the_same_are_refused(opened):
     assert record.names.count(FLOOR) == 1
 
 
+def test_units_of_different_times_are_refused(opened):
+    one, other = opened(DROP, name="one"), opened(DROP, name="other")
+    other.step(1e-3)
+    with pytest.raises(ValueError, match=r"other: expected to stand at 0 s, as the others do, found 0.001 s"):
+        Coupling(Interface(one, FLOOR) + Interface(other, FLOOR), Structure([1.0, 1.0], 1.0), QuasiNewton(), 1e-3)
+    partner = UnitPartner(other, force=FLOOR, displacement="ball.displacement.z")
+    with pytest.raises(ValueError, match="other: expected to stand at 0 s"):
+        Coupling(Interface(one, FLOOR), partner, FixedPoint(), 1e-3)
+
+
 def test_an_output_is_not_moved(drop):
     with pytest.raises(ValueError, match=r"ball.displacement.z is an output; an input is needed"):
         Interface(drop, "ball.displacement.z")
