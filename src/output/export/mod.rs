@@ -18,7 +18,7 @@ pub use resources::{Content, Contents, Resource, ResourceError, identity, read_r
 use crate::engine::simulation::{RunError, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::snapshot::SnapshotError;
-use crate::interface::Interface;
+use crate::interface::{ChosenError, Interface};
 use crate::scene::{Scene, Source};
 use experiment::Experiment;
 use library::Library;
@@ -32,6 +32,9 @@ pub enum PackageError {
     /// No usable library.
     #[error(transparent)]
     Library(#[from] LibraryError),
+    /// An output that the scene names and does not have.
+    #[error(transparent)]
+    Chosen(#[from] ChosenError),
     /// The unit would not start.
     #[error(transparent)]
     Start(#[from] RunError),
@@ -73,6 +76,7 @@ pub fn export(
         Some(state) => Interface::of(scene).starting_in(state),
         None => Interface::of(scene),
     };
+    interface.check_names(scene)?;
     let bytes = state.map(|state| state.to_bytes(scene.fingerprint));
     let identifier = identifier(output);
     let written = |cause| PackageError::Write { path: output.to_owned(), cause };
