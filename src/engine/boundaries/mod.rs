@@ -5,6 +5,7 @@ pub(crate) mod implicit;
 mod inertia;
 pub(crate) mod loads;
 pub(crate) mod nodes;
+pub(crate) mod passing;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
 

@@ -4,6 +4,7 @@ use super::body::{Inertia, Supports};
 use crate::base::quantity::{Positive, Triple};
 use crate::laws::motion::{self, InputCourse, NodeMotion};
 use crate::laws::surface::{self, Shape, ShapeContext, ShapeKeys, with_shapes};
+use crate::scene::exchange::Outside;
 use serde::Deserialize;
 
 /// Declares the table of a boundary: a key for each shape, and what every boundary has.
@@ -27,6 +28,9 @@ macro_rules! boundary_table {
             pub(in crate::scene::file) nodes: NodeMotion,
             /// How driven axes and nodes go to their new value.
             pub(in crate::scene::file) input: Option<InputCourse>,
+            /// What happens to particles that came through it.
+            #[serde(default)]
+            pub(in crate::scene::file) outside: Outside,
             /// Point of reference of the moment \[m\].
             pub(in crate::scene::file) reference: Option<Triple>,
             /// Mass of a surface \[kg\].
