@@ -93,6 +93,11 @@ const MOTIONS: [&str; 4] = [
     "motion = { driven = [\"x\"] }\ninput = \"hold\"",
 ];
 
+/// Whether a wall comes to where it is by a way: a group that jumps is put there.
+fn has_a_way((key, _): (&str, &str), motion: &str) -> bool {
+    key != "particles" || !motion.contains("hold")
+}
+
 /// Runs it for 1 ms; a wall that is driven goes at this speed \[m/s\].
 fn run(simulation: &mut Simulation, speed: f64) -> Result<(), RunError> {
     for part in 1..=10 {
@@ -128,7 +133,7 @@ fn every_shape_that_a_scene_can_name_has_a_wall_here() {
 fn a_grain_is_turned_back_by_any_wall_at_any_speed_or_the_time_step_is_refused() {
     let (mut turned, mut refused) = (0, 0);
     for wall in WALLS {
-        for motion in MOTIONS {
+        for motion in MOTIONS.into_iter().filter(|motion| has_a_way(wall, motion)) {
             for speed in [0.3, 3.0, 30.0, 60.0, 90.0, 150.0, 400.0, 1e3, 1e4] {
                 for y in [0.0, 0.0023] {
                     let velocity = if motion.is_empty() { -speed } else { 0.0 };
@@ -162,7 +167,7 @@ fn a_grain_is_turned_back_by_any_wall_at_any_speed_or_the_time_step_is_refused()
 #[test]
 fn a_wall_that_goes_over_a_grain_in_one_time_step_is_refused_and_one_that_goes_past_it_is_not() {
     for wall in WALLS {
-        for motion in &MOTIONS[2..] {
+        for motion in MOTIONS[2..].iter().filter(|motion| has_a_way(wall, motion)) {
             // In one communication step to beyond the grain; the same with the grain out of the way.
             let text = |y: f64| scene(wall, [0.0051, y], 0.0, motion, "1e-5");
             let gone = |y: f64| {

@@ -9,6 +9,7 @@ use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::state::nodes::farthest;
 use crate::engine::state::{BoundaryState, Nodes, Row, State};
+use crate::laws::motion::InputCourse;
 use crate::laws::surface::{Deforming, Features, SLOW, is_skipped};
 use crate::scene::{GoverningLaws, Scene};
 use std::f64::consts::PI;
@@ -19,6 +20,8 @@ pub(crate) struct Passing {
     references: Vec<Vector>,
     /// How far the particles of each are from its point, to their centres; nothing where it has none \[m\].
     groups: Vec<Option<f64>>,
+    /// Whether each jumps to where its inputs say, which puts a group there without a way.
+    jumps: Vec<bool>,
     /// Radius of the smallest particle \[m\].
     smallest: f64,
     /// Which materials touch each other.
@@ -57,6 +60,7 @@ impl Passing {
         Self {
             references: scene.boundaries.iter().map(|boundary| boundary.reference.into()).collect(),
             groups: scene.boundaries.iter().map(extent).collect(),
+            jumps: scene.boundaries.iter().map(|boundary| boundary.input == InputCourse::Hold).collect(),
             smallest: scene.radii().fold(f64::INFINITY, f64::min),
             laws: scene.governing_laws(),
         }
@@ -131,7 +135,7 @@ impl Passing {
             return None;
         }
         let particles = MovedParticles::of(state, step);
-        let groups = (0..self.groups.len()).filter(|group| self.groups[*group].is_some());
+        let groups = (0..self.groups.len()).filter(|group| self.groups[*group].is_some() && !self.jumps[*group]);
         groups.into_iter().find_map(|group| Some((self.through_group(group, state, particles)?, group)))
     }
 

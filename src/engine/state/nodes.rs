@@ -87,7 +87,7 @@ impl Nodes {
     pub(super) fn columns(&self) -> [&[Row]; 11] {
         let Self { boundary: _, displacement, before, velocity, start, end, target, target_rate, .. } = self;
         let Self { listed, force, impulse, mean_force, fastest: _, .. } = self;
-        [displacement, before, velocity, start, end, target, target_rate, listed, force, impulse, mean_force]
+        [displacement, velocity, start, end, target, target_rate, listed, force, impulse, mean_force, before]
             .map(Vec::as_slice)
     }
 
