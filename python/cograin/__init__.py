@@ -1,14 +1,31 @@
 """Couples units of grains with structures and with other units.
 
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
-`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An
-`Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit;
-`FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order. `couple`
-runs both sides and returns a `Record`.
+`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
+`UnitPartner`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are
+explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order.
+`couple` runs both sides and returns a `Record`.
 
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
+
+A marble falls on a table, a mass on a spring:
+
+>>> from cograin import Interface, Oscillator, Program, Secant, Unit, couple
+>>> program = Program()
+>>> print(program("new", "drop"), end="")  # a scene to start from
+drop: a marble on a table that an outside program lifts
+next: cograin check drop/scene.toml
+>>> with Unit(program.export("drop/scene.toml", "drop.fmu")) as marble:
+...     table = Oscillator(mass=0.1, stiffness=1e4)  # [kg], [N/m]
+...     record = couple(Interface(marble, "table.displacement.z"), table, Secant(), step=1e-4, end=0.06)
+>>> len(record), record.unconverged
+(600, [])
+>>> bool(record["table.displacement.z"].min() < -1e-4)  # the marble has hit it
+True
+
+`cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs.
 """
 
 from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
@@ -21,6 +38,7 @@ from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
 from cograin.program import Program, ProgramError
 from cograin.quadratic import Quadratic
 from cograin.record import Record, Row
+from cograin.rigid_body import RigidBody
 from cograin.step import Force, Outcome, Step
 from cograin.structure import Modal, Oscillator, Structure
 from cograin.tolerance import Tolerance
@@ -51,6 +69,7 @@ __all__ = [
     "Quadratic",
     "QuasiNewton",
     "Record",
+    "RigidBody",
     "Row",
     "Secant",
     "Side",

@@ -3,6 +3,7 @@
 use super::SceneDraft;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{HistoryRow, Law, OFFSET};
+use crate::scene::Probed;
 
 /// The contact law of each two materials: the only place that says which law governs a contact.
 #[derive(Clone, Debug)]
@@ -40,14 +41,15 @@ impl SceneDraft {
 
     /// A law, with what the outputs of the scene ask to be remembered of contacts.
     pub fn law(&self, law: usize) -> Law {
-        let law = Law::of(&self.contacts[law].choice());
+        let law = Law::of(&self.contacts[law].choice);
         let law = if self.records_contacts() { law.recorded() } else { law };
         if self.output.losses { law.booked() } else { law }
     }
 
     /// Whether an output takes forces of single contacts.
     fn records_contacts(&self) -> bool {
-        self.output.contacts || self.output.boundaries || !self.regions.is_empty()
+        let probed = || self.probes.iter().any(|probe| matches!(probe.of, Probed::Contact(_)));
+        self.output.contacts || self.output.boundaries || !self.regions.is_empty() || probed()
     }
 
     /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,

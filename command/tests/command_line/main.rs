@@ -3,11 +3,15 @@
 mod broken_off;
 mod charts;
 mod checks;
+mod chosen;
+mod economy;
 mod folders;
 mod ground;
 mod hostile;
 mod inputs;
 mod protocols;
+mod recipes;
 mod refusals;
 mod runs;
 mod settling;
+mod shells;

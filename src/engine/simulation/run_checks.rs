@@ -127,7 +127,7 @@ impl Simulation {
     /// not in it: scenes with cohesion are not judged.
     fn gain_by_ledger(&self) -> Option<[f64; 2]> {
         let ledger = self.state.ledger.as_ref()?;
-        let cohesive = self.scene.contacts.iter().any(|law| law.cohesion.name() != "none");
+        let cohesive = self.scene.contacts.iter().any(|law| law.choice.cohesion.name() != "none");
         let scale = ledger.turnover.max(ledger.initial_kinetic + ledger.initial_elastic);
         (!cohesive && ledger.turnover > 0.0).then_some([-self.dissipated_energy()?, scale])
     }
@@ -228,6 +228,7 @@ impl Simulation {
             | RunError::PutAtPlane { .. }
             | RunError::Invalid { .. }
             | RunError::Stopped { .. }
+            | RunError::TooManySteps { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
             | RunError::Collapsed { .. }

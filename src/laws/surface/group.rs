@@ -2,6 +2,7 @@
 
 use super::{Shape, ShapeContext, ShapeKeys, Surface};
 use crate::base::quantity::Corners;
+use crate::base::words::counted;
 use serde::Deserialize;
 
 /// A group of particles that moves as one rigid body. Its particles touch others as all particles do; its load is the sum
@@ -18,7 +19,7 @@ impl Surface for Group {
     }
 
     fn words(&self) -> String {
-        format!("group of {} particles", self.members.len())
+        format!("group of {}", counted(self.members.len(), "particle"))
     }
 
     fn members(&self) -> &[u32] {
@@ -31,6 +32,7 @@ impl Surface for Group {
 }
 
 impl ShapeKeys for Selection {
+    const KEY: &'static str = "particles";
     const HINT: &'static str = "particles = { set, box, ids }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
@@ -42,7 +44,7 @@ impl ShapeKeys for Selection {
 /// Which particles: those for which everything given here holds.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Selection {
+pub struct Selection {
     /// Of this set.
     pub(crate) set: Option<String>,
     /// Of these sets.
