@@ -5,6 +5,7 @@ use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
 use crate::base::threads::Workers;
+use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
@@ -47,6 +48,7 @@ impl Simulation {
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             flow,
             search: neighbours::Search::of(&scene),
+            passing: Passing::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
             workers: Workers::new(scene.run.threads, most_particles(&scene)),

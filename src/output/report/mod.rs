@@ -249,6 +249,8 @@ fn exchange(scene: &Scene) -> Vec<String> {
     if scene.domain.is_some() && scene.outside == Outside::Remove {
         uses.push("domain: takes away what leaves it".to_owned());
     }
+    let through = scene.boundaries.iter().filter(|boundary| boundary.outside == Outside::Remove);
+    uses.extend(through.map(|boundary| format!("boundary {}: takes away what comes through it", boundary.name)));
     uses
 }
 
