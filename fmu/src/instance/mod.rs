@@ -378,8 +378,8 @@ impl Instance {
             let expected = "a finite number above 0, large enough to change the time";
             return Err(Refusal::Time { argument: "communicationStepSize", value: length, expected });
         }
-        // hosts count in nanoseconds or sum up; a step that was left out or done twice differs by far more
-        let tolerance = 1e-3 * length + 1e-9 * present.abs();
+        // Hosts sum up or round; a step that was left out or done twice differs by a whole one.
+        let tolerance = (1e-3 * length + 1e-9 * present.abs()).min(0.5 * length);
         if (point - present).abs() > tolerance {
             return Err(Refusal::Point { given: point, present });
         }

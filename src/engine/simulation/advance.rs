@@ -54,12 +54,18 @@ impl Simulation {
             }
             self.shorten_step();
         }
-        self.lengthen_step();
+        self.lengthen_step(interval);
         let (count, step) = divide(interval, self.state.clock.step);
         let length = count as f64 * step;
         let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
         while progress.done < progress.count {
             let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
+            if self.outruns(step) && self.shorten_step() {
+                let passed = elapsed(progress.done);
+                let (count, step) = divide(length - passed, self.state.clock.step);
+                progress = Progress { done: 0, count, step, passed: passed / length, ..progress };
+                continue;
+            }
             if let Err(error) = self.check_displacement(step) {
                 return (elapsed(progress.done), Err(error));
             }

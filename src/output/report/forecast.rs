@@ -2,7 +2,7 @@
 
 use super::passing::{Files, ParticleExchange};
 use super::trial::Trial;
-use crate::engine::simulation::{LONGEST_AUTOMATIC_STEP, Simulation};
+use crate::engine::simulation::Simulation;
 use crate::output::results::schedule::{Counted, Schedule};
 use crate::scene::{Scene, Step};
 use std::sync::Arc;
@@ -101,7 +101,7 @@ fn steps(scene: &Arc<Scene>, present: &Simulation, (schedule, begins): (&Schedul
     let bound =
         Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.stable_step(), |it| it.stable_step());
     let shortest = (IN_A_PACKING * safety * bound).min(present.state().clock.step);
-    Steps { least: schedule.steps(begins, LONGEST_AUTOMATIC_STEP), most: schedule.steps(begins, shortest) }
+    Steps { least: schedule.steps(begins, f64::INFINITY), most: schedule.steps(begins, shortest) }
 }
 
 /// The largest speed to be expected: of the fastest particle or boundary, with what a fall through all of the scene adds
