@@ -363,8 +363,8 @@ impl NormalForm for Eepa {
 mod tests {
     use super::*;
     use crate::base::quantity::{NonNegative, Restitution};
-    use crate::laws::contact::PairProperties;
     use crate::laws::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
+    use crate::laws::contact::{NoKeys, PairProperties};
 
     /// E* = 1 Pa, k₂/k₁ = 4, elastic dashpot, surface energy or attraction as given.
     fn law(keys: Keys, surface_energy: f64) -> Eepa {
@@ -391,6 +391,22 @@ mod tests {
             normal.force
         };
         overlaps.iter().map(force).collect()
+    }
+
+    #[test]
+    fn damps_a_hertzian_contact_as_hertz_does_and_the_engine_whatever_the_exponent() {
+        let properties = PairProperties { restitution: Restitution::new(0.5), ..properties() };
+        let damping = |keys: Keys| {
+            let law = with_pair(&properties, |pair| Eepa::between(pair, &keys, ALL)).unwrap();
+            Eepa::response(law, &contact()).normal_damping
+        };
+        let hertz = with_pair(&properties, |pair| super::super::hertz::Hertz::between(pair, &NoKeys {}, ALL)).unwrap();
+        let expected = super::super::hertzian::Hertzian::response(hertz, &contact()).normal_damping;
+        assert_close(damping(keys(1.5, 2.0)), expected, 1e-14);
+        // k₁ of n = 3/2 in place of a stiffness: m* = 4 kg, E* = 1 Pa, R* = ¼ m
+        let log = libm::log(0.5);
+        let engine = (4.0 * log * log / (log * log + PI * PI) * 4.0 * (4.0 / 3.0 * 0.5)).sqrt();
+        assert_close(damping(Keys { engine_exact: true, ..keys(1.5, 2.0) }), engine, 1e-14);
     }
 
     #[test]

@@ -186,6 +186,21 @@ mod tests {
     }
 
     #[test]
+    fn spring_and_dashpot_are_told_apart_and_at_a_wall_as_the_engine_sees_the_spin() {
+        let damping = 2.0 * 0.5 * (1.4 * 0.5 * STIFFNESS).sqrt();
+        let of = |law: Epsd, contact: &Contact| {
+            let found = law.response(contact, &normal_force().response);
+            [found.bending_stiffness, found.bending_damping, found.torsional_stiffness, found.torsional_damping]
+        };
+        assert_eq!(of(law(0.0, 0.0), &contact()), [STIFFNESS, damping, 0.0, 0.0]);
+        assert_eq!(of(law(1.0, 0.0), &contact()), [STIFFNESS, damping, STIFFNESS, damping]);
+        let wall = Contact { per_reach: 0.0, ..contact() };
+        let arms = (0.25 - 0.5 / 16384.0) / (0.25 - 1.0 / 16384.0);
+        assert_eq!(of(law(0.0, 1.0), &wall), [STIFFNESS * arms, damping * arms, 0.0, 0.0]);
+        assert_eq!(of(law(0.0, 0.0), &wall), [STIFFNESS, damping, 0.0, 0.0]);
+    }
+
+    #[test]
     fn stores_the_energy_of_the_torque() {
         let energy = law(0.0, 0.0).elastic_energy(&contact(), &normal_force().response, [3.0, 0.0, 0.0, 0.0]);
         assert_eq!(energy, 0.5 * 9.0 / STIFFNESS);
