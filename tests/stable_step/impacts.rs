@@ -71,8 +71,10 @@ fn a_group_meets_what_it_does_not_hold() {
 fn a_steel_wall_is_met_by_the_lightest_of_each_material() {
     let wall =
         "[boundary.wall]\nmaterial = \"steel\"\nplane = { point = [0.0, 0.0, -0.1], normal = [0.0, 0.0, 1.0] }\n";
-    let pairs = [step([SOFT, SOFT], [1e-3, 1e-3]), step([SOFT, STEEL], [1e-3, 0.01]), step([SOFT, STEEL], [1e-3, 0.0])];
-    holds(scene(1, wall), pairs.into_iter().fold(f64::INFINITY, f64::min));
+    // In an edge it meets two at once.
+    let at_walls = step([SOFT, STEEL], [1e-3, 0.0]).min(step([STEEL, STEEL], [0.01, 0.0])) / 2.0_f64.sqrt();
+    let pairs = step([SOFT, SOFT], [1e-3, 1e-3]).min(step([SOFT, STEEL], [1e-3, 0.01]));
+    holds(scene(1, wall), pairs.min(at_walls));
 }
 
 #[test]

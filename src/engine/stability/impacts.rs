@@ -7,7 +7,6 @@
 use super::System;
 use super::limiter::{Limiter, LimiterKind, Mode};
 use crate::base::number::Vector;
-use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Frame, Meeting};
 use crate::engine::state::GONE;
 use crate::laws::contact::Contact;
@@ -16,6 +15,10 @@ use nalgebra::Matrix6;
 
 /// Turns in which the root of slip and rolling comes down to where it stands.
 const TURNS: usize = 12;
+
+/// How many surfaces a body may meet at once: two in an edge. The other half of what a surface feels that forces move is added to its
+/// inertia: that counts twice, too.
+const AT_SURFACES: f64 = 2.0;
 
 /// A body that may meet another one, or a surface.
 #[derive(Clone, Copy, Debug)]
@@ -123,10 +126,11 @@ impl System<'_> {
             let meeting = Meeting { materials: (a.material, None), contact: contact_of(a, None), energy };
             for pass in self.passes {
                 pass.impacts(self.state, &meeting, &mut |boundary, parts| {
-                    // The other half of what a surface feels that forces move is added to its inertia.
-                    let body = boundary.and_then(|boundary| self.bodies[boundary as usize].as_ref());
-                    let times = if body.is_some_and(RigidBody::is_implicit) { 2.0 } else { 1.0 };
-                    tell((a.particle, None, boundary), Freedoms::of(a), parts.map(|frame| frame.map(|it| times * it)));
+                    tell(
+                        (a.particle, None, boundary),
+                        Freedoms::of(a),
+                        parts.map(|frame| frame.map(|it| AT_SURFACES * it)),
+                    );
                 });
             }
         }
