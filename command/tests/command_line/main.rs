@@ -3,6 +3,8 @@
 mod broken_off;
 mod charts;
 mod checks;
+mod chosen;
+mod economy;
 mod folders;
 mod ground;
 mod hostile;
@@ -12,3 +14,4 @@ mod recipes;
 mod refusals;
 mod runs;
 mod settling;
+mod shells;

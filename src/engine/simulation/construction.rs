@@ -100,7 +100,7 @@ impl Simulation {
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, 0.0);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
         self.first_step(&context)?;
-        self.find_impedances();
+        self.look_at_pressed();
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);

@@ -1,12 +1,13 @@
 //! Impacts still to come between bodies that are in no list: of all pairs of materials that can meet, the hardest.
 //!
 //! Of equal materials the lightest body has the largest root. So each material stands for its two lightest particles (those that an
-//! insertion lets come among them), for the groups that forces move and for those that nothing moves. Any two of these can meet, and
-//! each can meet every surface; a particle cannot meet itself. Two bodies alone are bounded exactly, with their rolling springs.
+//! insertion lets come among them) and its largest, for the groups that forces move and for those that nothing moves. Any two of
+//! these can meet, and each can meet every surface; a particle cannot meet itself. Two bodies alone are bounded exactly, with their rolling springs.
 
 use super::System;
 use super::limiter::{Limiter, LimiterKind, Mode};
 use crate::base::number::Vector;
+use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Frame, Meeting};
 use crate::engine::state::GONE;
 use crate::laws::contact::Contact;
@@ -16,8 +17,7 @@ use nalgebra::Matrix6;
 /// Turns in which the root of slip and rolling comes down to where it stands.
 const TURNS: usize = 12;
 
-/// How many surfaces a body may meet at once: two in an edge. The other half of what a surface feels that forces move is added to its
-/// inertia: that counts twice, too.
+/// How many surfaces that stand or are led a body may meet at once: two in an edge.
 const AT_SURFACES: f64 = 2.0;
 
 /// A body that may meet another one, or a surface.
@@ -45,6 +45,16 @@ struct Candidate {
     is_sphere: bool,
     /// Whether there are others like it.
     has_likes: bool,
+}
+
+/// A surface that forces move.
+struct MovedSurface {
+    /// Accelerations that unit loads give it: of where it is touched \[1/kg\], and angular \[1/(kg m²)\].
+    answers: [f64; 2],
+    /// 1/mass \[1/kg\].
+    per_mass: f64,
+    /// The acceleration that its present load gives it \[m/s²\].
+    acceleration: f64,
 }
 
 /// An impact that can come.
@@ -98,11 +108,12 @@ impl System<'_> {
         acceleration: f64,
         tell: &mut dyn FnMut((u32, Option<u32>, Option<u32>), Freedoms, [Frame; 2]),
     ) {
-        let candidates = self.candidates();
+        let (candidates, surfaces) = (self.candidates(), self.moved_surfaces());
         let closing = |radius: f64| 2.0 * speed + (2.0 * acceleration * radius).sqrt();
         for (place, a) in candidates.iter().enumerate() {
             for b in &candidates[place..] {
-                let alone = std::ptr::eq(a, b) && !a.has_likes;
+                let same = a.is_sphere && b.is_sphere && a.particle == b.particle && a.particle != GONE;
+                let alone = same || (std::ptr::eq(a, b) && !a.has_likes);
                 let freedoms = Freedoms::of_pair(a, b);
                 if alone || freedoms.slip <= 0.0 {
                     continue;
@@ -118,22 +129,49 @@ impl System<'_> {
                     });
                 }
             }
-            if a.slip <= 0.0 {
-                continue;
+            let contact = contact_of(a, None);
+            let meeting = |closing: f64, per_mass: f64| Meeting {
+                materials: (a.material, None),
+                contact,
+                energy: 0.5 * closing * closing / per_mass,
+            };
+            if a.slip > 0.0 {
+                let meeting = meeting(closing(a.radius), a.per_striking_mass);
+                for pass in self.passes {
+                    pass.impacts(self.state, &meeting, &mut |boundary, parts| {
+                        if boundary.is_some_and(|boundary| surfaces[boundary as usize].is_none()) {
+                            let parts = parts.map(|frame| frame.map(|it| AT_SURFACES * it));
+                            tell((a.particle, None, boundary), Freedoms::of(a), parts);
+                        }
+                    });
+                }
             }
-            let closing = closing(a.radius);
-            let energy = 0.5 * closing * closing / a.per_striking_mass;
-            let meeting = Meeting { materials: (a.material, None), contact: contact_of(a, None), energy };
-            for pass in self.passes {
-                pass.impacts(self.state, &meeting, &mut |boundary, parts| {
-                    tell(
-                        (a.particle, None, boundary),
-                        Freedoms::of(a),
-                        parts.map(|frame| frame.map(|it| AT_SURFACES * it)),
-                    );
-                });
+            for (index, surface) in surfaces.iter().enumerate() {
+                let Some(surface) = surface else { continue };
+                let gained = acceleration.max(surface.acceleration);
+                let closing = 2.0 * speed + (4.0 * gained * a.radius).sqrt();
+                let meeting = meeting(closing, a.per_striking_mass + surface.per_mass);
+                for pass in self.passes {
+                    pass.impacts(self.state, &meeting, &mut |boundary, parts| {
+                        if boundary == Some(index as u32) {
+                            tell((a.particle, None, boundary), Freedoms::at(a, surface), parts);
+                        }
+                    });
+                }
             }
         }
+    }
+
+    /// Of each boundary: the surface, where forces move it.
+    fn moved_surfaces(&self) -> Vec<Option<MovedSurface>> {
+        let extents = &self.state.neighbours.boundary_extent;
+        let surface = |(index, body): (usize, &Option<RigidBody>)| {
+            let body = body.as_ref().filter(|body| body.is_free() && body.is_surface())?;
+            let (moved, extent) = (&self.state.boundaries[index], extents.get(index).copied().unwrap_or(0.0));
+            let answers = answers(&body.mobility(moved), extent, self.fields.amplification_of(body));
+            Some(MovedSurface { answers, per_mass: 1.0 / body.mass, acceleration: body.acceleration(moved, extent) })
+        };
+        self.bodies.iter().enumerate().map(surface).collect()
     }
 
     /// The bodies that stand for all.
@@ -141,40 +179,44 @@ impl System<'_> {
         let materials = self.scene.materials.len();
         let particles = &self.state.particles;
         let mut lightest: Vec<[Option<Candidate>; 2]> = vec![[None; 2]; materials];
+        let mut largest: Vec<Option<Candidate>> = vec![None; materials];
         let mut still: Vec<Option<Candidate>> = vec![None; materials];
         let mut moved: Vec<Option<Candidate>> = vec![None; materials];
         for slot in 0..particles.len() {
             let material = particles.material[slot];
             let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
             let Some(owner) = (particles.owner[slot] as usize).checked_sub(1) else {
-                let two = &mut lightest[material as usize];
-                if two[1].is_none_or(|second| mass < second.mass) {
-                    let id = particles.id[slot];
-                    let inertia = particles.angular_velocity[slot][3];
-                    let factors = self.fields.amplification(id);
-                    put(two, Candidate::sphere(material, id, (radius, mass, inertia), factors));
+                let (two, large) = (&mut lightest[material as usize], &mut largest[material as usize]);
+                let is_larger = large.is_none_or(|large| radius > large.radius);
+                if is_larger || two[1].is_none_or(|second| mass < second.mass) {
+                    let (id, inertia) = (particles.id[slot], particles.angular_velocity[slot][3]);
+                    let next = Candidate::sphere(material, id, (radius, mass, inertia), self.fields.amplification(id));
+                    put(two, next);
+                    *large = if is_larger { Some(next) } else { *large };
                 }
                 continue;
             };
-            let free = self.bodies[owner].as_ref().filter(|body| body.is_free() && !body.is_implicit());
-            if free.is_some() {
+            if self.bodies[owner].as_ref().is_some_and(RigidBody::is_free) {
                 continue;
             }
             let next = Candidate::group(material, particles.id[slot], (radius, mass, f64::INFINITY), [0.0; 2]);
             join(&mut still[material as usize], next);
         }
         for insertion in &self.scene.insertions {
-            let [radius, _] = insertion.sizes.bounds();
-            let mass = insertion.mass(radius);
-            let body = (radius, mass, ParticleShape::Sphere.inertia(mass, radius));
+            let [smallest, most] = insertion.sizes.bounds().map(|radius| {
+                let mass = insertion.mass(radius);
+                let body = (radius, mass, ParticleShape::Sphere.inertia(mass, radius));
+                Candidate::sphere(insertion.material.0, GONE, body, [1.0; 2])
+            });
             for _ in 0..2 {
-                let next = Candidate::sphere(insertion.material.0, GONE, body, [1.0; 2]);
-                put(&mut lightest[insertion.material.index()], next);
+                put(&mut lightest[insertion.material.index()], smallest);
             }
+            let large = &mut largest[insertion.material.index()];
+            *large = large.filter(|large| large.radius >= most.radius).or(Some(most));
         }
         for (body, boundary) in self.bodies.iter().zip(&self.state.boundaries) {
-            let Some(body) = body.as_ref().filter(|body| body.is_free() && !body.is_implicit()) else { continue };
-            let factors = body.members.first().map_or([1.0; 2], |&member| self.fields.amplification(member));
+            let Some(body) = body.as_ref().filter(|body| body.is_free() && !body.is_surface()) else { continue };
+            let factors = self.fields.amplification_of(body);
             let answers = answers(&body.mobility(boundary), body.farthest + body.largest, factors);
             let mut own: Vec<Option<Candidate>> = vec![None; materials];
             for &member in &body.members {
@@ -193,7 +235,7 @@ impl System<'_> {
                 }
             }
         }
-        lightest.into_iter().flatten().chain(still).chain(moved).flatten().collect()
+        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).flatten().collect()
     }
 }
 
@@ -312,6 +354,13 @@ impl Freedoms {
     /// Of a body at what stands still.
     fn of(a: &Candidate) -> Self {
         Self { shift: a.shift, slip: a.slip, spin: a.spin, turn: a.turn }
+    }
+
+    /// Of a body at a surface that forces move: about what touches it, that may turn as it likes.
+    fn at(a: &Candidate, surface: &MovedSurface) -> Self {
+        let [slip, spin] = surface.answers;
+        let turn = a.turn + (slip * spin).sqrt();
+        Self { shift: a.shift + slip, slip: a.slip + slip, spin: a.spin + spin, turn }
     }
 
     /// Of two bodies. Slip turns two spheres alike: about that they roll only by their difference.

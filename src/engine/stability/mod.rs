@@ -9,24 +9,23 @@
 mod blocks;
 mod cluster;
 mod impacts;
+mod impedance;
 mod lanczos;
 mod limiter;
 mod network;
 mod plain;
 mod shares;
-mod surfaces;
 mod triangle;
 
 use crate::base::threads::Context;
 use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
-use crate::engine::state::State;
+use crate::engine::state::{GONE, State};
 use crate::scene::{Insertion, Scene};
 use impacts::Impact;
 pub use limiter::{Limiter, LimiterKind, Mode};
 use network::Network;
-pub(crate) use surfaces::{has_more_contacts, put_blocks};
 
 /// What limits the time step.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,7 +103,10 @@ impl System<'_> {
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
     fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
-        blocks::quick_root(&bodies, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
+        let supports = bodies.supports(self.bodies);
+        blocks::quick_root(&bodies, supports, |tell| {
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell))
+        })
     }
 
     /// Whether there are bonds, or are about to be.
@@ -156,7 +158,18 @@ impl System<'_> {
                 }
             });
         }
-        let link: Link = link.get()?;
+        let Some(link): Option<Link> = link.get() else {
+            // Behind what the passes tell stand the springs to the ground.
+            let boundary = network.supported(place)?;
+            let mode = if part < 2 { Mode::Normal } else { Mode::Torsion };
+            return Some(Limiter {
+                kind: LimiterKind::Support,
+                first: GONE,
+                second: None,
+                boundary: Some(boundary),
+                mode,
+            });
+        };
         let name = |slot: u32| self.state.particles.id[slot as usize];
         Some(Limiter {
             kind: match link.kind {

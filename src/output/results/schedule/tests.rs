@@ -180,3 +180,11 @@ fn times_are_the_same_in_any_units_of_powers_of_two() {
         }
     }
 }
+
+#[test]
+fn intervals_are_those_of_the_scene_and_not_what_rounding_leaves_of_times() {
+    for interval in [1e-3, 3.3e-4, 0.1] {
+        let all = points(&schedule(interval, None, 100.0 * interval), 0.0);
+        assert!(all.iter().all(|point| point.interval == interval), "{interval}: {all:?}");
+    }
+}
