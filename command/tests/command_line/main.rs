@@ -3,6 +3,7 @@
 mod broken_off;
 mod charts;
 mod checks;
+mod faults;
 mod folders;
 mod ground;
 mod hostile;
