@@ -1,6 +1,8 @@
 //! Sequences of the unit's calls, in any order and with any values: each answers with a status, none with an internal error, and every
 //! output that is given is finite.
 
+#![allow(clippy::print_stderr, reason = "the unit has silenced panics")]
+
 use crate::state::{forge, source};
 use cograin::export::{identity, resources};
 use cograin::interface::{Causality, Interface, Type};
