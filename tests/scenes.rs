@@ -1,7 +1,8 @@
 //! Scenes that are accepted, and scenes that are refused with the very message they hold after `#!`.
 
-use cograin::bond::breakage::Rule;
-use cograin::quantity::MaterialIndex;
+use cograin::bond::breakage::stress::StressLimits;
+use cograin::contact::Scheme;
+use cograin::quantity::{MaterialIndex, Positive};
 use cograin::scene::{AxisMotion, InputCourse, Scene, SceneDraft, Source, Step};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -89,10 +90,10 @@ fn everything_written_arrives() {
     assert_eq!(scene.pairs[3].friction, None);
     assert_eq!(scene.contacts[0].between, [true, false, false, false]);
     assert_eq!(scene.contacts[1].between, [false, true, true, false]);
-    assert_eq!(scene.contacts[0].switches.least_force, 0.0);
-    assert_eq!(scene.contacts[1].switches.least_force, f64::NEG_INFINITY);
-    assert_eq!(scene.contacts[0].switches.tangential_damping_factor, 1.0);
-    assert_eq!(scene.contacts[1].switches.tangential_damping_factor, 0.0);
+    assert_eq!(scene.contacts[0].choice.switches.least_force, 0.0);
+    assert_eq!(scene.contacts[1].choice.switches.least_force, f64::NEG_INFINITY);
+    assert_eq!(scene.contacts[0].choice.switches.tangential_damping_factor, 1.0);
+    assert_eq!(scene.contacts[1].choice.switches.tangential_damping_factor, 0.0);
     assert_eq!(scene.domain, Some([[-1.0; 3], [1.0; 3]]));
     assert_eq!(scene.output.frame_interval, Some(1e-2));
     assert!(scene.output.contacts && scene.output.energy);
@@ -218,6 +219,30 @@ fn a_value_that_no_key_takes_is_refused_in_a_draft() {
         let errors = draft.build().expect_err(&format!("case {number} is refused"));
         assert_eq!((&*errors.list[0].table, &*errors.list[0].key), (*table, *key), "case {number}: {errors}");
     }
+}
+
+#[test]
+fn a_draft_that_says_two_things_is_refused() {
+    let refused = |scene: &str, spoil: fn(&mut SceneDraft)| {
+        let mut draft = good(scene).into_draft();
+        spoil(&mut draft);
+        let error = draft.build().expect_err("it says two things").list.remove(0);
+        format!("{} {}", error.table, error.key)
+    };
+    let scheme = |draft: &mut SceneDraft| draft.run.scheme = Scheme::Engine;
+    assert_eq!(refused("everything.toml", scheme), "contact.grains scheme");
+    let bonded = |spoil| refused("bonded.toml", spoil);
+    assert_eq!(bonded(|draft| draft.bonds[0].keys.between[0] = "nobody".into()), "bond.beam between");
+    assert_eq!(bonded(|draft| draft.bonds[0].pairs = vec![[0, 1]]), "bond.beam create");
+    assert_eq!(bonded(|draft| draft.bonds[1].pairs.swap(0, 1)), "bond.chain create.pairs");
+    assert_eq!(bonded(|draft| draft.bonds[1].pairs.clear()), "bond.chain create.pairs");
+}
+
+#[test]
+fn the_numbers_of_a_bond_are_those_of_its_keys() {
+    let mut draft = good("bonded.toml").into_draft();
+    draft.bonds[0].keys.normal_stiffness = Positive::new(3e9).unwrap();
+    assert_eq!(draft.build().unwrap().bond_law(0).elasticity.tension, 3e9);
 }
 
 #[test]
@@ -386,11 +411,11 @@ fn damaged_data_of_a_vtk_file_are_told_in_words() {
 fn bonds_arrive_by_distance_and_by_list() {
     let scene = good("bonded.toml");
     let (beam, chain) = (&scene.bonds[0], &scene.bonds[1]);
-    assert_eq!((beam.name.as_str(), beam.create_distance), ("beam", Some(1.6e-3)));
+    assert_eq!((beam.name.as_str(), beam.create_distance()), ("beam", Some(1.6e-3)));
     assert_eq!(beam.between.map(|set| set.0), [0, 0]);
     let ids: Vec<[u32; 2]> =
         chain.pairs.iter().map(|pair| pair.map(|index| scene.particles[index as usize].id.0)).collect();
     assert_eq!(ids, [[20, 10], [30, 10]]);
-    let limits = &chain.law.breakage[..];
-    assert!(matches!(limits, [Rule::StressLimits(rule)] if rule.compression_strength == 1e7), "{limits:?}");
+    let [rule] = &scene.bond_law(1).breakage[..] else { panic!("one rule") };
+    assert_eq!(rule.numbers::<StressLimits>().map(|limits| limits.compression_strength), Some(1e7));
 }

@@ -3,11 +3,12 @@
 //! A program with sub-models of its own calls [`main_with`]; it checks, runs, settles and exports scenes that name them.
 
 mod chart;
+mod recipes;
 
 use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
-use cograin::export::{PackageError, export, find_library};
+use cograin::export::{PackageError, export, find_libraries};
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
@@ -39,6 +40,8 @@ struct Arguments {
 /// The commands.
 #[derive(Subcommand)]
 enum Command {
+    /// Write a commented scene to start from
+    New(recipes::NewArguments),
     /// Read a scene; say what it uses, how long its time step may be, what it costs and what is risky in it
     Check(CheckArguments),
     /// Run a scene to its end and write its results
@@ -143,9 +146,9 @@ struct ExportArguments {
     /// The unit's file
     #[arg(short, long, value_name = "FMU")]
     output: PathBuf,
-    /// The unit's library, if it is not in the folder of this program
-    #[arg(long, value_name = "FILE")]
-    library: Option<PathBuf>,
+    /// The unit's library, if it is not in the folder of this program; may be given several times, once for each platform
+    #[arg(long = "library", value_name = "FILE")]
+    libraries: Vec<PathBuf>,
     /// Replace the file if it is there
     #[arg(long)]
     overwrite: bool,
@@ -210,6 +213,7 @@ impl From<Failure> for Ending {
 pub fn main_with(models: &Models, library: &str) -> ExitCode {
     tell_of_full_files();
     let ended = match Arguments::parse().command {
+        Command::New(arguments) => recipes::new(&arguments),
         Command::Check(arguments) => check(models, &arguments),
         Command::Run(arguments) => run(models, &arguments),
         Command::Settle(arguments) => settle(models, &arguments),
@@ -377,8 +381,9 @@ fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
 fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Result<(), Ending> {
     let (scene, source) = read(models, &arguments.scene)?;
     let scene = Arc::new(scene);
-    let library = find_library(library, arguments.library.as_deref()).map_err(Ending::failed)?;
-    let read = files_read(&arguments.scene.scene, &source, &[&arguments.from, &Some(library.clone())]);
+    let libraries = find_libraries(library, &arguments.libraries).map_err(Ending::failed)?;
+    let mut read = files_read(&arguments.scene.scene, &source, &[&arguments.from]);
+    read.extend_from_slice(&libraries);
     claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {
@@ -388,10 +393,10 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Resul
         None => None,
     };
     let state = begun.as_ref().map(|begun| begun.simulation.state());
-    let exported = export(&source, &scene, state, &library, &arguments.output);
+    let exported = export(&source, &scene, state, &libraries, &arguments.output);
     exported.map_err(|error| match error {
-        PackageError::Library(error) => Ending::refused(error),
-        error => Ending::failed(error),
+        PackageError::Write { .. } => Ending::failed(error),
+        error => Ending::refused(error),
     })?;
     say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind))
 }

@@ -9,6 +9,23 @@ runs both sides and returns a `Record`.
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
+
+A marble falls on a table, a mass on a spring:
+
+>>> from cograin import Interface, Oscillator, Program, Secant, Unit, couple
+>>> program = Program()
+>>> print(program("new", "drop"), end="")  # a scene to start from
+drop: a marble on a table that an outside program lifts
+next: cograin check drop/scene.toml
+>>> with Unit(program.export("drop/scene.toml", "drop.fmu")) as marble:
+...     table = Oscillator(mass=0.1, stiffness=1e4)  # [kg], [N/m]
+...     record = couple(Interface(marble, "table.displacement.z"), table, Secant(), step=1e-4, end=0.06)
+>>> len(record), record.unconverged
+(600, [])
+>>> bool(record["table.displacement.z"].min() < -1e-4)  # the marble has hit it
+True
+
+`cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs.
 """
 
 from cograin.coupling import Coupling, CouplingStopped, StepControl, couple

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
+import sysconfig
 from pathlib import Path
 
 
@@ -12,10 +14,18 @@ class ProgramError(Exception):
 
 
 class Program:
-    """The command ``cograin``, or the one at this path."""
+    """The command ``cograin``: the one that was installed with this package, else the first on the search path.
+
+    ``path`` names another one.
+    """
 
     def __init__(self, path: str | Path = "cograin") -> None:
         self.path = Path(path)
+        if str(path) == "cograin":
+            # The scripts of an environment that was not activated are on no search path.
+            beside = Path(sysconfig.get_path("scripts")) / ("cograin.exe" if sys.platform == "win32" else "cograin")
+            if beside.is_file():
+                self.path = beside
 
     def __call__(self, *arguments: str | Path) -> str:
         """Runs the command with these arguments; returns what it printed."""
@@ -24,7 +34,7 @@ class Program:
         try:
             done = subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, check=False)
         except FileNotFoundError:
-            raise ProgramError(f"{self.path}: not found; build it with cargo build --release, or name it") from None
+            raise ProgramError(f"{self.path}: not found; install it (pip install .), or name it") from None
         if done.returncode:
             raise ProgramError(f"cograin {' '.join(map(str, arguments))}: {(done.stderr or done.stdout).strip()}")
         return done.stdout

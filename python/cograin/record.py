@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from cograin.results import Table
 from cograin.vector import Vector
 
 #: Columns of every record, before displacements, forces and what is watched.
@@ -92,6 +93,11 @@ class Record:
             worst = max(self.unconverged, key=lambda row: row.residual)
             lines.append(f"{len(self.unconverged)} steps did not converge; worst at {worst.time:g} s: {worst.reason}")
         return "\n".join(lines)
+
+    @property
+    def table(self) -> Table:
+        """The columns by name with their units, and as tables of pandas and xarray: ``record.table.to_pandas()``."""
+        return Table({name: self[name] for name in self.names})
 
     def save(self, path: str | Path) -> None:
         """Writes a CSV file, a row for each step."""

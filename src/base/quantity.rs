@@ -86,7 +86,14 @@ index!(/// Where a boundary stands in the scene.
 
 /// Three finite numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Triple(pub(crate) [f64; 3]);
+pub struct Triple(pub(crate) [f64; 3]);
+
+impl Triple {
+    /// The numbers.
+    pub fn get(self) -> [f64; 3] {
+        self.0
+    }
+}
 
 impl<'de> Deserialize<'de> for Triple {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -35,7 +35,7 @@ pub(super) const LOSSES: [(&str, &str); Loss::COUNT] = [
 
 /// Whether a scene asks for losses and can have this one.
 pub(super) fn is_booked(scene: &Scene, loss: Loss) -> bool {
-    let contacts = |has: fn(&Law) -> bool| scene.contacts.iter().any(|law| has(&Law::of(&law.choice())));
+    let contacts = |has: fn(&Law) -> bool| scene.contacts.iter().any(|law| has(&Law::of(&law.choice)));
     let possible = || match loss {
         Loss::NormalDamping => !scene.contacts.is_empty(),
         Loss::TangentialDamping | Loss::Sliding => contacts(Law::has_friction),
@@ -43,8 +43,8 @@ pub(super) fn is_booked(scene: &Scene, loss: Loss) -> bool {
         Loss::TangentialStiffness | Loss::Projection | Loss::Parting => contacts(|law| law.spring().is_some()),
         Loss::Cohesion => contacts(|law| law.has_other_force() && !law.is_plastic()),
         Loss::Plastic => contacts(Law::is_plastic),
-        Loss::BondDamping => scene.bonds.iter().any(|bond| bond.law.dissipates()),
-        Loss::BondRelease => scene.bonds.iter().any(|bond| !bond.law.breakage.is_empty()),
+        Loss::BondDamping => (0..scene.bonds.len()).any(|bond| scene.bond_law(bond).dissipates()),
+        Loss::BondRelease => scene.bonds.iter().any(|bond| !bond.keys.breakage.is_empty()),
         Loss::GlobalDamping => !scene.damping.is_empty(),
         Loss::Removed => scene.changes_number(),
     };

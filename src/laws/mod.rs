@@ -1,7 +1,8 @@
-//! What bodies do to each other, what a boundary is and how it moves: pure functions, without `unsafe`.
+//! What bodies do to each other, what a boundary is and how it moves: pure functions. `unsafe` stands in `contact/batch` alone.
 
 pub mod bond;
 pub mod contact;
+mod kept;
 pub mod motion;
 pub mod region;
 pub mod surface;

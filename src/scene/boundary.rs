@@ -27,6 +27,12 @@ impl Boundary {
         self.shape.plane().filter(|_| !self.turns())
     }
 
+    /// Whether particles can be bonded to it: a plane that neither turns nor runs in itself.
+    pub(crate) fn takes_bonds(&self) -> bool {
+        let conveys = |axis: &AxisMotion| matches!(axis, AxisMotion::Conveying(_));
+        self.shifting_plane().is_some() && !self.axes.iter().any(conveys)
+    }
+
     /// How many nodes of it the outside moves, each by itself.
     pub(crate) fn driven_nodes(&self) -> usize {
         match self.nodes {

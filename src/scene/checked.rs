@@ -1,6 +1,7 @@
 //! A scene that has been checked as a whole.
 
 use super::SceneDraft;
+use crate::laws::bond::Law;
 use std::ops::Deref;
 
 /// A scene that can be run. Its parts are those of [`SceneDraft`], to be read and not to be changed.
@@ -22,6 +23,11 @@ impl Scene {
     /// Its parts, to make another scene of them.
     pub fn into_draft(self) -> SceneDraft {
         self.draft
+    }
+
+    /// A bond law in numbers.
+    pub fn bond_law(&self, bond: usize) -> Law {
+        self.bonds[bond].keys.law(self.run.scheme.predicts()).expect("the keys of a scene have been checked")
     }
 
     /// The same scene for so many threads; `None`: as many as the machine offers. The results are the same.

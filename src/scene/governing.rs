@@ -40,7 +40,7 @@ impl SceneDraft {
 
     /// A law, with what the outputs of the scene ask to be remembered of contacts.
     pub fn law(&self, law: usize) -> Law {
-        let law = Law::of(&self.contacts[law].choice());
+        let law = Law::of(&self.contacts[law].choice);
         let law = if self.records_contacts() { law.recorded() } else { law };
         if self.output.losses { law.booked() } else { law }
     }

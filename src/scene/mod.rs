@@ -3,6 +3,7 @@
 //! A [`SceneDraft`] has public parts that code may fill in; [`SceneDraft::build`] checks all of them and makes a [`Scene`], which nothing
 //! changes any more. The text of a scene becomes a draft, too, and passes the same checks. Later code need not check again.
 
+mod about;
 mod accuracy;
 mod body;
 mod boundary;
@@ -26,6 +27,7 @@ pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::laws::surface::Shape;
 pub use crate::scene::exchange::Outside;
 pub use crate::scene::packing::PackingProgress;
+pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
@@ -45,9 +47,7 @@ pub use region::Region;
 pub use source::Source;
 
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
-use crate::laws::contact::{
-    CohesionModel, LawChoice, Material, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
-};
+use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme};
 
 /// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
@@ -78,6 +78,8 @@ use crate::laws::contact::{
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct SceneDraft {
+    /// What the scene says of itself.
+    pub about: About,
     /// Settings of the run.
     pub run: Run,
     /// Acceleration of gravity \[m/s²\].
@@ -198,26 +200,8 @@ pub struct ContactLaw {
     pub name: String,
     /// The pairs of materials that it governs; `between[a * materials + b]` and the mirrored entry are equal.
     pub between: Vec<bool>,
-    /// Normal sub-model.
-    pub normal: NormalModel,
-    /// Tangential sub-model.
-    pub tangential: TangentialModel,
-    /// Rolling sub-model.
-    pub rolling: RollingModel,
-    /// Cohesion sub-model.
-    pub cohesion: CohesionModel,
-    /// Switches of every law.
-    pub switches: Switches,
-    /// How springs and dashpots are integrated in time.
-    pub scheme: Scheme,
-}
-
-impl ContactLaw {
-    /// The sub-models of the law.
-    pub fn choice(&self) -> LawChoice {
-        let Self { normal, tangential, rolling, cohesion, switches, scheme, .. } = *self;
-        LawChoice { normal, tangential, rolling, cohesion, switches, scheme }
-    }
+    /// Its sub-models and switches; its scheme is that of [`SceneDraft::run`].
+    pub choice: LawChoice,
 }
 
 /// `[bond.<name>]`: a bond law and the particles it is for.
@@ -225,23 +209,22 @@ impl ContactLaw {
 pub struct Bond {
     /// Its name in the scene.
     pub name: String,
-    /// As the scene writes it; the type of the law follows from it.
+    /// As the scene writes it, its numbers included; the law follows from it ([`Scene::bond_law`]).
     pub keys: crate::laws::bond::keys::Keys,
-    /// The law in numbers.
-    pub law: crate::laws::bond::Law,
     /// The two sets of particles that it bonds (one twice: inside it, or at a plane).
     pub between: [SetIndex; 2],
     /// The plane to which the set is bonded; none where particles are bonded to each other.
     pub plane: Option<BoundaryIndex>,
-    /// When bonds are made.
-    pub create: crate::laws::bond::creation::Creation,
-    /// Centres nearer than this are bonded \[m\].
-    pub create_distance: Option<f64>,
     /// Listed pairs: indices into [`SceneDraft::particles`].
     pub pairs: Vec<[u32; 2]>,
 }
 
 impl Bond {
+    /// Centres nearer than this are bonded \[m\].
+    pub fn create_distance(&self) -> Option<f64> {
+        self.keys.create_distance.map(crate::base::quantity::Positive::get)
+    }
+
     /// Whether the law is for particles of these two sets.
     pub(crate) fn joins(&self, a: SetIndex, b: SetIndex) -> bool {
         self.plane.is_none() && (self.between == [a, b] || self.between == [b, a])
@@ -287,7 +270,7 @@ impl SceneDraft {
     /// Cohesion energy density of two materials (by their index) over their effective modulus, where a law has both.
     pub fn cohesion_ratio(&self, a: usize, b: usize) -> Option<f64> {
         let entry = a * self.materials.len() + b;
-        let cohesive = |law: &ContactLaw| law.between[entry] && law.cohesion.row().is_active();
+        let cohesive = |law: &ContactLaw| law.between[entry] && law.choice.cohesion.row().is_active();
         if !self.contacts.iter().any(cohesive) {
             return None;
         }

@@ -1,11 +1,13 @@
-//! The sub-models that scenes may name.
+//! The sub-models, rules of breakage and shapes that scenes may name.
 
+use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
     RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
+use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 
-/// The sub-models that scenes may name: those of the program, and those that another crate adds.
+/// The sub-models, rules of breakage and shapes that scenes may name: those of the program, and those that another crate adds.
 ///
 /// ```
 /// use cograin::contact::normal::hertz::Hertz;
@@ -25,6 +27,10 @@ pub struct Models {
     pub(crate) rolling: Vec<&'static RollingRow>,
     /// Cohesion sub-models.
     pub(crate) cohesion: Vec<&'static CohesionRow>,
+    /// Rules of breakage.
+    pub(crate) breakage: Vec<&'static BreakageRow>,
+    /// Shapes of boundaries.
+    pub(crate) shapes: Vec<&'static ShapeRow>,
 }
 
 impl Default for Models {
@@ -41,30 +47,44 @@ impl Models {
             tangential: contact::tangential::STANDARD.to_vec(),
             rolling: contact::rolling::STANDARD.to_vec(),
             cohesion: contact::cohesion::STANDARD.to_vec(),
+            breakage: breakage::STANDARD.to_vec(),
+            shapes: surface::STANDARD.to_vec(),
         }
     }
 
     /// The same and a normal sub-model, in place of one of the same name.
     pub fn with_normal<M: Normal>(mut self) -> Self {
-        put(&mut self.normal, NormalRow::of::<M>());
+        put(&mut self.normal, NormalRow::of::<M>(), ModelRow::name);
         self
     }
 
     /// The same and a tangential sub-model, in place of one of the same name.
     pub fn with_tangential<M: Tangential>(mut self) -> Self {
-        put(&mut self.tangential, TangentialRow::of::<M>());
+        put(&mut self.tangential, TangentialRow::of::<M>(), ModelRow::name);
         self
     }
 
     /// The same and a rolling sub-model, in place of one of the same name.
     pub fn with_rolling<M: Rolling>(mut self) -> Self {
-        put(&mut self.rolling, RollingRow::of::<M>());
+        put(&mut self.rolling, RollingRow::of::<M>(), ModelRow::name);
         self
     }
 
     /// The same and a cohesion sub-model, in place of one of the same name.
     pub fn with_cohesion<M: Cohesion>(mut self) -> Self {
-        put(&mut self.cohesion, CohesionRow::of::<M>());
+        put(&mut self.cohesion, CohesionRow::of::<M>(), ModelRow::name);
+        self
+    }
+
+    /// The same and a rule of breakage, behind the others, in place of one of the same name.
+    pub fn with_breakage<B: Breakage>(mut self) -> Self {
+        put(&mut self.breakage, BreakageRow::of::<B>(), BreakageRow::name);
+        self
+    }
+
+    /// The same and a shape of boundaries, in place of one of the same key.
+    pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
+        put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
         self
     }
 
@@ -110,8 +130,8 @@ impl Models {
 }
 
 /// Adds a row to others, in place of that of the same name.
-fn put<F>(rows: &mut Vec<&'static ModelRow<F>>, row: &'static ModelRow<F>) {
-    rows.retain(|other| other.name() != row.name());
+fn put<R>(rows: &mut Vec<&'static R>, row: &'static R, name: impl Fn(&R) -> &'static str) {
+    rows.retain(|other| name(other) != name(row));
     rows.push(row);
 }
 

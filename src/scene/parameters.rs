@@ -95,15 +95,11 @@ impl SceneDraft {
 
     /// A bond law with these values of the tunable parameters, or what they contradict.
     pub(crate) fn tuned_law(&self, bond: usize, tuned: &[f64]) -> Result<Law, Vec<KeyError>> {
-        let mut keys = self.bonds[bond].keys.clone();
-        let mut strengths = keys.breakage.as_mut().map(|keys| keys.strengths()).unwrap_or_default();
-        for (parameter, &value) in self.tunables().zip(tuned) {
-            let Some((_, key)) = self.strength_of(&parameter.name).filter(|(law, _)| *law == bond) else { continue };
-            let strength = strengths.iter_mut().find(|strength| strength.key == key);
-            if let (Some(strength), Some(value)) = (strength, Positive::new(value)) {
-                *strength.value = value;
-            }
-        }
-        keys.law(self.run.scheme.predicts())
+        let strength = |key: &str| {
+            let is_it = |name| self.strength_of(name).is_some_and(|(law, its)| law == bond && its == key);
+            let (_, value) = self.tunables().zip(tuned).find(|(parameter, _)| is_it(&parameter.name))?;
+            Positive::new(*value)
+        };
+        self.bonds[bond].keys.tuned_law(self.run.scheme.predicts(), &strength)
     }
 }

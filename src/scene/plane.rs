@@ -113,7 +113,7 @@ fn discs(scene: &SceneDraft) -> Vec<Objection> {
             },
         )
     };
-    let epsd = scene.contacts.iter().filter(|law| law.rolling.name() == "epsd").map(|law| {
+    let epsd = scene.contacts.iter().filter(|law| law.choice.rolling.name() == "epsd").map(|law| {
         let found = "epsd, whose dashpot is made for the moment of inertia of spheres";
         refused(format!("contact.{}.rolling.epsd", law.name), found, "another rolling model")
     });

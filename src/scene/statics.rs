@@ -6,7 +6,7 @@ use crate::laws::bond::damping::DampingChoice;
 impl SceneDraft {
     /// What depends on speed or time, however slow, or moves by itself, if anything; and what was expected.
     pub fn without_statics(&self) -> Option<(String, &'static str)> {
-        if let Some(law) = self.contacts.iter().find(|law| law.rolling.name() == "cdt") {
+        if let Some(law) = self.contacts.iter().find(|law| law.choice.rolling.name() == "cdt") {
             return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none"));
         }
         for bond in &self.bonds {

@@ -1,10 +1,12 @@
 //! The bond table as text.
 
-use cograin::bond::breakage::Rule;
+use cograin::bond::breakage::distance::Distance;
+use cograin::bond::breakage::stress::StressLimits;
 use cograin::bond::creation::{ContactPolicy, Creation};
 use cograin::bond::damping::{Damping, TakeDamping};
 use cograin::bond::keys::{FormulationChoice, Keys};
 use cograin::bond::{Elasticity, Law};
+use cograin::scene::{Scene, SceneErrors};
 
 /// The keys of a table, or the message that refuses it.
 fn read(text: &str) -> Result<Keys, String> {
@@ -17,14 +19,27 @@ fn with(more: &str) -> Keys {
     read(&format!("{least}create_distance = 2e-3\n{more}")).unwrap()
 }
 
+/// A scene with that table for two particles.
+fn scene(more: &str) -> Result<Scene, SceneErrors> {
+    let more = format!("\n{more}").replace("\n[", "\n[bond.b.");
+    let text = format!(
+        "[run]\nstep = 1e-9\n[material.glass]\ndensity = 2500.0\n\
+         [particles.beam]\nmaterial = \"glass\"\nlist = [{{ position = [0, 0, 0], radius = 1e-3 }}, \
+         {{ position = [1.9e-3, 0, 0], radius = 1e-3 }}]\n\
+         [bond.b]\nbetween = [\"beam\", \"beam\"]\nnormal_stiffness = 1e12\ntangential_stiffness = 4e11\n\
+         create_distance = 2e-3{more}"
+    );
+    text.parse()
+}
+
 /// The law that keys mean.
 fn law(more: &str) -> Law {
-    with(more).law(false).unwrap()
+    scene(more).unwrap().bond_law(0)
 }
 
 /// Keys of the contradictions.
-fn wrong(more: &str) -> Vec<&'static str> {
-    with(more).law(false).unwrap_err().into_iter().map(|error| error.key).collect()
+fn wrong(more: &str) -> Vec<String> {
+    scene(more).unwrap_err().list.into_iter().map(|error| error.key).collect()
 }
 
 #[test]
@@ -33,7 +48,8 @@ fn the_least_table_is_a_conservative_bond() {
     assert_eq!(keys.formulation, FormulationChoice::FiniteRotation);
     assert_eq!((keys.create.clone(), keys.contact), (Creation::Start, ContactPolicy::Parallel));
     let elasticity = Elasticity::of(1.0, 1e12, 4e11);
-    assert_eq!(keys.law(false).unwrap(), Law::elastic(FormulationChoice::FiniteRotation, elasticity));
+    let elastic = Law::elastic(FormulationChoice::FiniteRotation, elasticity);
+    assert_eq!(format!("{:?}", keys.law(false).unwrap()), format!("{elastic:?}"));
 }
 
 #[test]
@@ -56,10 +72,10 @@ fn every_creation_is_written_as_documented() {
 }
 
 /// The limits on stresses that keys mean.
-fn by_stress(more: &str) -> cograin::bond::breakage::stress::StressLimits {
-    match law(more).breakage[..] {
-        [Rule::StressLimits(rule)] => rule,
-        ref others => panic!("{others:?}"),
+fn by_stress(more: &str) -> StressLimits {
+    match &law(more).breakage[..] {
+        [rule] => *rule.numbers().unwrap(),
+        others => panic!("{others:?}"),
     }
 }
 
@@ -74,23 +90,26 @@ fn breakage_means_the_documents_limits() {
     assert_eq!(by_stress("[breakage]\nmax_normal_stress = 2e7\ncompression_breaks = true").compression_share, 1.0);
     let engine = by_stress("formulation = \"engine_exact\"\n[breakage]\nmax_normal_stress = 2e7");
     assert_eq!(engine.compression_share, 1.0, "and always breaks in engine_exact");
-    let names = law("[breakage]\nmax_distance = 1.0\nmax_shear_stress = 3e7").breakage;
-    assert!(matches!(names[..], [Rule::Distance(_), Rule::StressLimits(_)]), "{names:?}");
+    let both = law("[breakage]\nmax_shear_stress = 3e7\nmax_distance = 1.0");
+    assert!(both.breakage[0].numbers::<Distance>().is_some() && both.breakage[1].numbers::<StressLimits>().is_some());
+    let names: Vec<&str> = (1..20).map_while(|code| both.cause_name(f64::from(code))).collect();
+    assert_eq!(names, ["distance", "tension", "compression", "shear", "bending", "torsion"]);
+    assert_eq!([0.0, -1.0, 7.0, 1e9].map(|code| both.cause_name(code)), [None; 4]);
 }
 
 #[test]
-fn a_strength_can_be_changed_by_its_name() {
-    let mut keys = with("[breakage]\nmax_distance = 3e-3\nmax_shear_stress = 3e7\nfriction_angle = 0.5");
-    let mut breakage = keys.breakage.unwrap();
-    let names: Vec<_> = breakage.strengths().iter().map(|strength| (strength.key, strength.unit)).collect();
-    assert_eq!(names, [("max_distance", "m"), ("max_shear_stress", "Pa")]);
-    for strength in breakage.strengths() {
-        *strength.value = cograin::quantity::Positive::new(2.0 * strength.value.get()).unwrap();
-    }
-    keys.breakage = Some(breakage);
-    let rules = keys.law(false).unwrap().breakage;
-    let [Rule::Distance(distance), Rule::StressLimits(stress)] = rules[..] else { panic!("{rules:?}") };
-    assert_eq!((distance.most, stress.shear_strength), (6e-3, 6e7));
+fn strengths_have_names_and_units() {
+    let strengths = |more: &str| {
+        let rules = scene(more).unwrap().bonds[0].keys.breakage.clone();
+        rules.iter().flat_map(|rule| rule.strengths()).collect::<Vec<_>>()
+    };
+    let flat = strengths("[breakage]\nmax_distance = 3e-3\nmax_shear_stress = 3e7\nfriction_angle = 0.5");
+    assert_eq!(flat, [("max_distance".to_owned(), "m"), ("max_shear_stress".to_owned(), "Pa")]);
+    let table = "[breakage.mohr_coulomb]\ncohesion = 3.0\nfriction_angle = 0.5\ntensile_strength = 2.0";
+    let named = ["mohr_coulomb.cohesion", "mohr_coulomb.tensile_strength"].map(|name| (name.to_owned(), "Pa"));
+    assert_eq!(strengths(table), named);
+    let missing = scene(&table.replace("friction_angle = 0.5\n", "")).unwrap_err().to_string();
+    assert!(missing.contains("[bond.b] breakage.mohr_coulomb.friction_angle: missing"), "{missing}");
 }
 
 /// Whether a damping needs masses.

@@ -1,7 +1,7 @@
 //! Points worked out by hand: breakage, damping, the first steps of the engine's bond.
 
 use crate::bond_laws::placement::RADII;
-use cograin::bond::breakage::{Rule, cause_name, distance::Distance, stress::StressLimits};
+use cograin::bond::breakage::{Rule, distance::Distance, stress::StressLimits};
 use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;
 use cograin::bond::keys::{DampingChoice, PartKeys};
@@ -106,12 +106,12 @@ const UNBROKEN: StressLimits = StressLimits {
 
 /// Why the engine's bond at rest length 2 breaks at a distance with stored shear and bending along y, if it does.
 fn broken(rule: StressLimits, distance: f64, shear: f64, bending: f64) -> Option<&'static str> {
-    broken_by(vec![Rule::StressLimits(rule)], distance, [shear, 0.0, bending])
+    broken_by(vec![Rule::of(rule)], distance, [shear, 0.0, bending])
 }
 
 /// The same with stored torsion.
 fn broken_with(rule: StressLimits, distance: f64, shear: f64, torsion: f64, bending: f64) -> Option<&'static str> {
-    broken_by(vec![Rule::StressLimits(rule)], distance, [shear, torsion, bending])
+    broken_by(vec![Rule::of(rule)], distance, [shear, torsion, bending])
 }
 
 /// The same by these rules: shear, torsion and bending are stored.
@@ -120,7 +120,7 @@ fn broken_by(breakage: Vec<Rule>, distance: f64, [shear, torsion, bending]: [f64
     let pair = pair(distance, [0.0; 3], [0.0; 3]);
     let law = Law { breakage, ..Law::elastic(ENGINE, elasticity()) };
     let found = law.react(&elasticity().at_step(0.0), &pair, &rows, &LastDamping::default());
-    let cause = cause_name(found.cause);
+    let cause = law.cause_name(found.cause);
     assert_eq!(cause.is_some(), found.cause != 0.0);
     if cause.is_some() {
         assert_eq!(found.force, Vector::zero());
@@ -148,7 +148,7 @@ fn each_stress_breaks_beyond_its_limit_and_names_itself() {
     // Compressed by 0.05: −0.5 + bending against 2.
     assert_eq!(broken(law, 1.95, 0.0, 2.49 / 4.0 * AREA * 0.6), None);
     assert_eq!(broken(law, 1.95, 0.0, 2.51 / 4.0 * AREA * 0.6), Some("bending"));
-    let both = vec![Rule::Distance(Distance { most: 2.05 }), Rule::StressLimits(law)];
+    let both = vec![Rule::of(Distance { most: 2.05 }), Rule::of(law)];
     assert_eq!(broken_by(both.clone(), 2.2, [0.0; 3]), Some("distance"), "the first rule of the list names the cause");
     assert_eq!(broken_by(both.clone(), 2.04, [0.501 * AREA, 0.0, 0.0]), Some("shear"));
     assert_eq!(broken_by(both, 2.04, [0.0; 3]), None);

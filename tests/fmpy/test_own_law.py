@@ -1,4 +1,5 @@
-"""A crate of somebody else with a contact sub-model of its own: its tests, its program, and a unit of it in foreign hands."""
+"""A crate of somebody else with a contact sub-model, a rule of breakage and a shape of its own: its tests, its program, and a unit
+of it in foreign hands."""
 
 import math
 import os
@@ -44,26 +45,45 @@ def wet():
 
 
 def test_its_program_checks_and_runs_the_scene(wet, tmp_path):
-    assert "2 particles" in wet("check", CRATE / "scene.toml")
+    assert "5 particles" in wet("check", CRATE / "scene.toml")
     wet("run", CRATE / "scene.toml", "-o", tmp_path / "out")
     assert (tmp_path / "out/history.csv").exists()
 
 
-def test_the_program_without_it_names_the_models_that_it_has(cograin):
+def test_the_program_without_it_names_what_it_has(cograin):
     said = cograin("check", CRATE / "scene.toml", status=2)
     assert "liquid_bridge" in said and "sjkr2" in said
+    assert "breakage.quadratic_stress: no such key" in said and "mohr_coulomb" in said
+    assert "ball: no such key" in said and "cylinder" in said
 
 
-def test_a_unit_of_it_carries_the_law(wet, tmp_path):
-    path = tmp_path / "wet.fmu"
+@pytest.fixture(scope="module")
+def unit_path(wet, tmp_path_factory):
+    """The scene as a unit."""
+    path = tmp_path_factory.mktemp("wet") / "wet.fmu"
     wet("export", CRATE / "scene.toml", "-o", path)
     assert validate_fmu(path) == []
-    with Unit(path) as unit:
+    return path
+
+
+def driven(unit, boundary):
+    """Displaces a boundary of the unit along x and gives the force on it, once nothing moves [N]."""
+
+    def force(displacement):
+        unit[f"{boundary}.displacement.x"] = displacement
+        unit.step(2e-4)
+        unit.step(1e-6)
+        return unit[f"{boundary}.force.x"]
+
+    return force
+
+
+def test_a_unit_of_it_carries_the_contact_law(unit_path):
+    with Unit(unit_path) as unit:
+        tip = driven(unit, "tip")
 
         def force(apart):
-            unit["tip.displacement.x"] = apart - DISTANCE
-            unit.step(1e-3)
-            return unit["tip.force.x"]
+            return tip(apart - DISTANCE)
 
         assert force(0.5 * RUPTURE) == 0.0, "no bridge before touch"
         force(-1e-6)
@@ -71,3 +91,29 @@ def test_a_unit_of_it_carries_the_law(wet, tmp_path):
             assert force(apart) == pytest.approx(pull(apart), rel=1e-6)
         assert force(1.01 * RUPTURE) == 0.0
         assert force(0.5 * RUPTURE) == 0.0, "a broken bridge does not form at a distance"
+
+
+def test_a_unit_of_it_carries_the_rule_of_breakage(unit_path):
+    # The normal stress k_n u of the bond reaches its strength at 1e-5 m; the force before is k_n A u.
+    with Unit(unit_path) as unit:
+        force = driven(unit, "pull")
+        assert force(0.99e-5) == pytest.approx(-1e10 * math.pi * 1e-6 * 0.99e-5, rel=1e-6)
+        assert unit["bonds.intact"] == 1
+        assert force(1.01e-5) == 0.0
+        assert unit["bonds.broken"] == 1
+    with Unit(unit_path) as unit:
+        unit["bond.neck.breakage.quadratic_stress.normal_strength"] = 2e5
+        force = driven(unit, "pull")
+        assert force(1.99e-5) < 0.0, "twice the strength, twice the stretch"
+        assert force(2.01e-5) == 0.0
+
+
+def test_a_unit_of_it_carries_the_shape(unit_path):
+    # Hertz: 4/3 E* R^1/2 d^3/2, of a sphere 0.1 mm away from the ball.
+    modulus = 5e7 / (2.0 * (1.0 - 0.25**2))
+    with Unit(unit_path) as unit:
+        force = driven(unit, "ball")
+        assert force(-0.09e-3) == 0.0
+        for overlap in (1e-6, 5e-6):
+            expected = 4.0 / 3.0 * modulus * RADIUS**0.5 * overlap**1.5
+            assert force(-0.1e-3 - overlap) == pytest.approx(expected, rel=1e-6)

@@ -105,17 +105,8 @@ pub(crate) fn scene(
     let materials: Vec<Material> = named.collect();
     let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
     SceneDraft {
-        run: Run { step: Step::Given(step), threads: Some(1), ..Run::default() },
-        contacts: vec![ContactLaw {
-            name: "contact".into(),
-            between: vec![true; pairs],
-            normal: law.normal,
-            tangential: law.tangential,
-            rolling: law.rolling,
-            cohesion: law.cohesion,
-            switches: law.switches,
-            scheme: law.scheme,
-        }],
+        run: Run { step: Step::Given(step), threads: Some(1), scheme: law.scheme, ..Run::default() },
+        contacts: vec![ContactLaw { name: "contact".into(), between: vec![true; pairs], choice: law }],
         pairs: vec![properties; pairs],
         materials,
         bonds: Vec::new(),

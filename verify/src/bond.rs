@@ -3,8 +3,9 @@
 use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
+use cograin::bond::breakage::{distance, stress};
 use cograin::bond::creation::{ContactPolicy, Creation};
-use cograin::bond::keys::{BreakageKeys, DampingChoice, FormulationChoice, Keys, PartKeys};
+use cograin::bond::keys::{BreakageChoice, DampingChoice, FormulationChoice, Keys, PartKeys};
 use cograin::quantity::{BoundaryIndex, Fraction, NonNegative, Positive, SetIndex};
 use cograin::scene::Bond;
 
@@ -188,22 +189,24 @@ impl Types<'_> {
     }
 
     /// When bonds of these types break.
-    fn breakage(&self) -> Result<BreakageKeys, Mistake> {
-        let mut keys = BreakageKeys::default();
+    fn breakage(&self) -> Result<BreakageChoice, Mistake> {
         if !flag(self.case, "stressBreak")? {
-            keys.distance.max_distance = Some(self.positive("maxDistanceBond")?);
-            return Ok(keys);
+            let max_distance = self.positive("maxDistanceBond")?;
+            return Ok(BreakageChoice::of::<distance::Distance>(distance::Keys { max_distance }));
         }
-        keys.stress.max_normal_stress = Some(self.positive("maxSigmaBond")?);
-        keys.stress.max_shear_stress = Some(self.positive("maxTauBond")?);
-        keys.stress.compression_breaks = Some(true);
+        let mut keys = stress::Keys {
+            max_normal_stress: Some(self.positive("maxSigmaBond")?),
+            max_shear_stress: Some(self.positive("maxTauBond")?),
+            compression_breaks: Some(true),
+            ..stress::Keys::default()
+        };
         if flag(self.case, "ratioTensionCompression")? {
-            keys.stress.tension_ratio = Some(self.positive("ratioTensionCompression")?);
+            keys.tension_ratio = Some(self.positive("ratioTensionCompression")?);
         }
         if flag(self.case, "druckerPrager")? {
-            keys.stress.friction_angle = NonNegative::new(self.non_negative(FRICTION_ANGLE)?.get().to_radians());
+            keys.friction_angle = NonNegative::new(self.non_negative(FRICTION_ANGLE)?.get().to_radians());
         }
-        Ok(keys)
+        Ok(BreakageChoice::of::<stress::StressLimits>(keys))
     }
 
     /// Damping of these types.
@@ -236,7 +239,7 @@ impl Types<'_> {
             torsion: flag(case, "normalTorqueStress")?,
             bending: flag(case, "shearTorqueStress")?,
             contact: if without_normal { ContactPolicy::WithoutNormal } else { ContactPolicy::Parallel },
-            breakage: Some(self.breakage()?),
+            breakage: vec![self.breakage()?],
             damping: self.damping()?,
             relaxation,
             temperature_break: None,
@@ -246,27 +249,18 @@ impl Types<'_> {
     /// The law.
     fn law(&self, formulation: FormulationChoice, create: &Creation) -> Result<Bond, Mistake> {
         let keys = self.keys(formulation, create)?;
-        let law = keys.law(false).map_err(|errors| {
-            let all: Vec<String> = errors.iter().map(ToString::to_string).collect();
-            Mistake::new("model", all.join("; "))
-        })?;
-        Ok(Bond {
-            name: format!("bond{}{}", self.a + 1, self.b + 1),
-            law,
-            between: [self.a, self.b].map(|kind| SetIndex(kind as u32)),
-            create: keys.create.clone(),
-            create_distance: keys.create_distance.map(Positive::get),
-            pairs: Vec::new(),
-            plane: None,
-            keys,
-        })
+        let name = format!("bond{}{}", self.a + 1, self.b + 1);
+        let between = [self.a, self.b].map(|kind| SetIndex(kind as u32));
+        Ok(Bond { name, keys, between, plane: None, pairs: Vec::new() })
     }
 }
 
 /// The same law between the particles of its first set and a plane.
 fn at_plane(law: Bond, boundary: usize) -> Bond {
+    let [set, _] = law.keys.between;
     Bond {
         name: format!("{}wall{boundary}", law.name),
+        keys: Keys { between: [set, format!("wall{boundary}")], ..law.keys },
         between: [law.between[0]; 2],
         plane: Some(BoundaryIndex(boundary as u32)),
         ..law

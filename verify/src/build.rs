@@ -33,16 +33,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
             return Err(law::absent(missing[0].key));
         }
     }
-    let contact = ContactLaw {
-        name: "contact".into(),
-        between: vec![true; pairs.len()],
-        normal: law.normal,
-        tangential: law.tangential,
-        rolling: law.rolling,
-        cohesion: law.cohesion,
-        switches: law.switches,
-        scheme: law.scheme,
-    };
+    let contact = ContactLaw { name: "contact".into(), between: vec![true; pairs.len()], choice: law };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
     let draft = SceneDraft {
@@ -52,6 +43,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
             allow_unstable: true,
             threads: Some(1),
             max_overlap: f64::MAX,
+            scheme: law.scheme,
             ..Run::default()
         },
         gravity: finite("gravity", case.gravity)?,

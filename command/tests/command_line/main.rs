@@ -9,6 +9,7 @@ mod ground;
 mod hostile;
 mod inputs;
 mod protocols;
+mod recipes;
 mod refusals;
 mod runs;
 mod settling;

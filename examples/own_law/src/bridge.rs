@@ -110,16 +110,10 @@ impl CohesionForm for Bridge {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::{Coupled, SCENE, assert_close, told};
     use cograin::contact::{Material, PairProperties};
-    use cograin::interface::{Interface, Value};
-    use cograin::scene::Source;
-    use cograin::simulation::Simulation;
-    use std::sync::Arc;
 
-    /// Two spheres of 1 mm, one of which is moved.
-    const SCENE: &str = include_str!("../scene.toml");
-
-    /// R* of them \[m\].
+    /// R* of two spheres of 1 mm \[m\].
     const RADIUS: f64 = 0.5e-3;
 
     /// The law of the scene.
@@ -140,37 +134,9 @@ mod tests {
         -4.0 * PI * RADIUS * 0.072 * 0.5_f64.cos() * (1.0 - slope)
     }
 
-    /// The moved sphere and what it feels, from outside.
-    struct Pair {
-        /// The scene in motion.
-        simulation: Simulation,
-        /// Its variables.
-        interface: Interface,
-    }
-
-    impl Pair {
-        /// As the scene begins: 0.2 mm apart.
-        fn new() -> Self {
-            let source = Source { name: "scene.toml".into(), text: SCENE.into(), ..Source::default() };
-            let scene = crate::models().scene(&source, &[]).unwrap_or_else(|errors| panic!("{errors}"));
-            let interface = Interface::of(&scene);
-            Self { simulation: Simulation::new(Arc::new(scene)).unwrap(), interface }
-        }
-
-        /// The force on the moved sphere along x once it stands this far away \[N\].
-        fn at(&mut self, apart: f64) -> f64 {
-            let place = |name: &str| self.interface.find(name).unwrap();
-            let (input, output) = (place("tip.displacement.x"), place("tip.force.x"));
-            self.interface.set(&mut self.simulation, input, Value::Real(apart - 0.2e-3)).unwrap();
-            self.simulation.advance(1e-3).unwrap();
-            self.interface.value(&self.simulation, output).number()
-        }
-    }
-
-    /// Fails, with both values, unless they agree to this part.
-    #[track_caller]
-    fn assert_close(found: f64, expected: f64, tolerance: f64) {
-        assert!((found - expected).abs() <= tolerance * expected.abs(), "found {found:e}, expected {expected:e}");
+    /// The force on the moved sphere once it stands this far from the other one \[N\].
+    fn at(pair: &mut Coupled, apart: f64) -> f64 {
+        pair.at(apart - 0.2e-3)
     }
 
     #[test]
@@ -194,17 +160,17 @@ mod tests {
 
     #[test]
     fn forms_at_touch_and_breaks_at_the_rupture_distance() {
-        let (mut pair, rupture) = (Pair::new(), law().rupture_distance);
-        assert_eq!([0.1e-3, 1e-6].map(|apart| pair.at(apart)), [0.0; 2], "nothing before touch");
+        let (mut pair, rupture) = (Coupled::new("tip"), law().rupture_distance);
+        assert_eq!([0.1e-3, 1e-6].map(|apart| at(&mut pair, apart)), [0.0; 2], "nothing before touch");
         // Pressed together, then apart: dashpots are gone when the sphere rests at the end of each way.
-        assert!(pair.at(-1e-6) > 0.0, "the contact presses harder than the bridge pulls");
+        assert!(at(&mut pair, -1e-6) > 0.0, "the contact presses harder than the bridge pulls");
         for apart in [0.02e-3, 0.1e-3, 0.99 * rupture] {
-            assert_close(pair.at(apart), printed(apart), 1e-6);
+            assert_close(at(&mut pair, apart), printed(apart), 1e-6);
         }
-        assert_eq!(pair.at(1.01 * rupture), 0.0, "broken");
-        assert_eq!(pair.at(0.5 * rupture), 0.0, "it does not form again at a distance");
-        pair.at(-1e-6);
-        assert_close(pair.at(0.5 * rupture), printed(0.5 * rupture), 1e-6);
+        assert_eq!(at(&mut pair, 1.01 * rupture), 0.0, "broken");
+        assert_eq!(at(&mut pair, 0.5 * rupture), 0.0, "it does not form again at a distance");
+        at(&mut pair, -1e-6);
+        assert_close(at(&mut pair, 0.5 * rupture), printed(0.5 * rupture), 1e-6);
     }
 
     #[test]
@@ -212,14 +178,17 @@ mod tests {
         // ∫ F dH from 0 to H_r: 4π R* γ cos θ (H_r + b − √(H_r² + b²)), b² = V/(π R*)
         let (rupture, b) = (law().rupture_distance, (1e-11 / (PI * RADIUS)).sqrt());
         let expected = 4.0 * PI * RADIUS * 0.072 * 0.5_f64.cos() * (rupture + b - rupture.hypot(b));
-        let mut pair = Pair::new();
-        pair.at(0.0);
-        pair.at(-1e-7);
+        let mut pair = Coupled::new("tip");
+        at(&mut pair, 0.0);
+        at(&mut pair, -1e-7);
         let (mut work, parts) = (0.0, 200);
         let mut before = printed(0.0);
         for part in 1..=parts {
-            let force =
-                if part < parts { pair.at(rupture * f64::from(part) / f64::from(parts)) } else { printed(rupture) };
+            let force = if part < parts {
+                at(&mut pair, rupture * f64::from(part) / f64::from(parts))
+            } else {
+                printed(rupture)
+            };
             work -= 0.5 * (before + force) * rupture / f64::from(parts);
             before = force;
         }
@@ -229,17 +198,13 @@ mod tests {
 
     #[test]
     fn what_a_scene_says_wrong_is_refused_in_its_words() {
-        let told = |text: String| {
-            let source = Source { name: "scene.toml".into(), text, ..Source::default() };
-            crate::models().scene(&source, &[]).unwrap_err().to_string()
-        };
-        let angle = told(SCENE.replace("contact_angle = 0.5", "contact_angle = 2.0"));
+        let angle = told(&SCENE.replace("contact_angle = 0.5", "contact_angle = 2.0"));
         assert!(angle.contains("expected an angle from 0 to below π/2, found 2"), "{angle}");
-        let near = told(SCENE.replace("cohesion.liquid_bridge", "cohesion.liquid_bridges"));
+        let near = told(&SCENE.replace("cohesion.liquid_bridge", "cohesion.liquid_bridges"));
         assert!(near.contains("liquid_bridge"), "the nearest name: {near}");
-        let far = told(SCENE.replace("cohesion.liquid_bridge", "cohesion.glue"));
+        let far = told(&SCENE.replace("cohesion.liquid_bridge", "cohesion.glue"));
         assert!(far.contains("none, sjkr, sjkr2, liquid_bridge"), "all names: {far}");
-        let hooke = told(SCENE.replace("normal.hertz]", "normal.hooke]\ncharacteristic_velocity = 1.0"));
+        let hooke = told(&SCENE.replace("wet.normal.hertz]", "wet.normal.hooke]\ncharacteristic_velocity = 1.0"));
         assert!(hooke.contains("beyond touch"), "{hooke}");
     }
 }

@@ -1,7 +1,7 @@
 //! Reading a value again without what is wrong in it, so that all its mistakes are reported.
 
 use super::single::Error;
-use super::{Document, Faults, Mistake, child, messages, segments};
+use super::{Document, Faults, Mistake, Part, child, messages, segments};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -18,6 +18,8 @@ pub(super) struct Attempt<'d, 'a> {
     table: &'d str,
     /// Its key.
     key: &'d str,
+    /// Which of its keys are read.
+    part: Part<'d>,
     /// What is left of it.
     pub(super) value: Spanned<DeValue<'a>>,
     /// Mistakes that were known before.
@@ -30,10 +32,21 @@ pub(super) struct Attempt<'d, 'a> {
 
 impl<'d, 'a> Attempt<'d, 'a> {
     /// A value as it stands in the text; one that is absent is an empty table.
-    pub(super) fn of(document: &'d Document<'a>, table: &'d str, key: &'d str, faults: &Faults) -> Self {
+    pub(super) fn of(
+        document: &'d Document<'a>,
+        (table, key): (&'d str, &'d str),
+        part: Part<'d>,
+        faults: &Faults,
+    ) -> Self {
         let empty = || Spanned::new(0..0, DeValue::Table(DeTable::new()));
-        let value = document.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
-        Self { document, table, key, value, before: faults.count(), wrong: Vec::new(), readings: 0 }
+        let mut value = document.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
+        if let DeValue::Table(table) = value.get_mut() {
+            let others = table.keys().filter(|key| !part.has(key.get_ref()));
+            for other in others.map(|key| key.get_ref().to_string()).collect::<Vec<_>>() {
+                table.remove(other.as_str());
+            }
+        }
+        Self { document, table, key, part, value, before: faults.count(), wrong: Vec::new(), readings: 0 }
     }
 
     /// Reports a mistake and takes out what is unknown or wrong; whether the rest is worth another reading.
@@ -43,7 +56,10 @@ impl<'d, 'a> Attempt<'d, 'a> {
         if let Some(end) = messages::unknown_field(error).and_then(|field| path.iter().position(|key| key == field)) {
             path.truncate(end + 1);
         }
-        let mistake = messages::mistake(error, path.last().map_or("", String::as_str));
+        let mut mistake = messages::mistake(error, path.last().map_or("", String::as_str));
+        if let (Mistake::UnknownKey { known, .. }, Part::Except(others), [_]) = (&mut mistake, self.part, &path[..]) {
+            known.splice(0..0, others.iter().map(|key| (*key).to_owned()));
+        }
         let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::Unsupported { .. });
         // What was taken out as wrong is not missing, nor is the sub-model that it was.
         let missing = messages::missing_field(error);
@@ -62,6 +78,16 @@ impl<'d, 'a> Attempt<'d, 'a> {
         }
         self.readings += 1;
         taken && self.readings < READINGS
+    }
+}
+
+impl Part<'_> {
+    /// Whether it has this key.
+    fn has(self, key: &str) -> bool {
+        match self {
+            Self::Only(keys) => keys.contains(&key),
+            Self::Except(keys) => !keys.contains(&key),
+        }
     }
 }
 

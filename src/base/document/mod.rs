@@ -26,6 +26,15 @@ use single::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Which keys of a table are read together.
+#[derive(Clone, Copy)]
+pub(crate) enum Part<'k> {
+    /// These.
+    Only(&'k [&'k str]),
+    /// All but these, which are read on their own.
+    Except(&'k [&'k str]),
+}
+
 /// A scene's text, parsed.
 pub(crate) struct Document<'a> {
     /// The scene's name, for messages.
@@ -99,10 +108,12 @@ impl<'a> Document<'a> {
         self.find(path)?.get_ref().as_str()
     }
 
-    /// The texts of the list at the path.
+    /// The text at the path, or those of the list there.
     pub(crate) fn texts(&self, path: &str) -> Vec<&str> {
-        let list = self.find(path).and_then(|value| value.get_ref().as_array());
-        list.into_iter().flat_map(|list| list.iter()).filter_map(|value| value.get_ref().as_str()).collect()
+        match self.find(path).map(Spanned::get_ref) {
+            Some(DeValue::Array(list)) => list.iter().filter_map(|value| value.get_ref().as_str()).collect(),
+            value => value.and_then(DeValue::as_str).into_iter().collect(),
+        }
     }
 
     /// The value at the path, as the scene has it.
@@ -149,7 +160,18 @@ impl<'a> Document<'a> {
 
     /// Reads the value of a key of a table into a type.
     pub(crate) fn read_key<T: DeserializeOwned>(&self, table: &str, key: &str, faults: &mut Faults) -> Option<T> {
-        let mut attempt = Attempt::of(self, table, key, faults);
+        self.read_part(table, key, Part::Except(&[]), faults)
+    }
+
+    /// Reads a part of the value of a key of a table into a type.
+    pub(crate) fn read_part<T: DeserializeOwned>(
+        &self,
+        table: &str,
+        key: &str,
+        part: Part,
+        faults: &mut Faults,
+    ) -> Option<T> {
+        let mut attempt = Attempt::of(self, (table, key), part, faults);
         loop {
             match value::read(&attempt.value) {
                 Ok(read) => return (faults.count() == attempt.before).then_some(read),

@@ -3,6 +3,7 @@
 //! The width is chosen once, when a simulation is made, from what the processor offers. Every width gives
 //! the same bits: operations are exactly rounded and never fused, and results are added in the same order.
 
+mod columns;
 mod one;
 mod shared;
 mod table;
@@ -22,6 +23,7 @@ pub type Four = f64;
 #[cfg(not(target_arch = "x86_64"))]
 pub type Eight = f64;
 
+pub use columns::{Column, put, take, vector_of, vector_parts};
 pub use shared::Shared;
 pub use table::{Table, columns_from, rows_from};
 

@@ -3,6 +3,8 @@
 
 use super::Order;
 use crate::base::memory;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD as STANDARD;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 
@@ -78,27 +80,17 @@ impl<'a> Stream<'a> {
 
 /// Decodes the next four letters of base64; hands out the text behind them.
 fn decode<'a>(mut text: &'a [u8], into: &mut Vec<u8>) -> Option<&'a [u8]> {
-    let (mut bits, mut letters, mut padding) = (0_u32, 0, 0);
-    while letters < 4 {
+    let (mut letters, mut bytes, mut count) = ([0; 4], [0; 3], 0);
+    while count < letters.len() {
         let (letter, rest) = text.split_first()?;
         text = rest;
-        let six = match letter {
-            b'A'..=b'Z' => letter - b'A',
-            b'a'..=b'z' => letter - b'a' + 26,
-            b'0'..=b'9' => letter - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            b'=' => {
-                padding += 1;
-                0
-            }
-            b' ' | b'\t' | b'\r' | b'\n' => continue,
-            _ => return None,
-        };
-        bits = bits << 6 | u32::from(six);
-        letters += 1;
+        if !letter.is_ascii_whitespace() {
+            letters[count] = *letter;
+            count += 1;
+        }
     }
-    into.extend_from_slice(bits.to_be_bytes().get(1..4_usize.checked_sub(padding)?).unwrap_or_default());
+    let decoded = STANDARD.decode_slice(letters, &mut bytes).ok()?;
+    into.extend_from_slice(&bytes[..decoded]);
     Some(text)
 }
 

@@ -3,7 +3,7 @@
 
 use super::pipeline_buffer::PipelineBuffer;
 use crate::base::lanes::{self, Kernel, Lane, Width};
-use crate::laws::bond::breakage::{Breakage, TakeRule};
+use crate::laws::bond::breakage::Rule;
 use crate::laws::bond::damping::{Damping, TakeDamping};
 use crate::laws::bond::{Elasticity, Law};
 
@@ -15,8 +15,8 @@ pub(super) struct After {
     pub(super) needs_masses: bool,
     /// [`Law::foresees`]
     pub(super) foresees: bool,
-    /// Rules of breakage, in the order of their list.
-    pub(super) breakage: Vec<Box<dyn OnLanes>>,
+    /// Rules of breakage, in their order, and how far the codes of their causes lie above their places.
+    pub(super) breakage: Vec<(Rule, f64)>,
 }
 
 /// Something that is done with what a formulation answered.
@@ -44,7 +44,7 @@ impl After {
     pub(super) fn of(law: &Law) -> Self {
         let damping = law.damping.map(|damping| damping.visit(BoxDamping));
         let (damping, needs_masses) = damping.map_or((None, false), |(damping, needs)| (Some(damping), needs));
-        let breakage = law.breakage.iter().map(|rule| rule.visit(BoxRule)).collect();
+        let breakage = law.rules().map(|(rule, before)| (rule.clone(), before)).collect();
         Self { damping, needs_masses, foresees: law.foresees, breakage }
     }
 
@@ -61,16 +61,6 @@ impl TakeDamping for BoxDamping {
     type Output = (Box<dyn OnLanes>, bool);
     fn take<D: Damping>(self, damping: D) -> Self::Output {
         (Box::new(Damp(damping)), D::NEEDS_MASSES)
-    }
-}
-
-/// Makes the work of a rule.
-struct BoxRule;
-
-impl TakeRule for BoxRule {
-    type Output = Box<dyn OnLanes>;
-    fn take<B: Breakage>(self, rule: B, before: f64) -> Self::Output {
-        Box::new(Judge { rule, before })
     }
 }
 
@@ -100,37 +90,5 @@ impl<D: Damping> Kernel for DampBonds<'_, '_, D> {
         let load = self.damping.damp(&law, &pair, &motion, &elastic).load(&pair, &motion);
         let last = buffer.answer.damping::<N>().taken(&pair, law.step);
         buffer.put_damped(turn, &elastic, &load, [last, load.taken(&pair, law.step)]);
-    }
-}
-
-/// A rule of breakage.
-struct Judge<B> {
-    /// The rule.
-    rule: B,
-    /// How far the codes of its causes lie above their places.
-    before: f64,
-}
-
-impl<B: Breakage> OnLanes for Judge<B> {
-    fn run(&self, width: Width, bonds: Bonds) {
-        lanes::run(width, JudgeBonds { judge: self, bonds });
-    }
-}
-
-/// A rule that looks at a register's worth of bonds.
-struct JudgeBonds<'a, 'b, B> {
-    /// The rule.
-    judge: &'a Judge<B>,
-    /// The bonds.
-    bonds: Bonds<'b>,
-}
-
-impl<B: Breakage> Kernel for JudgeBonds<'_, '_, B> {
-    #[inline(always)]
-    fn run<N: Lane>(self) {
-        let (Judge { rule, before }, answer) = (self.judge, &mut self.bonds.buffer.answer);
-        let found = rule.judge(&answer.loaded(N::splat(self.bonds.elasticity.radius_multiplier)));
-        let code = N::select(found.greater(N::zero()), found + N::splat(*before), N::zero());
-        answer.enter_causes(code);
     }
 }

@@ -321,7 +321,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
             self.buffer.put_loads(turn, [elastic.force, elastic.torque_i, elastic.torque_j]);
         }
         if !work.after.is_empty() {
-            self.buffer.answer.put_elastic(&pair, &motion, &elastic);
+            self.buffer.answer.loaded.put(&pair, &motion, &elastic);
             // SAFETY: the caller's promise.
             unsafe { self.follow::<N>(turn, &motion, &elastic) };
         }
@@ -360,10 +360,11 @@ impl<F: Formulation> Slab<'_, '_, F> {
                 unsafe { self.store(row, column, bond) };
             }
         }
-        for rule in &after.breakage {
-            rule.run(self.width, Bonds { elasticity, step, buffer: self.buffer, turn, start });
+        for (rule, before) in &after.breakage {
+            let loaded = &mut self.buffer.answer.loaded;
+            rule.judge_several(self.width, loaded, elasticity.radius_multiplier, *before);
         }
-        if self.buffer.answer.breaks {
+        if self.buffer.answer.loaded.breaks {
             self.break_bonds(turn, bond, usize::min(self.to - bond, N::WIDTH));
         }
     }
@@ -372,7 +373,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
     #[cold]
     fn break_bonds(&mut self, turn: usize, bond: usize, count: usize) {
         for lane in 0..count {
-            let cause = self.buffer.answer.cause[0][lane];
+            let cause = self.buffer.answer.loaded.cause[0][lane];
             if cause != 0.0 {
                 self.buffer.clear(turn, lane);
                 self.done.broken.push(Broken::new((bond + lane) as u32, cause));

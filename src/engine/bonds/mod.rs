@@ -64,15 +64,15 @@ pub(crate) struct BondPass {
 impl BondPass {
     /// The pass of this bond of the scene.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
-        let bond = &scene.bonds[index];
+        let (bond, law) = (&scene.bonds[index], scene.bond_law(index));
         Self {
             index,
-            one_bond: bond.law.one_bond(),
-            slab: bond.law.formulation.visit(bond.law.asked(), TakeSlabs),
-            after: After::of(&bond.law),
-            law: bond.law.clone(),
-            creation: bond.create.clone(),
-            create_distance: bond.create_distance.unwrap_or(0.0),
+            one_bond: law.one_bond(),
+            slab: law.formulation.visit(law.asked(), TakeSlabs),
+            after: After::of(&law),
+            law,
+            creation: bond.keys.create.clone(),
+            create_distance: bond.create_distance().unwrap_or(0.0),
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
             between: bond.between,
             pairs: bond.pairs.clone(),
@@ -146,9 +146,7 @@ impl BondPass {
 
 impl Pass for BondPass {
     fn take_strengths(&mut self, scene: &Scene, state: &State) {
-        if let Ok(law) = scene.tuned_law(self.index, &state.tuned)
-            && law != self.law
-        {
+        if let Ok(law) = scene.tuned_law(self.index, &state.tuned) {
             self.after = After::of(&law);
             self.law = law;
         }

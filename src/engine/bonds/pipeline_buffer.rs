@@ -1,13 +1,12 @@
 //! What the stages of the bond pass hand to each other.
 
-use crate::base::lanes::Lane;
+use crate::base::lanes::{Column, Lane, put, take, vector_of, vector_parts};
 use crate::base::number::Vector;
 use crate::engine::state::Row;
-use crate::laws::bond::breakage::Loaded;
+use crate::laws::bond::breakage::LoadedBonds;
 use crate::laws::bond::damping::DampingLoad;
 use crate::laws::bond::{
     Coefficients, Elastic, Formulation, Intermediate, Lengths, MOST_HALFWAY, Motion, Opening, Pair, Quaternion, Rates,
-    Section,
 };
 use std::marker::PhantomData;
 
@@ -78,80 +77,45 @@ impl Loads {
 
 /// What the formulation answered for a register's worth of bonds, for damping and breakage.
 pub(super) struct Answer {
-    /// Distance, smaller radius.
-    size: [[f64; 8]; 2],
+    /// What rules of breakage look at, and why bonds broke.
+    pub(super) loaded: LoadedBonds,
     /// Axis, normal velocity, slip, twist rate, bending rate.
-    motion: [[f64; 8]; 11],
-    /// Compression, normal force, shear force, torsion, bending torque.
-    elastic: [[f64; 8]; 9],
+    motion: [Column; 11],
     /// Force on i, torque on i, torque on j, where damping is still to be added.
-    loads: [[f64; 8]; 9],
+    loads: [Column; 9],
     /// Elastic energy that relaxation took \[J\].
-    pub(super) relaxed: [[f64; 8]; 1],
+    pub(super) relaxed: [Column; 1],
     /// Load of damping in the last evaluation, then in this one: force on i, torque on i, torque on j.
-    damping: [[f64; 8]; 9],
+    damping: [Column; 9],
     /// Energy that damping took since the last evaluation \[J\], and the part of it that the last load took.
-    damped: [[f64; 8]; 2],
-    /// 0, or why a bond broke.
-    pub(super) cause: [[f64; 8]; 1],
-    /// Whether any broke.
-    pub(super) breaks: bool,
+    damped: [Column; 2],
 }
 
 /// Work in progress: three registers' worth of pairs, and two of their results.
 #[repr(align(64))]
 pub(super) struct PipelineBuffer {
     /// Pairs.
-    pairs: [[f64; 8]; 3 * MOST_PAIR],
+    pairs: [Column; 3 * MOST_PAIR],
     /// What comes before the divisions.
-    opened: [[f64; 8]; 2 * MOST_OPENED],
+    opened: [Column; 2 * MOST_OPENED],
     /// Loads.
     loads: [Loads; 2],
     /// Masses and moments of inertia of the pairs, where damping looks at them.
-    masses: [[f64; 8]; 3 * 4],
+    masses: [Column; 3 * 4],
     /// What the formulation answered last, where damping or breakage looks at it.
     pub(super) answer: Answer,
-}
-
-/// Writes columns.
-#[inline(always)]
-fn put<N: Lane, const COUNT: usize>(columns: &mut [[f64; 8]], first: usize, values: [N; COUNT]) {
-    let columns = &mut columns[first..first + COUNT];
-    let mut column = 0;
-    while column < COUNT {
-        // SAFETY: a column has room for a register.
-        unsafe { values[column].store(columns[column].as_mut_ptr()) };
-        column += 1;
-    }
-}
-
-/// Reads columns.
-#[inline(always)]
-fn take<N: Lane, const COUNT: usize>(columns: &[[f64; 8]], first: usize) -> [N; COUNT] {
-    let columns = &columns[first..first + COUNT];
-    let mut values = [N::zero(); COUNT];
-    let mut column = 0;
-    while column < COUNT {
-        // SAFETY: a column holds a register.
-        values[column] = unsafe { N::load(columns[column].as_ptr()) };
-        column += 1;
-    }
-    values
 }
 
 impl Answer {
     /// An empty one.
     fn new() -> Self {
         Self {
-            size: [[0.0; 8]; 2],
+            loaded: LoadedBonds::EMPTY,
             motion: [[0.0; 8]; 11],
-            elastic: [[0.0; 8]; 9],
             loads: [[0.0; 8]; 9],
             relaxed: [[0.0; 8]],
             damping: [[0.0; 8]; 9],
             damped: [[0.0; 8]; 2],
-            cause: [[0.0; 8]],
-            breaks: false,
         }
     }
 
@@ -161,46 +125,17 @@ impl Answer {
         put(&mut self.relaxed, 0, [relaxed]);
     }
 
-    /// Writes what rules of breakage look at.
-    #[inline(always)]
-    pub(super) fn put_elastic<N: Lane>(&mut self, pair: &Pair<N>, motion: &Motion<N>, elastic: &Elastic<N>) {
-        put(&mut self.size, 0, [motion.distance, pair.least_radius]);
-        put(&mut self.elastic, 0, [elastic.compression, elastic.normal]);
-        put(&mut self.elastic, 2, parts(elastic.shear));
-        put(&mut self.elastic, 5, [elastic.torsion]);
-        put(&mut self.elastic, 6, parts(elastic.bending));
-        put(&mut self.cause, 0, [N::zero()]);
-        self.breaks = false;
-    }
-
     /// Writes what damping looks at beyond that.
     #[inline(always)]
     pub(super) fn put_motion<N: Lane>(&mut self, motion: &Motion<N>, elastic: &Elastic<N>) {
-        put(&mut self.motion, 0, parts(motion.axis));
+        put(&mut self.motion, 0, vector_parts(motion.axis));
         put(&mut self.motion, 3, [motion.normal_velocity]);
-        put(&mut self.motion, 4, parts(motion.slip));
+        put(&mut self.motion, 4, vector_parts(motion.slip));
         put(&mut self.motion, 7, [motion.twist_rate]);
-        put(&mut self.motion, 8, parts(motion.bending_rate));
-        put(&mut self.loads, 0, parts(elastic.force));
-        put(&mut self.loads, 3, parts(elastic.torque_i));
-        put(&mut self.loads, 6, parts(elastic.torque_j));
-    }
-
-    /// Reads what rules of breakage look at.
-    #[inline(always)]
-    pub(super) fn loaded<N: Lane>(&self, radius_multiplier: N) -> Loaded<N> {
-        let [distance, least_radius] = take(&self.size, 0);
-        let [compression, normal] = take(&self.elastic, 0);
-        let [torsion] = take(&self.elastic, 5);
-        Loaded {
-            distance,
-            section: Section::of(radius_multiplier, least_radius),
-            compression,
-            normal,
-            shear: whole(take(&self.elastic, 2)),
-            torsion,
-            bending: whole(take(&self.elastic, 6)),
-        }
+        put(&mut self.motion, 8, vector_parts(motion.bending_rate));
+        put(&mut self.loads, 0, vector_parts(elastic.force));
+        put(&mut self.loads, 3, vector_parts(elastic.torque_i));
+        put(&mut self.loads, 6, vector_parts(elastic.torque_j));
     }
 
     /// Energy that relaxation and damping took of the bond in this lane \[J\].
@@ -212,28 +147,19 @@ impl Answer {
     /// Writes a load of damping.
     #[inline(always)]
     pub(super) fn put_damping<N: Lane>(&mut self, load: &DampingLoad<N>) {
-        put(&mut self.damping, 0, parts(load.force));
-        put(&mut self.damping, 3, parts(load.torque_i));
-        put(&mut self.damping, 6, parts(load.torque_j));
+        put(&mut self.damping, 0, vector_parts(load.force));
+        put(&mut self.damping, 3, vector_parts(load.torque_i));
+        put(&mut self.damping, 6, vector_parts(load.torque_j));
     }
 
     /// Reads the load of damping that was written last.
     #[inline(always)]
     pub(super) fn damping<N: Lane>(&self) -> DampingLoad<N> {
         DampingLoad {
-            force: whole(take(&self.damping, 0)),
-            torque_i: whole(take(&self.damping, 3)),
-            torque_j: whole(take(&self.damping, 6)),
+            force: vector_of(take(&self.damping, 0)),
+            torque_i: vector_of(take(&self.damping, 3)),
+            torque_j: vector_of(take(&self.damping, 6)),
         }
-    }
-
-    /// Enters what a rule found: the codes of causes, 0 where a bond holds. The first cause of a bond stays.
-    #[inline(always)]
-    pub(super) fn enter_causes<N: Lane>(&mut self, found: N) {
-        let [cause] = take::<N, 1>(&self.cause, 0);
-        let all = N::select(cause.greater(N::zero()), cause, found);
-        put(&mut self.cause, 0, [all]);
-        self.breaks |= N::any(all.greater(N::zero()));
     }
 }
 
@@ -281,13 +207,13 @@ impl PipelineBuffer {
         const { assert!(Columns::<F>::PAIR <= MOST_PAIR) };
         let start = turn % 3 * Columns::<F>::PAIR;
         let columns = &mut self.pairs[start..start + Columns::<F>::PAIR];
-        put(columns, CONNECTION, parts(pair.connection));
+        put(columns, CONNECTION, vector_parts(pair.connection));
         put(columns, SHARES, [pair.share_i, pair.share_j, pair.least_radius]);
         put(columns, LENGTHS, [lengths.distance, lengths.last_distance]);
         if Columns::<F>::HAS_RATES {
-            put(columns, VELOCITY, parts(pair.velocity));
-            put(columns, VELOCITY + 3, parts(pair.spin_i));
-            put(columns, VELOCITY + 6, parts(pair.spin_j));
+            put(columns, VELOCITY, vector_parts(pair.velocity));
+            put(columns, VELOCITY + 3, vector_parts(pair.spin_i));
+            put(columns, VELOCITY + 6, vector_parts(pair.spin_j));
         }
         if F::NEEDS_ORIENTATIONS {
             put(columns, Columns::<F>::ORIENTATIONS, pair.orientation_i.to_row());
@@ -302,7 +228,7 @@ impl PipelineBuffer {
         let columns = &self.pairs[start..start + Columns::<F>::PAIR];
         let [distance, last_distance] = take(columns, LENGTHS);
         let mut pair = pair_of(columns, Columns::<F>::HAS_RATES, [N::zero(); 4]);
-        pair.connection = whole(take(columns, CONNECTION));
+        pair.connection = vector_of(take(columns, CONNECTION));
         if F::NEEDS_ORIENTATIONS {
             pair.orientation_i = Quaternion::from_row(take(columns, Columns::<F>::ORIENTATIONS));
             pair.orientation_j = Quaternion::from_row(take(columns, Columns::<F>::ORIENTATIONS + 4));
@@ -323,7 +249,7 @@ impl PipelineBuffer {
         let columns = &mut self.opened[start..start + Columns::<F>::OPENED];
         put(columns, 0, [opening.shared]);
         if matches!(F::RATES, Rates::Midway) {
-            put(columns, 1, parts(opening.sum));
+            put(columns, 1, vector_parts(opening.sum));
             put(columns, 4, [opening.size, opening.above, opening.below]);
         }
         let mut number = 0;
@@ -342,7 +268,7 @@ impl PipelineBuffer {
         let zero = N::zero();
         let mut opening = Opening { sum: Vector::zero(), size: zero, above: zero, below: zero, shared };
         if matches!(F::RATES, Rates::Midway) {
-            opening.sum = whole(take(columns, 1));
+            opening.sum = vector_of(take(columns, 1));
             [opening.size, opening.above, opening.below] = take(columns, 4);
         }
         let mut halfway = [zero; MOST_HALFWAY];
@@ -366,28 +292,28 @@ impl PipelineBuffer {
         let masses = take(&self.masses, turn % 3 * 4);
         let pair = pair_of(&self.pairs[start..start + VELOCITY + 9], true, masses);
         let answer = &self.answer;
-        let [distance, _] = take(&answer.size, 0);
+        let [distance, _] = take(&answer.loaded.size, 0);
         let [normal_velocity] = take(&answer.motion, 3);
         let [twist_rate] = take(&answer.motion, 7);
-        let axis = whole(take(&answer.motion, 0));
+        let axis = vector_of(take(&answer.motion, 0));
         let motion = Motion {
             normal_velocity,
-            slip: whole(take(&answer.motion, 4)),
+            slip: vector_of(take(&answer.motion, 4)),
             twist_rate,
-            bending_rate: whole(take(&answer.motion, 8)),
+            bending_rate: vector_of(take(&answer.motion, 8)),
             ..Motion::still(axis, distance, law.section(pair.least_radius))
         };
-        let [compression, normal] = take(&answer.elastic, 0);
-        let [torsion] = take(&answer.elastic, 5);
+        let [compression, normal] = take(&answer.loaded.elastic, 0);
+        let [torsion] = take(&answer.loaded.elastic, 5);
         let elastic = Elastic {
             compression,
             normal,
-            shear: whole(take(&answer.elastic, 2)),
+            shear: vector_of(take(&answer.loaded.elastic, 2)),
             torsion,
-            bending: whole(take(&answer.elastic, 6)),
-            force: whole(take(&answer.loads, 0)),
-            torque_i: whole(take(&answer.loads, 3)),
-            torque_j: whole(take(&answer.loads, 6)),
+            bending: vector_of(take(&answer.loaded.elastic, 6)),
+            force: vector_of(take(&answer.loads, 0)),
+            torque_i: vector_of(take(&answer.loads, 3)),
+            torque_j: vector_of(take(&answer.loads, 6)),
             ..Elastic::none()
         };
         (pair, motion, elastic)
@@ -416,7 +342,7 @@ pub(super) fn start_of<F: Formulation>(turn: usize) -> usize {
 
 /// A pair from its columns, without connection and orientations.
 #[inline(always)]
-fn pair_of<N: Lane>(columns: &[[f64; 8]], has_rates: bool, [mass_i, mass_j, inertia_i, inertia_j]: [N; 4]) -> Pair<N> {
+fn pair_of<N: Lane>(columns: &[Column], has_rates: bool, [mass_i, mass_j, inertia_i, inertia_j]: [N; 4]) -> Pair<N> {
     let [share_i, share_j, least_radius] = take(columns, SHARES);
     let mut pair = Pair {
         connection: Vector::zero(),
@@ -435,21 +361,9 @@ fn pair_of<N: Lane>(columns: &[[f64; 8]], has_rates: bool, [mass_i, mass_j, iner
         inertia_j,
     };
     if has_rates {
-        pair.velocity = whole(take(columns, VELOCITY));
-        pair.spin_i = whole(take(columns, VELOCITY + 3));
-        pair.spin_j = whole(take(columns, VELOCITY + 6));
+        pair.velocity = vector_of(take(columns, VELOCITY));
+        pair.spin_i = vector_of(take(columns, VELOCITY + 3));
+        pair.spin_j = vector_of(take(columns, VELOCITY + 6));
     }
     pair
-}
-
-/// A vector as three columns.
-#[inline(always)]
-fn parts<N: Lane>(vector: Vector<N>) -> [N; 3] {
-    [vector.x, vector.y, vector.z]
-}
-
-/// Three columns as a vector.
-#[inline(always)]
-fn whole<N: Lane>([x, y, z]: [N; 3]) -> Vector<N> {
-    Vector::new(x, y, z)
 }

@@ -67,15 +67,15 @@ impl Default for Piece {
 impl WallBondPass {
     /// The pass of this bond of the scene; none where the boundary is not a plane.
     pub(crate) fn of(scene: &Scene, index: usize, boundary: BoundaryIndex) -> Option<Self> {
-        let bond = &scene.bonds[index];
+        let (bond, law) = (&scene.bonds[index], scene.bond_law(index));
         let Boundary { reference, .. } = &scene.boundaries[boundary.index()];
         let plane = scene.boundaries[boundary.index()].shifting_plane()?;
         Some(Self {
             index,
-            law: bond.law.clone(),
-            one_bond: bond.law.one_bond(),
-            creation: bond.create.clone(),
-            create_distance: bond.create_distance.unwrap_or(0.0),
+            one_bond: law.one_bond(),
+            law,
+            creation: bond.keys.create.clone(),
+            create_distance: bond.create_distance().unwrap_or(0.0),
             sets: scene.particles.iter().map(|particle| particle.set).collect(),
             set: bond.between[0],
             boundary,

@@ -7,7 +7,7 @@ use crate::scene::{ContactLaw, Scene};
 
 /// The coefficients that the scene gives a law for all pairs of materials it governs, row by row; others get zeros.
 pub(crate) fn rows(law: &ContactLaw, scene: &Scene) -> Vec<f64> {
-    let (choice, materials) = (law.choice(), scene.materials.len());
+    let (choice, materials) = (law.choice, scene.materials.len());
     let count = Law::of(&choice).places().count;
     let row = |entry: usize| {
         let (a, b) = (&scene.materials[entry / materials], &scene.materials[entry % materials]);
@@ -58,7 +58,7 @@ impl CoefficientTable {
     /// The table of a law with the coefficients that the scene gives it; those of a state are taken over by
     /// [`CoefficientTable::take`].
     pub(crate) fn of(law: &ContactLaw, scene: &Scene) -> Self {
-        let (count, materials) = (Law::of(&law.choice()).places().count, scene.materials.len());
+        let (count, materials) = (Law::of(&law.choice).places().count, scene.materials.len());
         let now = scene.particles.iter().map(|particle| particle.material.0);
         let mut present = now.chain(scene.insertions.iter().map(|insertion| insertion.material.0));
         let single = present.next().filter(|&first| present.all(|other| other == first));

@@ -110,7 +110,7 @@ impl Search {
     /// together.
     pub(crate) fn take_coefficients(&mut self, scene: &Scene, state: &State) {
         let reaches = scene.contacts.iter().zip(&state.coefficients).map(|(choice, rows)| {
-            let law = Law::of(&choice.choice());
+            let law = Law::of(&choice.choice);
             let governed = rows.chunks_exact(law.places().count.max(1)).zip(&choice.between);
             let reaches = governed.filter(|(_, governed)| **governed).map(|(row, _)| law.reach(row, self.largest));
             if law.holds_beyond_touch() { reaches.fold(0.0, f64::max) } else { 0.0 }

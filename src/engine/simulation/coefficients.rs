@@ -78,7 +78,7 @@ impl Simulation {
         let ([a, b], count) = (pair.map(MaterialIndex::index), self.scene.materials.len());
         let materials = MaterialPair { a: &self.scene.materials[a], b: &self.scene.materials[b], properties };
         let governing = self.scene.contacts.iter().enumerate().filter(|(_, law)| law.between[a * count + b]);
-        let rows = governing.map(|(index, law)| Ok((index, law.choice().coefficients(&materials)?)));
+        let rows = governing.map(|(index, law)| Ok((index, law.choice.coefficients(&materials)?)));
         Ok(PairRows { pair, rows: rows.collect::<Result<_, Vec<Missing>>>()? })
     }
 

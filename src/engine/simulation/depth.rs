@@ -1,4 +1,4 @@
-//! Particles that are deeper in each other than any contact law means.
+//! Overlaps larger than any contact law is valid for.
 
 use super::run_checks::COLLAPSING_COHESION;
 use super::{RunError, Simulation};
@@ -7,23 +7,23 @@ use crate::engine::run_error::Cause;
 use crate::engine::state::contacts::TOUCHING;
 use crate::laws::motion::InputCourse;
 
-/// Overlap over the smaller radius at which the centre of one particle is inside the other: no contact law means that.
+/// Overlap over the smaller radius at which the centre of one particle is inside the other: no contact law is valid there.
 const DEEPEST: f64 = 1.0;
 
-/// Way over the smallest radius between two looks: particles do not pass through each other unseen.
+/// Distance moved between two checks, over the smallest radius: particles cannot pass through each other unnoticed.
 const BETWEEN_LOOKS: f64 = 0.25;
 
 /// Way in one stable time step over the depth below which bodies are squeezed rather than thrown into each other. The time
 /// from touch to rest is π/2 times the stable step where their contact limits that, and more where a stiffer one does.
 const SLOW: f64 = 0.01;
 
-/// Way in one time step over the smallest radius above which every step is looked at.
+/// Distance moved in one time step, over the smallest radius, above which every step is checked.
 const FAST: f64 = 0.1;
 
 impl Simulation {
-    /// Whether it is time to look how deep contacts are, in a step in which nothing moves further than by `way` \[m\] and what
-    /// moves farthest has moved from `before` to `after` \[m\] since the neighbour lists were made: where that is much, or
-    /// passes the next quarter of the smallest radius.
+    /// Whether overlaps are to be checked in a step in which bodies move by at most `way` \[m\], and the largest displacement since the
+    /// neighbour lists were made grows from `before` to `after` \[m\]: where `way` is large, or the displacement passes the next quarter
+    /// of the smallest radius.
     pub(super) fn is_depth_due(&self, way: f64, [before, after]: [f64; 2]) -> bool {
         let smallest = self.search.smallest_radius();
         let looks = |travel: f64| (travel / (BETWEEN_LOOKS * smallest)).floor();
@@ -52,8 +52,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Why two particles (slots) are that deep in each other, whose centres are this vector apart \[m\]; none where it was
-    /// meant.
+    /// Why two particles (slots) overlap that far, whose centres are this vector apart \[m\]; none where the scene says so.
     fn cause_of_depth(&self, slots: [u32; 2], apart: Vector) -> Option<Cause> {
         let particles = &self.state.particles;
         let [one, other] = slots.map(|slot| particles.material[slot as usize] as usize);
@@ -73,8 +72,8 @@ impl Simulation {
         Some(self.step_as_cause().unwrap_or_else(|| self.impact_or_load(closing, depth)))
     }
 
-    /// What pushed bodies that deep \[m\] into each other, which close at this speed \[m/s\]: an impact takes about half an
-    /// oscillation of the contact for it, a load as long as it likes.
+    /// What pressed bodies to this overlap \[m\], which approach each other at this speed \[m/s\]: an impact takes about half an
+    /// oscillation of the contact, a load any time.
     pub(super) fn impact_or_load(&self, closing: f64, depth: f64) -> Cause {
         if closing * self.state.clock.stable > SLOW * depth { Cause::Impact { speed: closing } } else { Cause::Load }
     }

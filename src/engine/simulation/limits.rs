@@ -199,7 +199,8 @@ impl Simulation {
             CreationTime::Time(time) => time > foresight.to,
             CreationTime::AtStart | CreationTime::Always => false,
         };
-        let coming = self.scene.bonds.iter().any(|bond| bond.create.comes_within(&next) && unforeseen(&bond.create));
+        let coming =
+            self.scene.bonds.iter().any(|bond| bond.keys.create.comes_within(&next) && unforeseen(&bond.keys.create));
         let uncovered = broken > foresight.bonds[1] && self.suppression.any();
         let unexpected = made > foresight.bonds[0] && clock.steps > foresight.until;
         coming || uncovered || unexpected

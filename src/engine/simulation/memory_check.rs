@@ -42,7 +42,7 @@ impl Simulation {
             refuse((pairs, rows), pair, format!("near pairs with a [run] skin of {skin:e} m"))?;
         }
         for bond in &self.scene.bonds {
-            let Some(distance) = bond.create_distance.filter(|_| every * BOND > free as f64) else { continue };
+            let Some(distance) = bond.create_distance().filter(|_| every * BOND > free as f64) else { continue };
             let pairs = pair_estimate::pairs(particles, |_, _| distance);
             refuse((pairs, 1.0), BOND, format!("pairs with a [bond.{}] create_distance of {distance:e} m", bond.name))?;
         }

@@ -107,7 +107,8 @@ fn put(row: &mut Row, vector: [f64; 3]) {
 
 /// Appends a bond to its list; slots are still those of the scene.
 fn put_bond(scene: &Scene, state: &mut State, bond: &PlacedBond) {
-    let (Some(list), Some(law)) = (state.bonds.get_mut(bond.law), scene.bonds.get(bond.law)) else { return };
+    let Some(list) = state.bonds.get_mut(bond.law) else { return };
+    let law = scene.bond_law(bond.law);
     list.rows.resize(bond.rows.len(), Vec::new());
     list.first.push(bond.bodies[0]);
     list.second.push(bond.bodies[1]);
@@ -116,7 +117,7 @@ fn put_bond(scene: &Scene, state: &mut State, bond: &PlacedBond) {
     }
     let [i, j] = bond.bodies.map(|slot| slot as usize);
     let pair = pair_of(&state.particles, i, j);
-    begin_losses(list, &law.law, &law.law.elasticity.at_step(0.0), &pair);
+    begin_losses(list, &law, &law.elasticity.at_step(0.0), &pair);
     list.made += 1;
     state.particles.count_bond(bond.bodies);
 }
@@ -131,7 +132,7 @@ fn put_spring(scene: &Scene, state: &mut State, placed: &PlacedSpring) {
         return;
     }
     for (law, list) in state.contacts.iter_mut().enumerate() {
-        let spring = Law::of(&scene.contacts[law].choice()).spring();
+        let spring = Law::of(&scene.contacts[law].choice).spring();
         for pair in 0..list.first.len() {
             let sign = match [list.first[pair], list.second[pair]] {
                 found if found == [a, b] => 1.0,

@@ -126,7 +126,7 @@ impl Simulation {
     /// not in it: scenes with cohesion are not judged.
     fn gain_by_ledger(&self) -> Option<[f64; 2]> {
         let ledger = self.state.ledger.as_ref()?;
-        let cohesive = self.scene.contacts.iter().any(|law| law.cohesion.name() != "none");
+        let cohesive = self.scene.contacts.iter().any(|law| law.choice.cohesion.name() != "none");
         let scale = ledger.turnover.max(ledger.initial_kinetic + ledger.initial_elastic);
         (!cohesive && ledger.turnover > 0.0).then_some([-self.dissipated_energy()?, scale])
     }

@@ -109,7 +109,7 @@ impl System<'_> {
 
     /// Whether there are bonds, or are about to be.
     fn has_bonds(&self, ahead: &SearchLimits) -> bool {
-        let coming = |window| self.scene.bonds.iter().any(|bond| bond.create.comes_within(window));
+        let coming = |window| self.scene.bonds.iter().any(|bond| bond.keys.create.comes_within(window));
         self.state.bonds.iter().any(|list| !list.first.is_empty()) || ahead.window.as_ref().is_some_and(coming)
     }
 

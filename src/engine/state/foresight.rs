@@ -1,26 +1,26 @@
-//! The conditions for which the stable time step was computed, and when it is computed again.
+//! For which motion the stable time step holds, and hence when it is computed again.
 
 use serde::{Deserialize, Serialize};
 
-/// When the stable time step was found last, and what for.
+/// Limits of motion and bonds within which the stable time step that was computed last holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Foresight {
-    /// Root 2/Δt of the network that was foreseen \[1/s\]; 0 where there is none.
+    /// Angular frequency 2/Δt of the contacts and bonds that were counted, as found last \[1/s\]; 0 without any.
     pub root: f64,
-    /// Starts of iterations so far.
+    /// How many eigenvalue iterations were started: it seeds the next one.
     pub counter: u64,
-    /// Times it was found.
+    /// How often the stable step was computed.
     pub looks: u64,
-    /// A bound of how far anything has moved since \[m\].
+    /// An upper bound of the distance that any body has moved since \[m\].
     pub travel: f64,
-    /// How far everything may move until it is found again \[m\].
+    /// The distance at which it is computed again \[m\].
     pub reach: f64,
-    /// How fast everything may become until then \[m/s\].
+    /// The speed at which it is computed again \[m/s\].
     pub speed: f64,
-    /// Bonds made and bonds broken until then.
+    /// Bonds made and bonds broken when it was computed.
     pub bonds: [u64; 2],
-    /// Number of the last time step whose new bonds were foreseen.
+    /// Number of the last time step whose new bonds were counted.
     pub until: u64,
-    /// Time up to which new bonds were foreseen \[s\].
+    /// Time up to which new bonds were counted \[s\].
     pub to: f64,
 }

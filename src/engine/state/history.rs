@@ -1,12 +1,12 @@
-//! What is remembered of the entries of a list.
+//! The history of the contacts of a list.
 
 use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Rows of the entries of a list, as many of each. Those of an entry stand side by side: an evaluation looks at all of them, and
-/// they take fewer lines of the cache than in lists of their own.
+/// History rows of the entries of a list, the same number for each. The rows of an entry stand side by side, as an evaluation reads
+/// all of them: that takes fewer lines of the cache than a list for each row.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// How many rows there are of each entry.
@@ -19,7 +19,7 @@ pub struct History {
 clone_in_place!(History { of_each, all });
 
 impl History {
-    /// So many rows of each of so many entries, all zero.
+    /// This many rows for each of this many entries, all zero.
     pub fn of(rows: usize, count: usize) -> Self {
         Self { of_each: rows as u32, all: vec![Row::default(); rows * count] }
     }
@@ -56,13 +56,13 @@ impl History {
         debug_assert!(self.all.len().is_multiple_of(self.rows().max(1)), "{} rows", self.all.len());
     }
 
-    /// Takes out all entries; those that come have so many rows.
+    /// Removes all entries; new ones have this many rows.
     pub fn clear(&mut self, rows: usize) {
         self.of_each = rows as u32;
         self.all.clear();
     }
 
-    /// Makes room for so many rows of each of so many entries. What stands there is anything.
+    /// Resizes to this many rows for each of this many entries, whose values are not specified.
     pub(crate) fn resize(&mut self, rows: usize, count: usize) {
         self.of_each = rows as u32;
         self.all.resize(rows * count, Row::default());

@@ -1,9 +1,9 @@
-//! Adds and removes particles: the rows of the state and the lists follow.
+//! Adds particles to the state and removes them from it, with their entries in every list.
 
 use super::{BondList, Columns, ContactList, GONE, NearParts, Particles, Row, State, WallContacts};
 use crate::base::geometry::Quaternion;
 
-/// A particle that comes.
+/// A particle to be added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InsertedParticle {
     /// Centre \[m\] and radius \[m\].
@@ -14,32 +14,32 @@ pub struct InsertedParticle {
     pub inertia: f64,
     /// Index of its material.
     pub material: u32,
-    /// The number that it carries in outputs.
+    /// Its number in outputs.
     pub number: u32,
 }
 
 impl Particles {
-    /// Index of the first particle that is none of the scene's own.
+    /// How many particles the scene itself has: the index of the first one that was inserted.
     fn own(&self) -> usize {
         self.slot.len() - self.numbers.len()
     }
 
-    /// The number that a particle which came later carries in outputs, by its index; none of the scene's own.
+    /// The number in outputs of an inserted particle, by its index; none for the scene's own.
     pub fn number_of_inserted(&self, index: u32) -> Option<u32> {
         self.numbers.get((index as usize).checked_sub(self.own())?).copied()
     }
 
-    /// Slots of the particles that are there, by ascending index.
+    /// Slots of the present particles, by ascending index.
     pub fn slots(&self) -> impl Iterator<Item = usize> + '_ {
         self.slot.iter().filter(|slot| **slot != GONE).map(|&slot| slot as usize)
     }
 
-    /// The slot of a particle by its index, if it is there.
+    /// The slot of a particle by its index, if it is present.
     pub fn slot_of(&self, index: u32) -> Option<usize> {
         self.slot.get(index as usize).filter(|slot| **slot != GONE).map(|&slot| slot as usize)
     }
 
-    /// Puts a particle behind the others. `turning`: whether particles have an orientation.
+    /// Appends a particle. `turning`: whether particles have an orientation.
     pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) {
         let slot = self.len() as u32;
         let index = self.free.pop().unwrap_or_else(|| {
@@ -66,7 +66,7 @@ impl Particles {
         self.id.push(index);
     }
 
-    /// Takes out the particles (slots) that go.
+    /// Removes particles (slots).
     fn remove(&mut self, goes: &[bool]) {
         let own = self.own();
         for slot in (0..goes.len()).filter(|&slot| goes[slot]) {
@@ -107,11 +107,11 @@ fn keep<T>(list: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
     });
 }
 
-/// What becomes of slots and of ends of slabs.
+/// New slots and new ends of slabs after a removal.
 struct Moved<'a> {
-    /// Whether the particle in each slot goes.
+    /// Whether the particle in each slot is removed.
     goes: &'a [bool],
-    /// How many stay before each slot, and behind the last one how many in all.
+    /// How many particles stay before each slot, and as the last entry how many in all.
     stay_before: Vec<u32>,
 }
 
@@ -121,13 +121,13 @@ impl Moved<'_> {
         !self.goes[slot as usize]
     }
 
-    /// Brings slots of particles that stay up to date.
+    /// Renumbers slots of particles that stay.
     fn renumber(&self, slots: &mut [u32]) {
         slots.iter_mut().for_each(|slot| *slot = self.stay_before[*slot as usize]);
     }
 }
 
-/// Brings the ends of pieces of a list up to date of which these entries stay.
+/// Updates the ends of the pieces of a list of which these entries stay.
 fn shorten(ends: &mut [u32], stays: &[bool]) {
     let (mut place, mut count) = (0, 0);
     for end in ends {
@@ -140,8 +140,7 @@ fn shorten(ends: &mut [u32], stays: &[bool]) {
 }
 
 impl State {
-    /// Takes out the particles (slots) that go, and from every list what belongs to them. What was found for where particles
-    /// stand is made anew by whoever calls.
+    /// Removes particles (slots) and their entries in every list. The caller makes anew what depends on positions.
     pub(crate) fn remove(&mut self, goes: &[bool]) {
         let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
         for goes in goes {
@@ -163,7 +162,7 @@ impl State {
 }
 
 impl ContactList {
-    /// Takes out the pairs of particles that go.
+    /// Removes the pairs of removed particles.
     fn remove(&mut self, moved: &Moved) {
         let pairs = self.first.iter().zip(&self.second);
         let stays: Vec<bool> = pairs.map(|(&a, &b)| moved.stays(a) && moved.stays(b)).collect();
@@ -179,7 +178,7 @@ impl ContactList {
 }
 
 impl WallContacts {
-    /// Takes out the contacts of particles that go.
+    /// Removes the contacts of removed particles.
     fn remove(&mut self, moved: &Moved) {
         let stays: Vec<bool> = self.particle.iter().map(|&slot| moved.stays(slot)).collect();
         // At a surface of features constants belong to near particles.
@@ -196,7 +195,7 @@ impl WallContacts {
 }
 
 impl NearParts {
-    /// Takes out particles that go; `stays` says of each whether it stays.
+    /// Removes particles; `stays` says of each whether it stays.
     fn remove(&mut self, stays: &[bool], moved: &Moved) {
         if self.starts.is_empty() {
             return;
@@ -215,7 +214,7 @@ impl NearParts {
 }
 
 impl BondList {
-    /// Takes out the bonds of particles that go. They did not break, and are counted by themselves.
+    /// Removes the bonds of removed particles. They did not break, and have a count of their own.
     fn remove(&mut self, moved: &Moved) {
         let second = |bond: usize| self.second.get(bond).is_none_or(|&slot| moved.stays(slot));
         let stays: Vec<bool> =

@@ -1,4 +1,4 @@
-//! State as bytes: versioned, checksummed, tied to its scene.
+//! The state as bytes, with a version, a checksum and the fingerprint of its scene.
 
 use super::{State, StateFault};
 use crate::laws::bond;
@@ -7,13 +7,13 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::OnceLock;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-/// What every snapshot starts with.
+/// The first bytes of every snapshot.
 const MAGIC: &[u8; 8] = b"cograin\0";
 
-/// Version of what stands before the payload.
+/// Version of the header.
 const VERSION: u32 = 7;
 
-/// Length of what stands before the payload: magic, version, schema, scene fingerprint, checksum.
+/// Length of the header: magic, version, schema, scene fingerprint, checksum.
 const HEADER: usize = 8 + 4 + 8 + 8 + 8;
 
 /// The structs and enumerations of the state as text (`build.rs`).
@@ -35,7 +35,7 @@ fn described() -> String {
 /// Why serialising a state into memory cannot fail.
 const WRITABLE: &str = "a state holds nothing that postcard cannot write";
 
-/// What stands before the payload.
+/// The header.
 fn header(scene_fingerprint: u64, checksum: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
     header[..8].copy_from_slice(MAGIC);
@@ -49,10 +49,10 @@ fn header(scene_fingerprint: u64, checksum: u64) -> [u8; HEADER] {
 /// Why bytes are not a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SnapshotError {
-    /// Another kind of file.
+    /// Not a snapshot.
     #[error("not a cograin state: the first bytes are other than \"cograin\"")]
     Foreign,
-    /// Another layout of what stands before the payload.
+    /// A header of another version.
     #[error("expected a state of layout version {expected}, found one of version {found}")]
     Version {
         /// Version in the bytes.
@@ -60,7 +60,7 @@ pub enum SnapshotError {
         /// Version of this program.
         expected: u32,
     },
-    /// Of a program whose state has other fields.
+    /// Written by a program whose state has other fields.
     #[error(
         "expected the schema {expected:016x} of particles, contacts and bonds, found {found:016x}, that of another \
          build of this program"
@@ -71,10 +71,10 @@ pub enum SnapshotError {
         /// Schema of this program.
         expected: u64,
     },
-    /// Whole, and yet none of the scene.
+    /// Undamaged, but not a state of this scene.
     #[error(transparent)]
     Fault(#[from] StateFault),
-    /// Another scene.
+    /// A state of another scene.
     #[error("expected the fingerprint {expected:016x} of this scene, found {found:016x}, that of another scene")]
     Scene {
         /// Fingerprint in the bytes.
@@ -82,13 +82,13 @@ pub enum SnapshotError {
         /// Fingerprint of the scene.
         expected: u64,
     },
-    /// Changed or cut.
+    /// Damaged or cut short.
     #[error("damaged state: the checksum does not fit")]
     Damaged,
 }
 
-/// Where the fields go one by one, list by list: into memory, a file, a checksum. One type for the three of them: what
-/// writes a whole state is compiled once.
+/// Where the bytes go: into memory, a file, or a checksum. One type for all three, so that the code that writes a state is
+/// compiled once.
 struct Flowing<'a>(&'a mut dyn Take);
 
 /// Takes bytes.
@@ -111,7 +111,7 @@ impl Take for Xxh3 {
     }
 }
 
-/// A file, the checksum of what it has got, and what went wrong.
+/// A file, the checksum of the bytes written to it, and the first error.
 struct Checked<'a> {
     /// The file.
     file: &'a mut dyn Write,
@@ -149,7 +149,7 @@ impl postcard::ser_flavors::Flavor for Flowing<'_> {
 }
 
 impl State {
-    /// The state as bytes that [`State::from_bytes`] takes back bit for bit.
+    /// The state as bytes, from which [`State::from_bytes`] restores it bit for bit.
     pub fn to_bytes(&self, scene_fingerprint: u64) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.size());
         bytes.extend_from_slice(&header(scene_fingerprint, 0));
@@ -174,7 +174,7 @@ impl State {
         file.write_all(&header(scene_fingerprint, checksum))
     }
 
-    /// Reads what [`State::to_bytes`] wrote for the same scene. Whether the state can be one of it is looked at by
+    /// Restores a state that [`State::to_bytes`] wrote for the same scene. Whether it fits the scene is checked by
     /// [`Simulation::resume`](crate::engine::simulation::Simulation::resume) and
     /// [`Simulation::check`](crate::engine::simulation::Simulation::check).
     pub fn from_bytes(bytes: &[u8], scene_fingerprint: u64) -> Result<Self, SnapshotError> {
@@ -212,7 +212,7 @@ impl State {
         hash.digest()
     }
 
-    /// About how many bytes a snapshot has: memory is then asked for once.
+    /// An estimate of the length of a snapshot, so that memory is requested once.
     fn size(&self) -> usize {
         let row = size_of::<super::Row>();
         let particles = self.particles.len() * (8 * row + 24);

@@ -1,6 +1,6 @@
 //! `[bond.<name>]` as the scene writes it, and the law that it means.
 
-pub use super::breakage::BreakageKeys;
+pub use super::breakage::BreakageChoice;
 pub use super::damping::DampingChoice;
 pub use super::formulation::FormulationChoice;
 pub use super::key_error::KeyError;
@@ -28,7 +28,7 @@ fn yes() -> bool {
 }
 
 /// `[bond.<name>]`
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {
     /// The formulation; `finite_rotation` where absent.
@@ -65,8 +65,9 @@ pub struct Keys {
     /// What the contact law does between the bonded bodies.
     #[serde(default)]
     pub contact: ContactPolicy,
-    /// When bonds break; never where absent.
-    pub breakage: Option<BreakageKeys>,
+    /// When bonds break, in the order of the rules; never where there is none. The reader of scenes reads each by its row.
+    #[serde(skip)]
+    pub breakage: Vec<BreakageChoice>,
     /// Damping; none where absent.
     pub damping: Option<DampingChoice>,
     /// τ: relaxation times \[s\]; none where absent.
@@ -93,9 +94,6 @@ impl Keys {
             "damping",
             "expected sign, smooth or none in engine_exact, which has only the engine's damping, found another one",
         );
-        if let Some(breakage) = &self.breakage {
-            breakage.check(self.formulation, &mut wrong);
-        }
         wrong
     }
 

@@ -1,10 +1,10 @@
 //! A bond law, whole, and what it does to one bond.
 
-use super::breakage::{Breakage, Loaded, Rule, TakeRule};
+use super::breakage::{Loaded, NewStrengths, Rule, stress};
 use super::damping::{Damping, DampingChoice, DampingLoad, LastDamping, TakeDamping};
 use super::elasticity::Parts;
 use super::formulation::{Formulation, FormulationChoice, FormulationNeeds, TakeFormulation};
-use super::keys::{KeyError, Keys};
+use super::keys::{BreakageChoice, KeyError, Keys};
 use super::{Coefficients, Elastic, Elasticity, Motion, Pair, RateRows, Rates, Rows};
 use crate::base::number::Vector;
 use crate::base::quantity::Positive;
@@ -13,7 +13,7 @@ use crate::base::quantity::Positive;
 const ENGINE_DEAD_BAND: f64 = 1e-15;
 
 /// The law of a `[bond.<name>]` table in numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Law {
     /// How force and moments follow from the motion.
     pub formulation: FormulationChoice,
@@ -45,7 +45,7 @@ pub struct Reaction {
     pub damping: LastDamping,
     /// Energy that damping took since the last evaluation \[J\].
     pub damped: f64,
-    /// 0, or why the bond broke: the code of [`super::breakage::cause_name`].
+    /// 0, or why the bond broke: the code of [`Law::cause_name`].
     pub cause: f64,
     /// Whether the bond is bent beyond what can be followed.
     pub overbent: bool,
@@ -127,7 +127,15 @@ impl Keys {
     /// The law in numbers, or every contradiction among the keys. Dashpots see the rates at the middle of the step, or those at
     /// its end where the time integration predicts them (`[run] scheme = "predicted"`).
     pub fn law(&self, predicts: bool) -> Result<Law, Vec<KeyError>> {
-        let wrong = self.contradictions();
+        self.tuned_law(predicts, &|_| None)
+    }
+
+    /// The same with new strengths, by their keys below `[bond.<name>.breakage]`.
+    pub(crate) fn tuned_law(&self, predicts: bool, new: NewStrengths) -> Result<Law, Vec<KeyError>> {
+        let mut wrong = self.contradictions();
+        let rule = |rule: &BreakageChoice| rule.rule(new, (&self.breakage, self.formulation), &mut wrong);
+        let breakage: Vec<Rule> = self.breakage.iter().map(rule).collect();
+        let own_share = self.breakage.iter().find_map(|rule| rule.keys::<stress::Keys>()).copied().unwrap_or_default();
         if !wrong.is_empty() {
             return Err(wrong);
         }
@@ -147,8 +155,8 @@ impl Keys {
             },
             damping: self.damping,
             foresees: predicts && self.damping.is_some_and(|damping| damping.is_dashpots()),
-            breakage: self.breakage.map_or_else(Vec::new, |keys| keys.rules(self.formulation)),
-            compression_share: self.breakage.unwrap_or_default().stress.compression_share(self.formulation),
+            breakage,
+            compression_share: own_share.compression_share(self.formulation),
         })
     }
 }
@@ -235,7 +243,24 @@ impl Law {
 
     /// 0, or the code of the first cause for which a bond under this load breaks.
     pub fn judge(&self, loaded: &Loaded) -> f64 {
-        self.breakage.iter().map(|rule| rule.visit(JudgeOne(loaded))).find(|cause| *cause != 0.0).unwrap_or(0.0)
+        let code = |(rule, before): (&Rule, f64)| Some(rule.judge(loaded)).filter(|it| *it > 0.0).map(|it| it + before);
+        self.rules().find_map(code).unwrap_or(0.0)
+    }
+
+    /// Its rules of breakage, and how far the codes of their causes lie above their places: the code of a cause is its place
+    /// among those of all rules, from 1.
+    pub(crate) fn rules(&self) -> impl Iterator<Item = (&Rule, f64)> {
+        self.breakage.iter().scan(0.0, |before, rule| {
+            let here = *before;
+            *before += rule.causes().len() as f64;
+            Some((rule, here))
+        })
+    }
+
+    /// The name of the cause with this code, as in `breakage.csv`; `None` where no rule reports it.
+    pub fn cause_name(&self, code: f64) -> Option<&'static str> {
+        let names = self.breakage.iter().flat_map(|rule| rule.causes());
+        (1..).zip(names).find(|(number, _)| f64::from(*number) == code).map(|(_, name)| *name)
     }
 }
 
@@ -255,16 +280,5 @@ impl TakeDamping for DampOne<'_> {
     type Output = DampingLoad;
     fn take<D: Damping>(self, damping: D) -> DampingLoad {
         damping.damp(self.law, self.pair, self.motion, self.elastic).load(self.pair, self.motion)
-    }
-}
-
-/// One bond that a rule looks at.
-struct JudgeOne<'a>(&'a Loaded);
-
-impl TakeRule for JudgeOne<'_> {
-    type Output = f64;
-    fn take<B: Breakage>(self, rule: B, before: f64) -> f64 {
-        let cause = rule.judge(self.0);
-        if cause > 0.0 { cause + before } else { 0.0 }
     }
 }

@@ -37,13 +37,15 @@ pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen};
 pub use material::{Material, MaterialPair, Missing, PairProperties};
 pub use model::{
-    CohesionFunctions, CohesionModel, CohesionRow, Model, ModelKeys, ModelRow, NormalFunctions, NormalModel, NormalRow,
+    CohesionFunctions, CohesionModel, CohesionRow, Model, ModelRow, NormalFunctions, NormalModel, NormalRow,
     RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel, TangentialRow,
 };
 pub use places::{CoefficientPlaces, HistoryPlaces};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
+
+pub use crate::laws::kept::ModelKeys;
 
 use crate::base::number::{Number, Row, Vector};
 use serde::Deserialize;

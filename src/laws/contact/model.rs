@@ -9,47 +9,9 @@ use super::{
 };
 use crate::base::document::{Document, Faults};
 use crate::base::number::Row;
-use serde::de::DeserializeOwned;
-use std::any::{Any, TypeId};
+use crate::laws::kept::{Kept, ModelKeys, keep, of_kind, own, read};
+use std::any::TypeId;
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
-
-/// What a scene writes under a sub-model's name: `[contact.<law>.<kind>.<model>]`.
-pub trait ModelKeys: Copy + fmt::Debug + PartialEq + Send + Sync + DeserializeOwned + 'static {}
-
-impl<T: Copy + fmt::Debug + PartialEq + Send + Sync + DeserializeOwned + 'static> ModelKeys for T {}
-
-/// Keys of a sub-model, whose type its row alone knows.
-trait AnyKeys: Any + fmt::Debug + Send + Sync {}
-
-impl<T: Any + fmt::Debug + Send + Sync> AnyKeys for T {}
-
-/// Keys that live as long as the program.
-type Kept = &'static dyn AnyKeys;
-
-/// Keeps keys. The same keys are kept once, so that reading scenes again and again keeps no more.
-fn keep<K: ModelKeys>(keys: K) -> Kept {
-    static ALL: Mutex<Vec<Kept>> = Mutex::new(Vec::new());
-    let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-    let same = all.iter().find(|kept| of_kind::<K>(**kept) == Some(&keys));
-    if let Some(kept) = same {
-        return *kept;
-    }
-    let kept: Kept = Box::leak(Box::new(keys));
-    all.push(kept);
-    kept
-}
-
-/// The keys, if they are of this type.
-fn of_kind<K: 'static>(keys: Kept) -> Option<&'static K> {
-    let any: &'static dyn Any = keys;
-    any.downcast_ref()
-}
-
-/// The keys of the sub-model whose row asks.
-fn own<K: 'static>(keys: Kept) -> &'static K {
-    of_kind(keys).expect("a sub-model is made with its own keys")
-}
 
 /// What the program knows of a sub-model, the functions of its kind among it.
 pub struct ModelRow<F> {
@@ -109,11 +71,6 @@ impl<F> fmt::Debug for ModelRow<F> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name)
     }
-}
-
-/// Reads keys below a table, and keeps them.
-fn read<K: ModelKeys>(document: &Document, table: &str, name: &str, faults: &mut Faults) -> Option<Kept> {
-    document.read_key::<K>(table, name, faults).map(keep)
 }
 
 /// A sub-model as a scene chose it: its row and its keys.

@@ -201,17 +201,6 @@ impl Keys {
         (axes.map(|motion| motion.unwrap_or(AxisMotion::Fixed)), twice)
     }
 
-    /// Whether it turns.
-    pub(crate) fn turns(&self) -> bool {
-        let (axes, _) = self.axes(|_, _| None);
-        axes[3..].iter().any(|motion| !motion.is_fixed())
-    }
-
-    /// Whether the surface runs in itself.
-    pub(crate) fn conveys(&self) -> bool {
-        !self.0.conveying.is_empty()
-    }
-
     /// Whether a way is said in which no axis is driven.
     pub(crate) fn drives_nothing_by_velocity(&self) -> bool {
         self.0.by == By::Velocity && self.0.driven.is_empty()

@@ -22,6 +22,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "cone";
     const HINT: &'static str = "cone = { from, to, radii }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

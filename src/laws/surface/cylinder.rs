@@ -78,6 +78,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "cylinder";
     const HINT: &'static str = "cylinder = { from, to, radius }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

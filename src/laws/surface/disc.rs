@@ -20,6 +20,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "disc";
     const HINT: &'static str = "disc = { centre, normal, radius }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

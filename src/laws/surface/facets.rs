@@ -15,7 +15,7 @@ pub struct Facets {
 
 impl Facets {
     /// Adds a facet. Corners that coincide count once.
-    pub(crate) fn add(&mut self, corners: &[u32]) {
+    pub fn add(&mut self, corners: &[u32]) {
         for (place, corner) in corners.iter().enumerate() {
             if !corners[..place].contains(corner) {
                 self.corners.push(*corner);

@@ -31,6 +31,7 @@ impl Surface for Group {
 }
 
 impl ShapeKeys for Selection {
+    const KEY: &'static str = "particles";
     const HINT: &'static str = "particles = { set, box, ids }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
@@ -42,7 +43,7 @@ impl ShapeKeys for Selection {
 /// Which particles: those for which everything given here holds.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Selection {
+pub struct Selection {
     /// Of this set.
     pub(crate) set: Option<String>,
     /// Of these sets.

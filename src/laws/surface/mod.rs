@@ -1,7 +1,7 @@
 //! The shapes of boundaries: surfaces that particles can touch, and groups of particles that move as a rigid
 //! body.
 //!
-//! A shape is one file and one row of [`with_shapes`]. Its file holds what a scene writes under its key and the check of
+//! A shape is one file and one row of [`STANDARD`]. Its file holds what a scene writes under its key and the check of
 //! that, where the surface is, how a sphere touches it, and its words in reports. The shape does not know how the surface
 //! moves ([`crate::laws::motion`]).
 
@@ -19,34 +19,29 @@ pub(crate) mod revolution;
 
 pub use facets::Facets;
 pub use feet::{Features, Feet, Foot, NO_PLANE, OnPlanes, Saddle, TOGETHER};
-pub use group::Group;
-pub(crate) use group::Selection;
+pub use group::{Group, Selection};
 pub use mesh::{Deforming, NodeWeights};
 pub use plane::Plane;
 
-use crate::base::document::Mistake;
+use crate::base::document::{Document, Faults, Mistake};
 use crate::base::number::Vector;
 use crate::base::quantity::MaterialIndex;
-use std::fmt::Debug;
+use serde::de::DeserializeOwned;
+use std::fmt::{self, Debug};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Hands the list of shapes to a macro: the key of each in `[boundary.<name>]` and the type of what stands under it.
-macro_rules! with_shapes {
-    ($then:ident) => {
-        $then! {
-            plane: plane::Keys,
-            particles: group::Selection,
-            disc: disc::Keys,
-            rectangle: rectangle::Keys,
-            cylinder: cylinder::Keys,
-            cone: cone::Keys,
-            revolution: revolution::Keys,
-            mesh: mesh::Keys,
-        }
-    };
-}
-pub(crate) use with_shapes;
+/// The shapes of the program.
+pub(crate) const STANDARD: &[&ShapeRow] = &[
+    ShapeRow::of::<plane::Keys>(),
+    ShapeRow::of::<Selection>(),
+    ShapeRow::of::<disc::Keys>(),
+    ShapeRow::of::<rectangle::Keys>(),
+    ShapeRow::of::<cylinder::Keys>(),
+    ShapeRow::of::<cone::Keys>(),
+    ShapeRow::of::<revolution::Keys>(),
+    ShapeRow::of::<mesh::Keys>(),
+];
 
 /// The shape of a boundary.
 #[derive(Clone, Debug)]
@@ -142,17 +137,61 @@ pub trait Surface: Debug + Send + Sync {
     }
 }
 
-/// What a scene writes under the key of a shape.
-pub(crate) trait ShapeKeys {
-    /// How the key is written, for a message.
+/// What a scene writes of a shape, under its key in `[boundary.<name>]`.
+pub trait ShapeKeys: DeserializeOwned + 'static {
+    /// That key.
+    const KEY: &'static str;
+
+    /// How it is written, for a message.
     const HINT: &'static str;
+
+    /// Keys below it that name files.
+    const FILES: &'static [&'static str] = &[];
 
     /// The shape that is meant, if nothing is wrong with it; what is wrong is reported.
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape>;
 }
 
+/// Makes a shape of the keys that a scene has written.
+pub(crate) type MakeShape = Box<dyn Fn(&mut dyn ShapeContext) -> Option<Shape>>;
+
+/// What the program knows of a shape before a scene names it.
+pub struct ShapeRow {
+    /// [`ShapeKeys::KEY`]
+    pub(crate) key: &'static str,
+    /// [`ShapeKeys::HINT`]
+    pub(crate) hint: &'static str,
+    /// [`ShapeKeys::FILES`]
+    pub(crate) files: &'static [&'static str],
+    /// Reads what stands under its key in a table.
+    pub(crate) read: fn(&Document, &str, &mut Faults) -> Option<MakeShape>,
+}
+
+impl ShapeRow {
+    /// That of a shape.
+    pub const fn of<K: ShapeKeys>() -> &'static Self {
+        const {
+            &Self {
+                key: K::KEY,
+                hint: K::HINT,
+                files: K::FILES,
+                read: |document, table, faults| {
+                    let keys: K = document.read_key(table, K::KEY, faults)?;
+                    Some(Box::new(move |around| keys.shape(around)))
+                },
+            }
+        }
+    }
+}
+
+impl Debug for ShapeRow {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.key)
+    }
+}
+
 /// Files that a table of a scene names, and where its mistakes go.
-pub(crate) trait Files {
+pub trait Files {
     /// The content of a file that the table names; nothing if it could not be read, which has been reported.
     fn file(&self, name: &str) -> Option<&[u8]>;
 
@@ -171,7 +210,7 @@ pub(crate) trait Files {
 }
 
 /// What stands around the key of a shape in a scene.
-pub(crate) trait ShapeContext: Files {
+pub trait ShapeContext: Files {
     /// The material that the boundary names. Reports an unknown or missing one: `who` needs one.
     fn material(&mut self, who: &str) -> Option<MaterialIndex>;
 
@@ -184,7 +223,7 @@ pub(crate) trait ShapeContext: Files {
 
 /// A direction as a unit vector, from one of any length except 0: scaled first, so that neither very long nor very short
 /// ones overflow.
-pub(crate) fn direction(vector: [f64; 3]) -> Option<[f64; 3]> {
+pub fn direction(vector: [f64; 3]) -> Option<[f64; 3]> {
     let largest = vector.iter().fold(0.0_f64, |largest, part| largest.max(part.abs()));
     if largest == 0.0 {
         return None;

@@ -114,6 +114,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "plane";
     const HINT: &'static str = "plane = { point, normal }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

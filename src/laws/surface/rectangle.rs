@@ -123,6 +123,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "rectangle";
     const HINT: &'static str = "rectangle = { corner, edges }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

@@ -18,6 +18,7 @@ pub(crate) struct Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "revolution";
     const HINT: &'static str = "revolution = { origin, axis, profile }";
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {

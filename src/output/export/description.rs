@@ -44,16 +44,24 @@ type Xml = Writer<Vec<u8>>;
 pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let about = about(model.scene);
+    let (sentence, about) = (about(model.scene), &model.scene.about);
+    let told = [
+        ("author", &about.author),
+        ("version", &about.version),
+        ("copyright", &about.copyright),
+        ("license", &about.license),
+    ];
+    let scales = Scales::of(model.scene);
     xml.create_element("fmiModelDescription")
         .with_attributes([
             ("fmiVersion", "2.0"),
             ("modelName", model.identifier),
             ("guid", model.identity),
-            ("description", about.as_str()),
+            ("description", sentence.as_str()),
             ("generationTool", concat!("cograin ", env!("CARGO_PKG_VERSION"))),
             ("variableNamingConvention", "structured"),
         ])
+        .with_attributes(told.into_iter().filter_map(|(name, text)| Some((name, text.as_deref()?))))
         .write_inner_content(|xml| {
             xml.create_element("CoSimulation")
                 .with_attribute(("modelIdentifier", model.identifier))
@@ -75,7 +83,12 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
             })?;
             default_experiment(xml, model.scene)?;
             xml.create_element("ModelVariables").write_inner_content(|xml| {
-                model.interface.variables().iter().enumerate().try_for_each(|(index, it)| variable(xml, index, it))
+                model
+                    .interface
+                    .variables()
+                    .iter()
+                    .enumerate()
+                    .try_for_each(|(index, it)| variable(xml, index, it, &scales))
             })?;
             structure(xml, model)
         })?;
@@ -84,6 +97,9 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
 
 /// One line about the scene.
 pub(super) fn about(scene: &Scene) -> String {
+    if let Some(description) = &scene.about.description {
+        return description.clone();
+    }
     format!("{} spheres and {} boundaries, discrete element method", scene.particles.len(), scene.boundaries.len())
 }
 
@@ -102,6 +118,11 @@ fn units(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
                 xml.create_element("BaseUnit")
                     .with_attributes(present.map(|(symbol, exponent)| (*symbol, exponent.as_str())))
                     .write_empty()?;
+                if let Some((name, factor)) = shown_in(*quantity) {
+                    xml.create_element("DisplayUnit")
+                        .with_attributes([("name", name), ("factor", format!("{factor:?}").as_str())])
+                        .write_empty()?;
+                }
                 Ok(())
             })?;
         }
@@ -110,16 +131,76 @@ fn units(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
     Ok(())
 }
 
-/// `DefaultExperiment`: from 0 to the scene's end.
+/// The unit that people read such a quantity in, if it is another one: how many of it are in one of the quantity's own.
+fn shown_in(quantity: Quantity) -> Option<(&'static str, f64)> {
+    match quantity {
+        Quantity::Length => Some(("mm", 1000.0)),
+        Quantity::Angle => Some(("deg", 1.0_f64.to_degrees())),
+        Quantity::AngularVelocity => Some(("deg/s", 1.0_f64.to_degrees())),
+        _ => None,
+    }
+}
+
+/// How large quantities of a scene are: by these an importer chooses tolerances and axes.
+struct Scales {
+    /// Mean radius of the particles \[m\].
+    length: f64,
+    /// Their mass \[kg\].
+    mass: f64,
+    /// Magnitude of gravity \[m/s²\].
+    gravity: f64,
+}
+
+impl Scales {
+    /// Those of a scene.
+    fn of(scene: &Scene) -> Self {
+        let radii = scene.particles.iter().map(|particle| particle.radius);
+        let mass = scene.particles.iter().map(|it| it.density * it.radius * it.radius * it.radius);
+        Self {
+            length: radii.sum::<f64>() / scene.particles.len() as f64,
+            mass: mass.sum::<f64>() * (4.0 / 3.0 * std::f64::consts::PI),
+            gravity: scene.gravity.iter().map(|part| part * part).sum::<f64>().sqrt(),
+        }
+    }
+
+    /// A usual magnitude of a quantity, where the scene tells one: a radius, the weight of all particles and what follows of these.
+    fn nominal(&self, quantity: Quantity) -> Option<f64> {
+        let Self { length, mass, gravity } = *self;
+        let value = match quantity {
+            Quantity::Length => length,
+            Quantity::Mass => mass,
+            Quantity::Velocity => (gravity * length).sqrt(),
+            Quantity::Force => mass * gravity,
+            Quantity::Torque | Quantity::Energy => mass * gravity * length,
+            Quantity::Stiffness => mass * gravity / length,
+            _ => return None,
+        };
+        (value.is_finite() && value > 0.0).then_some(value)
+    }
+}
+
+/// Communication steps of a scene that names an end and no interval.
+const STEPS: f64 = 100.0;
+
+/// The communication step that a scene suggests \[s\]: that of its run.
+pub(super) fn communication_step(scene: &Scene) -> Option<f64> {
+    scene.output.history_interval.or(scene.run.end.map(|end| end / STEPS))
+}
+
+/// `DefaultExperiment`: from 0 to the scene's end, in the steps of its run.
 fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
-    let stop = scene.run.end.map(|end| format!("{end:?}"));
-    let times = [Some(("startTime", "0.0")), stop.as_ref().map(|stop| ("stopTime", stop.as_str()))];
+    let [stop, step] = [scene.run.end, communication_step(scene)].map(|time| time.map(|time| format!("{time:?}")));
+    let times = [
+        Some(("startTime", "0.0")),
+        stop.as_ref().map(|stop| ("stopTime", stop.as_str())),
+        step.as_ref().map(|step| ("stepSize", step.as_str())),
+    ];
     xml.create_element("DefaultExperiment").with_attributes(times.into_iter().flatten()).write_empty()?;
     Ok(())
 }
 
 /// One `ScalarVariable`; the value reference is the index in the table.
-fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> {
+fn variable(xml: &mut Xml, index: usize, variable: &Variable, scales: &Scales) -> io::Result<()> {
     let reference = index.to_string();
     let causality = match variable.causality {
         Causality::Input => "input",
@@ -142,9 +223,13 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable) -> io::Result<()> 
     let number = |value: f64| if kind == Type::Integer { format!("{value:.0}") } else { format!("{value:?}") };
     let start = variable.start.map(number).or(variable.start_text().map(str::to_owned));
     let [minimum, maximum] = [variable.minimum, variable.maximum].map(|bound| bound.map(number));
+    let is_parameter = variable.causality == Causality::Parameter;
+    let nominal = scales.nominal(variable.quantity).filter(|_| !is_parameter).map(|nominal| format!("{nominal:?}"));
     let of_type = [
         (kind != Type::String).then_some(("quantity", variable.quantity.name())),
         variable.quantity.unit().map(|unit| ("unit", unit)),
+        shown_in(variable.quantity).map(|(name, _)| ("displayUnit", name)),
+        nominal.as_ref().map(|nominal| ("nominal", nominal.as_str())),
         minimum.as_ref().map(|minimum| ("min", minimum.as_str())),
         maximum.as_ref().map(|maximum| ("max", maximum.as_str())),
         start.as_ref().map(|start| ("start", start.as_str())),

@@ -1,5 +1,9 @@
 //! The library that a unit carries: where it is looked for, and whether it is the right one.
 
+use object::read::NameOrOrdinal;
+use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
+use object::{Architecture, BinaryFormat, FileFlags, FileKind, Object, ObjectKind};
+use std::collections::{BTreeMap, BTreeSet};
 use std::env;
 use std::fs;
 use std::io;
@@ -13,6 +17,44 @@ pub const STANDARD_LIBRARY: &str = "cograin_fmu";
 
 /// Text that stands in the library of this version and in no other.
 pub const LIBRARY_MARK: &str = concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ";");
+
+/// The functions that a co-simulation unit of FMI 2.0 has.
+pub(super) const FUNCTIONS: [&str; 34] = [
+    "fmi2CancelStep",
+    "fmi2DeSerializeFMUstate",
+    "fmi2DoStep",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2FreeFMUstate",
+    "fmi2FreeInstance",
+    "fmi2GetBoolean",
+    "fmi2GetBooleanStatus",
+    "fmi2GetDirectionalDerivative",
+    "fmi2GetFMUstate",
+    "fmi2GetInteger",
+    "fmi2GetIntegerStatus",
+    "fmi2GetReal",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2GetRealStatus",
+    "fmi2GetStatus",
+    "fmi2GetString",
+    "fmi2GetStringStatus",
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2Instantiate",
+    "fmi2Reset",
+    "fmi2SerializeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SetBoolean",
+    "fmi2SetDebugLogging",
+    "fmi2SetFMUstate",
+    "fmi2SetInteger",
+    "fmi2SetReal",
+    "fmi2SetRealInputDerivatives",
+    "fmi2SetString",
+    "fmi2SetupExperiment",
+    "fmi2Terminate",
+];
 
 /// Why there is no library to package.
 #[derive(Debug, thiserror::Error)]
@@ -34,19 +76,43 @@ pub enum LibraryError {
         /// What the system said.
         cause: io::Error,
     },
-    /// It is another file.
+    /// It is another kind of file.
+    #[error("{}: expected a shared library (ELF, PE or Mach-O), found {found}", path.display())]
+    Kind {
+        /// Its path.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+    },
+    /// It is another library.
     #[error("{}: not the unit's library of this version; \"{LIBRARY_MARK}\" does not stand in it", path.display())]
     Foreign {
         /// Its path.
         path: PathBuf,
     },
-    /// FMI 2.0 has no name for this system.
-    #[error("expected linux, windows or macos on x86_64, which FMI 2.0 knows, found {system} on {processor}")]
+    /// It lacks a function.
+    #[error("{}: expected the functions of FMI 2.0, found none called {missing}", path.display())]
+    Function {
+        /// Its path.
+        path: PathBuf,
+        /// The first one that is missing.
+        missing: &'static str,
+    },
+    /// FMI 2.0 has no name for its system.
+    #[error("{}: expected a library for Linux, Windows or macOS on x86, which FMI 2.0 has folders for, found one for {found}", path.display())]
     Platform {
-        /// The operating system.
-        system: &'static str,
-        /// The processor.
-        processor: &'static str,
+        /// Its path.
+        path: PathBuf,
+        /// The system and processor.
+        found: String,
+    },
+    /// Two of them would stand in one place.
+    #[error("expected one library for {folder}, found {} and {}", paths[0].display(), paths[1].display())]
+    Twice {
+        /// The place.
+        folder: &'static str,
+        /// The two libraries.
+        paths: [PathBuf; 2],
     },
 }
 
@@ -56,7 +122,7 @@ fn list(paths: &[PathBuf]) -> String {
 }
 
 /// How FMI 2.0 names a kind of machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Platform {
     /// Folder of the library in the unit.
     pub(super) folder: &'static str,
@@ -64,27 +130,128 @@ pub(super) struct Platform {
     pub(super) suffix: &'static str,
 }
 
-impl Platform {
-    /// The machine that this program was built for.
-    pub(super) fn of_this_program() -> Result<Self, LibraryError> {
-        let (system, processor) = (env::consts::OS, env::consts::ARCH);
-        let folder = match (system, processor) {
-            ("linux", "x86_64") => "linux64",
-            ("windows", "x86_64") => "win64",
-            ("macos", "x86_64") => "darwin64",
-            _ => return Err(LibraryError::Platform { system, processor }),
-        };
-        Ok(Self { folder, suffix: env::consts::DLL_SUFFIX })
+/// A library that a unit carries.
+#[derive(Debug)]
+pub(super) struct Library {
+    /// The machines that it is for.
+    pub(super) platform: Platform,
+    /// Its bytes.
+    pub(super) bytes: Vec<u8>,
+}
+
+impl Library {
+    /// The libraries at these paths, in the order of their folders, if all are libraries of units for different machines.
+    pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<Self>, LibraryError> {
+        let mut found: BTreeMap<Platform, (&PathBuf, Self)> = BTreeMap::new();
+        for path in paths {
+            let library = Self::read(path)?;
+            let folder = library.platform.folder;
+            if let Some((other, _)) = found.insert(library.platform, (path, library)) {
+                return Err(LibraryError::Twice { folder, paths: [other.clone(), path.clone()] });
+            }
+        }
+        Ok(found.into_values().map(|(_, library)| library).collect())
+    }
+
+    /// The library at a path, if it is one.
+    fn read(path: &Path) -> Result<Self, LibraryError> {
+        let path_of = || path.to_owned();
+        let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path_of(), cause })?;
+        let image = Image::of(&bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
+        let mark = LIBRARY_MARK.as_bytes();
+        if !bytes.windows(mark.len()).any(|window| window == mark) {
+            return Err(LibraryError::Foreign { path: path_of() });
+        }
+        let platform = image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?;
+        let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
+        match FUNCTIONS.into_iter().find(|name| !functions.contains(name.as_bytes())) {
+            Some(missing) => Err(LibraryError::Function { path: path_of(), missing }),
+            None => Ok(Self { platform, bytes }),
+        }
     }
 }
 
-/// Finds the library: at the path given, else where [`ENVIRONMENT_VARIABLE`] says, else beside the running
+/// A file of machine code.
+struct Image<'a> {
+    /// For one processor; that for x86-64 where the file holds several.
+    file: object::File<'a>,
+}
+
+impl<'a> Image<'a> {
+    /// The shared library that the bytes are, or what they are instead.
+    fn of(bytes: &'a [u8]) -> Result<Self, String> {
+        let damaged = |error: object::Error| format!("a damaged one: {error}");
+        let part = match FileKind::parse(bytes) {
+            Err(_) => return Err("another file".to_owned()),
+            Ok(FileKind::MachOFat32) => part_of(MachOFatFile32::parse(bytes).map_err(damaged)?.arches(), bytes)?,
+            Ok(FileKind::MachOFat64) => part_of(MachOFatFile64::parse(bytes).map_err(damaged)?.arches(), bytes)?,
+            Ok(_) => bytes,
+        };
+        let file = object::File::parse(part).map_err(damaged)?;
+        match file.kind() {
+            ObjectKind::Dynamic => Ok(Self { file }),
+            ObjectKind::Executable => Err("a program".to_owned()),
+            _ => Err("an object file".to_owned()),
+        }
+    }
+
+    /// The machines that it is for, or their name if FMI 2.0 has none for them.
+    fn platform(&self) -> Result<Platform, String> {
+        /// Values of the ELF header's field for the system that Linux uses: none, and GNU.
+        const LINUX: [u8; 2] = [0, 3];
+        let (format, processor) = (self.file.format(), self.file.architecture());
+        let linux = !matches!(self.file.flags(), FileFlags::Elf { os_abi, .. } if !LINUX.contains(&os_abi.0));
+        let (system, suffix, folders) = match format {
+            BinaryFormat::Elf if linux => ("Linux", ".so", ["linux32", "linux64"]),
+            BinaryFormat::Elf => ("another Unix", ".so", ["", ""]),
+            BinaryFormat::Pe => ("Windows", ".dll", ["win32", "win64"]),
+            BinaryFormat::MachO => ("macOS", ".dylib", ["darwin32", "darwin64"]),
+            _ => ("another system", "", ["", ""]),
+        };
+        let folder = match processor {
+            Architecture::I386 => folders[0],
+            Architecture::X86_64 => folders[1],
+            _ => "",
+        };
+        if folder.is_empty() {
+            return Err(format!("{system} on {}", format!("{processor:?}").to_lowercase()));
+        }
+        Ok(Platform { folder, suffix })
+    }
+
+    /// Names of the functions that it offers, as C has them.
+    fn functions(&self) -> Result<BTreeSet<Vec<u8>>, String> {
+        let damaged = |error: object::Error| format!("a damaged one: {error}");
+        let underscore: &[u8] = if self.file.format() == BinaryFormat::MachO { b"_" } else { b"" };
+        let mut names = BTreeSet::new();
+        for export in self.file.exports().map_err(damaged)? {
+            if let NameOrOrdinal::Name(name) = export.map_err(damaged)?.name() {
+                names.extend(name.strip_prefix(underscore).map(<[u8]>::to_vec));
+            }
+        }
+        Ok(names)
+    }
+}
+
+/// Of a file for several processors the part for x86-64, or else the first.
+fn part_of<'a>(parts: &[impl FatArch], bytes: &'a [u8]) -> Result<&'a [u8], String> {
+    let wanted = parts.iter().find(|part| part.architecture() == Architecture::X86_64).or(parts.first());
+    wanted.and_then(|part| part.data(bytes).ok()).ok_or_else(|| "a damaged one: no part can be read".to_owned())
+}
+
+/// Finds the libraries: at the paths given, one for each platform, else where [`ENVIRONMENT_VARIABLE`] says, else beside the running
 /// program, in the folder above it, or in `../lib/cograin`; there it has the name that the crate has which makes it.
-pub fn find_library(name: &str, given: Option<&Path>) -> Result<PathBuf, LibraryError> {
-    let named = given.map(Path::to_owned).or_else(|| env::var_os(ENVIRONMENT_VARIABLE).map(PathBuf::from));
-    let looked_at = named.map_or_else(|| beside(name, env::current_exe().ok()), |path| vec![path]);
+pub fn find_libraries(name: &str, given: &[PathBuf]) -> Result<Vec<PathBuf>, LibraryError> {
+    if let Some(missing) = given.iter().find(|path| !path.is_file()) {
+        return Err(LibraryError::NotFound { looked_at: vec![missing.clone()] });
+    }
+    if !given.is_empty() {
+        return Ok(given.to_vec());
+    }
+    let named = env::var_os(ENVIRONMENT_VARIABLE).map(|path| vec![PathBuf::from(path)]);
+    let looked_at = named.unwrap_or_else(|| beside(name, env::current_exe().ok()));
     match looked_at.iter().find(|path| path.is_file()) {
-        Some(path) => Ok(path.clone()),
+        Some(path) => Ok(vec![path.clone()]),
         None => Err(LibraryError::NotFound { looked_at }),
     }
 }
@@ -102,25 +269,24 @@ fn beside(name: &str, program: Option<PathBuf>) -> Vec<PathBuf> {
     folders.flatten().map(|folder| folder.join(&name)).collect()
 }
 
-/// The bytes of the library, if it is one.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, LibraryError> {
-    let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path.to_owned(), cause })?;
-    let mark = LIBRARY_MARK.as_bytes();
-    if bytes.windows(mark.len()).any(|window| window == mark) {
-        Ok(bytes)
-    } else {
-        Err(LibraryError::Foreign { path: path.to_owned() })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::export::sample_library::{self as sample, Sample};
+
+    /// The name by which the library at a path of this test is refused, or the folder that it gets.
+    fn verdict(name: &str, bytes: &[u8]) -> Result<&'static str, String> {
+        let path = env::temp_dir().join(format!("cograin-library-{}-{name}", std::process::id()));
+        fs::write(&path, bytes).unwrap();
+        let read = Library::read(&path);
+        fs::remove_file(&path).unwrap();
+        read.map(|library| library.platform.folder).map_err(|error| error.to_string())
+    }
 
     #[test]
     fn a_library_that_is_nowhere_is_reported_with_every_place() {
-        let missing = Path::new("no/such/library.so");
-        let message = find_library(STANDARD_LIBRARY, Some(missing)).unwrap_err().to_string();
+        let missing = PathBuf::from("no/such/library.so");
+        let message = find_libraries(STANDARD_LIBRARY, &[missing]).unwrap_err().to_string();
         assert!(message.contains("no/such/library.so"), "{message}");
         assert!(message.contains("cargo build --release"), "{message}");
     }
@@ -133,8 +299,64 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_no_library_is_refused() {
-        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
-        assert!(matches!(read(path), Err(LibraryError::Foreign { .. })));
+    fn every_system_that_fmi_names_gets_its_folder() {
+        for (made, folder) in [
+            (Sample::LINUX, "linux64"),
+            (Sample { bits: 32, ..Sample::LINUX }, "linux32"),
+            (Sample::WINDOWS, "win64"),
+            (Sample { bits: 32, ..Sample::WINDOWS }, "win32"),
+            (Sample::MACOS, "darwin64"),
+        ] {
+            assert_eq!(verdict(folder, &made.bytes()).as_deref(), Ok(folder));
+        }
+        let both = sample::universal(&[Sample { arm: true, ..Sample::MACOS }, Sample::MACOS]);
+        assert_eq!(verdict("universal", &both).as_deref(), Ok("darwin64"), "one for both processors of a Mac");
+    }
+
+    #[test]
+    fn other_machines_are_named() {
+        for (made, found) in [
+            (Sample { arm: true, ..Sample::LINUX }, "Linux on aarch64"),
+            (Sample { arm: true, ..Sample::WINDOWS }, "Windows on aarch64"),
+            (Sample { arm: true, ..Sample::MACOS }, "macOS on aarch64"),
+            (Sample { system: 9, ..Sample::LINUX }, "another Unix on x86_64"),
+        ] {
+            let message = verdict("machine", &made.bytes()).unwrap_err();
+            assert!(message.ends_with(&format!("found one for {found}")), "{message}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_library_of_units_is_refused_by_what_it_is() {
+        let refused = |bytes: &[u8]| verdict("kind", bytes).unwrap_err();
+        assert!(refused(b"a text").ends_with("found another file"));
+        assert!(refused(b"").ends_with("found another file"));
+        assert!(refused(&Sample { shared: false, ..Sample::LINUX }.bytes()).ends_with("found a program"));
+        let no_mark = Sample { mark: "", ..Sample::WINDOWS }.bytes();
+        assert!(refused(&no_mark).contains("not the unit's library of this version"));
+        for made in [Sample::LINUX, Sample::WINDOWS, Sample::MACOS] {
+            let message = refused(&Sample { without: "fmi2DoStep", ..made }.bytes());
+            assert!(message.ends_with("found none called fmi2DoStep"), "{message}");
+            // Whatever is cut off is missed and never read beyond. The mark takes the place of its last letters.
+            let whole = Sample { mark: "", ..made }.bytes();
+            for length in (0..whole.len() - 128).step_by(7) {
+                assert!(verdict("cut", &[&whole[..length], LIBRARY_MARK.as_bytes()].concat()).is_err(), "{length}");
+            }
+        }
+    }
+
+    #[test]
+    fn two_libraries_for_one_platform_are_refused_with_both_names() {
+        let folder = env::temp_dir();
+        let paths = ["one", "two"].map(|name| folder.join(format!("cograin-twice-{}-{name}", std::process::id())));
+        for path in &paths {
+            fs::write(path, Sample::LINUX.bytes()).unwrap();
+        }
+        let message = Library::read_all(&paths).unwrap_err().to_string();
+        for path in &paths {
+            fs::remove_file(path).unwrap();
+            assert!(message.contains(&path.display().to_string()), "{message}");
+        }
+        assert!(message.starts_with("expected one library for linux64, found "), "{message}");
     }
 }

@@ -2,20 +2,29 @@
 
 mod archive;
 mod description;
+mod experiment;
 mod library;
 mod nodes;
 mod page;
+mod picture;
 mod resources;
+#[cfg(test)]
+mod sample_library;
 
 pub use description::LOG_CATEGORIES;
-pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_library};
+pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_libraries};
 pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
+use crate::engine::simulation::{RunError, Simulation};
 use crate::engine::state::State;
+use crate::engine::state::snapshot::SnapshotError;
 use crate::interface::Interface;
 use crate::scene::{Scene, Source};
+use experiment::Experiment;
+use library::Library;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Why no unit was made.
 #[derive(Debug, thiserror::Error)]
@@ -23,6 +32,12 @@ pub enum PackageError {
     /// No usable library.
     #[error(transparent)]
     Library(#[from] LibraryError),
+    /// The unit would not start.
+    #[error(transparent)]
+    Start(#[from] RunError),
+    /// Nor would it in this state.
+    #[error(transparent)]
+    State(#[from] SnapshotError),
     /// The file was not written.
     #[error("{}: {cause}; take a path that can be written", path.display())]
     Write {
@@ -33,18 +48,27 @@ pub enum PackageError {
     },
 }
 
-/// Packages a scene, in the state of `state` if there is one, with the library at `library`, as the unit `output`.
+/// Licences of what a unit contains; `tools/notices` writes the one of the packages of others.
+const LICENSES: [(&str, &str); 3] = [
+    ("license-mit.txt", include_str!("../../../LICENSE-MIT")),
+    ("license-apache.txt", include_str!("../../../LICENSE-APACHE")),
+    ("third_party.txt", include_str!("../../../fmu/library/third_party.txt")),
+];
+
+/// Packages a scene, in the state of `state` if there is one, with the libraries at `libraries`, one for each platform, as the unit
+/// `output`.
 ///
-/// The same scene, state and library give the same bytes. The file appears whole or not at all.
+/// The same scene, state and libraries give the same bytes. The file appears whole or not at all. A scene that does not start is
+/// refused.
 pub fn export(
     source: &Source,
-    scene: &Scene,
+    scene: &Arc<Scene>,
     state: Option<&State>,
-    library: &Path,
+    libraries: &[PathBuf],
     output: &Path,
 ) -> Result<(), PackageError> {
-    let platform = library::Platform::of_this_program()?;
-    let binary = library::read(library)?;
+    let libraries = Library::read_all(libraries)?;
+    let simulation = begin(scene, state)?;
     let interface = match state {
         Some(state) => Interface::of(scene).starting_in(state),
         None => Interface::of(scene),
@@ -59,17 +83,46 @@ pub fn export(
         interface: &interface,
     };
 
-    let mut entries = vec![
-        Resource::new("modelDescription.xml", description::write(&model).map_err(written)?),
-        Resource::new(
-            format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix),
-            Content::Program(binary),
-        ),
-        Resource::new("documentation/index.html", page::write(&model)),
-    ];
+    let mut entries = vec![Resource::new("modelDescription.xml", description::write(&model).map_err(written)?)];
+    let picture = picture::png(scene, simulation.state());
+    entries.extend(picture.as_ref().map(|picture| Resource::new("model.png", picture.clone())));
+    let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder).collect();
+    let page = page::Page { model: &model, simulation: &simulation, source, platforms: &platforms };
+    let page = page.write(picture.is_some(), state.is_some());
+    entries.extend(libraries.into_iter().map(|Library { platform, bytes }| {
+        let path = format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix);
+        Resource::new(path, Content::Program(bytes))
+    }));
+    entries.push(Resource::new("documentation/index.html", page));
+    entries.extend(licenses(scene));
     let resources = resources(source, bytes).into_iter().chain(nodes::tables(scene));
     entries.extend(resources.map(|entry| entry.inside("resources")));
+    // A scene that starts and then stops by itself has a unit without an experiment.
+    if let Ok(experiment) = Experiment::run(simulation, &interface) {
+        entries.extend(experiment.files().map_err(written)?);
+    }
     archive::write(&entries, output).map_err(written)
+}
+
+/// The simulation as the unit begins it.
+fn begin(scene: &Arc<Scene>, state: Option<&State>) -> Result<Simulation, PackageError> {
+    let Some(state) = state else { return Ok(Simulation::new(Arc::clone(scene))?) };
+    let mut simulation = Simulation::resume(Arc::clone(scene), state.clone()).map_err(SnapshotError::from)?;
+    simulation.open_books();
+    Ok(simulation)
+}
+
+/// The licences, and where to begin to read them.
+fn licenses(scene: &Scene) -> Vec<Resource> {
+    let model = scene.about.license.as_deref().unwrap_or("not stated");
+    let copyright = scene.about.copyright.as_deref().map_or_else(String::new, |text| format!(" {text}."));
+    let first = format!(
+        "The model in resources/: licence {model}.{copyright}\n\nThe library in binaries/: MIT (license-mit.txt) or Apache 2.0 \
+         (license-apache.txt), as you like; third_party.txt has the notices of what it contains of others.\n"
+    );
+    let files = LICENSES.map(|(name, text)| Resource::new(name, text.to_owned()));
+    let all = std::iter::once(Resource::new("license.txt", first)).chain(files);
+    all.map(|file| file.inside("documentation/licenses")).collect()
 }
 
 /// The unit's identifier, which is also its library's name: the file's name as C would have it.

@@ -1,45 +1,184 @@
-//! `documentation/index.html`: what the unit is, for people.
+//! `documentation/index.html`: what the unit is and how it is used, for people.
 
-use super::description::{Model, about};
-use crate::interface::Causality;
-use crate::scene::{Boundary, Scene};
+use super::description::{Model, about, communication_step};
+use crate::engine::simulation::Simulation;
+use crate::interface::{Causality, Variability, Variable};
+use crate::scene::{Boundary, Scene, Source, Step};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
-/// The page.
-pub(super) fn write(model: &Model<'_>) -> String {
-    let mut rows = String::new();
-    for variable in model.interface.variables().iter().filter(|variable| variable.node().is_none_or(|node| node == 0)) {
-        let causality = match variable.causality {
-            Causality::Input => "input",
-            Causality::Output => "output",
-            Causality::Parameter => "parameter",
+/// What the page tells of.
+pub(super) struct Page<'a> {
+    /// The unit.
+    pub(super) model: &'a Model<'a>,
+    /// The scene at its beginning.
+    pub(super) simulation: &'a Simulation,
+    /// Its text and files.
+    pub(super) source: &'a Source,
+    /// The platforms that the unit has libraries for.
+    pub(super) platforms: &'a [&'a str],
+}
+
+/// How the page looks.
+const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
+    table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
+    pre{background:#f4f4f4;padding:1em;overflow:auto}img{max-width:100%}";
+
+/// How a master uses the unit, and the signs that it needs.
+const USE: &str = "<h2>How to step it</h2>\n<ol>\n\
+    <li>Set the inputs: what holds at the <em>end</em> of the next communication step. A displacement is reached there at constant \
+    velocity; setting it changes no output before. A value set before the end of the initialisation mode is taken without motion.</li>\n\
+    <li>Call <code>fmi2DoStep</code>.</li>\n\
+    <li>Read the outputs.</li>\n</ol>\n\
+    <p><strong>Signs.</strong> Forces and moments are those of the particles on the boundary: a bed that rests on a floor whose normal \
+    points up gives a negative <code>force.z</code>. Moments are taken about the boundary's moved reference point, in global axes. Over \
+    each communication step the change of <code>work</code> is &minus;<code>mean_force</code> times the change of displacement: a master \
+    that moves its own side by <code>mean_force</code> exchanges exactly that energy.</p>\n\
+    <p>States can be saved and restored, so a master may repeat a step until both sides agree. A step that fails returns \
+    <code>fmi2Discard</code> and leaves the state of its beginning; the logger gets the reason.</p>\n";
+
+impl Page<'_> {
+    /// The page of a unit with or without a picture, which begins in a state of its own or not.
+    pub(super) fn write(&self, has_picture: bool, has_state: bool) -> String {
+        let Self { model, .. } = self;
+        let picture = if has_picture {
+            "<p><img src=\"../model.png\" alt=\"the particles and boundaries at the start\"></p>\n"
+        } else {
+            ""
         };
-        // writing to a string does not fail
-        let _ = writeln!(
-            rows,
-            "<tr><td><code>{}</code></td><td>{causality}</td><td>{}</td><td>{}</td></tr>",
-            escape(variable.name.as_str()),
-            escape(variable.quantity.unit().unwrap_or("")),
-            escape(variable.description.as_str()),
-        );
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n\
+             <body>\n<h1>{name}</h1>\n<p>{about}.</p>\n{picture}{facts}{USE}{steps}\
+             <h2>What to set</h2>\n{inputs}<h2>What to read</h2>\n{outputs}{nodes}\
+             <h2>Parameters</h2>\n<p>Fixed ones before the end of the initialisation mode, tunable ones also between steps.</p>\n{parameters}\
+             {origin}</body>\n</html>\n",
+            name = escape(model.identifier),
+            about = escape(about(model.scene).trim_end_matches('.')),
+            facts = self.facts(),
+            steps = self.steps(),
+            inputs = self.table(Causality::Input),
+            outputs = self.table(Causality::Output),
+            parameters = self.table(Causality::Parameter),
+            nodes = nodes(model.scene),
+            origin = self.origin(has_state),
+        )
     }
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title></head>\n<body>\n\
-         <h1>{name}</h1>\n<p>{about}. FMI 2.0 co-simulation, made by cograin {version}; the scene is \
-         <code>resources/scene.toml</code>.</p>\n\
-         <p>Forces and moments are those of the particles on the boundary: a bed that rests on a floor whose normal \
-         points up gives a negative <code>force.z</code>. Moments are taken about the boundary's moved reference \
-         point, in global axes. A displacement given before a communication step is reached at its end; it changes \
-         no output before that step. At initialisation it is taken without motion. Over each communication step the \
-         change of <code>work</code> is &minus;<code>mean_force</code> times the change of displacement.</p>\n{nodes}\
-         <table>\n<tr><th>variable</th><th>causality</th><th>unit</th><th>meaning</th></tr>\n{rows}</table>\n\
-         </body>\n</html>\n",
-        nodes = nodes(model.scene),
-        name = escape(model.identifier),
-        about = escape(about(model.scene)),
-        version = env!("CARGO_PKG_VERSION"),
-    )
+
+    /// What the unit is, in a table.
+    fn facts(&self) -> String {
+        let scene = self.model.scene;
+        let stated = [
+            ("author", scene.about.author.clone()),
+            ("version", scene.about.version.clone()),
+            ("licence of the model", scene.about.license.clone()),
+            ("copyright", scene.about.copyright.clone()),
+            ("particles", Some(scene.particles.len().to_string())),
+            ("boundaries", Some(list(scene.boundaries.iter().map(|boundary| boundary.name.as_str())))),
+            ("platforms", Some(list(self.platforms.iter().copied()))),
+            ("made by", Some(format!("cograin {}, FMI 2.0 co-simulation", env!("CARGO_PKG_VERSION")))),
+            ("GUID", Some(self.model.identity.to_owned())),
+        ];
+        let mut rows = String::new();
+        for (name, text) in stated {
+            if let Some(text) = text.filter(|text| !text.is_empty()) {
+                // writing to a string does not fail
+                let _ = writeln!(rows, "<tr><td>{name}</td><td>{}</td></tr>", escape(&text));
+            }
+        }
+        format!("<table>\n{rows}</table>\n")
+    }
+
+    /// What is known of lengths of steps.
+    fn steps(&self) -> String {
+        let scene = self.model.scene;
+        let (limit, step) = (self.simulation.limit(), self.simulation.state().clock.step);
+        let by = limit.by.map_or_else(String::new, |by| format!(" ({})", self.simulation.words(&by)));
+        let chosen = match scene.run.step {
+            Step::Automatic { .. } => "chosen by the unit, which follows the stable one",
+            Step::Given(_) => "given by the scene",
+        };
+        let stable = if limit.safe.is_finite() {
+            format!("; the stable one is {:.3e} s at the start{by}", limit.safe)
+        } else {
+            String::new()
+        };
+        let suggested = communication_step(scene).map_or_else(String::new, |suggested| {
+            format!(" The default experiment takes communication steps of {suggested:.3e} s.")
+        });
+        format!(
+            "<h2>How long steps may be</h2>\n<p>Time step inside: {step:.3e} s, {chosen}{}. A communication step may have any \
+             length; whole multiples of a given time step keep every bit.{suggested} How long it may be for a coupled \
+             structure follows from both sides: an explicit exchange diverges where a light structure meets a stiff packing.</p>\n",
+            escape(&stable),
+        )
+    }
+
+    /// The variables of one causality, those of nodes once.
+    fn table(&self, causality: Causality) -> String {
+        let shown = |variable: &&Variable| variable.node().is_none_or(|node| node == 0);
+        let variables: Vec<&Variable> =
+            self.model.interface.of_causality(causality).map(|(_, variable)| variable).filter(shown).collect();
+        if variables.is_empty() {
+            return "<p>None.</p>\n".to_owned();
+        }
+        let has_start = causality != Causality::Output;
+        let start = if has_start { "<th>start</th>" } else { "" };
+        let mut rows = format!("<tr><th>variable</th><th>unit</th>{start}<th>meaning</th></tr>\n");
+        for variable in variables {
+            let start = variable.start.map(|start| start.to_string()).or(variable.start_text().map(str::to_owned));
+            let start =
+                if has_start { format!("<td>{}</td>", escape(&start.unwrap_or_default())) } else { String::new() };
+            let tunable = causality == Causality::Parameter && variable.variability == Variability::Tunable;
+            let _ = writeln!(
+                rows,
+                "<tr><td><code>{}</code></td><td>{}</td>{start}<td>{}{}{}</td></tr>",
+                escape(variable.name.as_str()),
+                escape(variable.quantity.unit().unwrap_or("")),
+                escape(variable.description.as_str()),
+                escape(&range(variable)),
+                if tunable { "; tunable" } else { "" },
+            );
+        }
+        format!("<table>\n{rows}</table>\n")
+    }
+
+    /// Where the unit came from and what else is in it.
+    fn origin(&self, has_state: bool) -> String {
+        let files: Vec<String> =
+            self.source.files.iter().map(|(name, bytes)| format!("{name} ({} bytes)", bytes.len())).collect();
+        let files = if files.is_empty() {
+            String::new()
+        } else {
+            format!(" It reads {}.", list(files.iter().map(String::as_str)))
+        };
+        let state = if has_state {
+            " The unit begins in a state that was computed before: <code>resources/state.bin</code>."
+        } else {
+            ""
+        };
+        format!(
+            "<h2>Where it came from</h2>\n<p>The scene, <code>resources/scene.toml</code>, as it was packaged.{}{state} \
+             <code>extra/org.fmi-standard.fmi-ls-ref</code> has a short experiment: inputs, and what the unit answered; an importer that \
+             repeats it gets the same numbers. Licences: <a href=\"licenses/license.txt\">licenses/license.txt</a>.</p>\n<pre>{}</pre>\n",
+            escape(&files),
+            escape(&self.source.text),
+        )
+    }
+}
+
+/// Words, one after the other.
+fn list<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Between which bounds a variable is.
+fn range(variable: &Variable) -> String {
+    match [variable.minimum, variable.maximum] {
+        [None, None] => String::new(),
+        [Some(minimum), None] => format!("; at least {minimum}"),
+        [None, Some(maximum)] => format!("; at most {maximum}"),
+        [Some(minimum), Some(maximum)] => format!("; from {minimum} to {maximum}"),
+    }
 }
 
 /// What is said of meshes whose nodes the outside moves.
@@ -47,7 +186,7 @@ fn nodes(scene: &Scene) -> String {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
     let line = |mesh: &Boundary| {
         format!(
-            "<p><code>{name}</code> has {count} nodes, of which the table shows the first; <code>resources/{name}.nodes.csv</code> has \
+            "<p><code>{name}</code> has {count} nodes, of which the tables show the first; <code>resources/{name}.nodes.csv</code> has \
              their numbers and places, <code>resources/{name}.triangles.csv</code> the triangles between them.</p>\n",
             name = mesh.name,
             count = mesh.driven_nodes()

@@ -69,15 +69,21 @@ impl Folder {
     /// Writes something that passes for the library.
     fn library(&self) -> PathBuf {
         let path = self.0.join("library.so");
-        fs::write(&path, format!("\0{LIBRARY_MARK}\0")).unwrap();
+        fs::write(&path, sample_library::Sample::LINUX.bytes()).unwrap();
         path
     }
 
     /// Exports the scene and reads the unit.
     fn exported(&self, name: &str, state: Option<&State>) -> BTreeMap<String, Vec<u8>> {
         let (source, output) = (source(), self.0.join(name));
-        let scene = Scene::from_source(&source).unwrap();
-        export(&source, &scene, state, &self.library(), &output).unwrap();
+        let scene = Arc::new(Scene::from_source(&source).unwrap());
+        export(&source, &scene, state, &[self.library()], &output).unwrap();
+        self.read(name)
+    }
+
+    /// The files of a unit in the folder.
+    fn read(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
+        let output = self.0.join(name);
         let mut archive = zip::ZipArchive::new(fs::File::open(output).unwrap()).unwrap();
         let mut entries = BTreeMap::new();
         for index in 0..archive.len() {
@@ -236,10 +242,103 @@ fn the_structure_counts_from_one_and_knows_what_the_start_depends_on() {
 }
 
 #[test]
-fn the_default_experiment_ends_with_the_scene() {
+fn the_default_experiment_ends_with_the_scene_in_the_steps_of_its_run() {
     let elements = description();
     let experiment = elements.iter().find(|element| element.name == "DefaultExperiment").unwrap();
     assert_eq!((experiment.get("startTime"), experiment.get("stopTime")), (Some("0.0"), Some("0.25")));
+    assert_eq!(experiment.get("stepSize"), Some("0.0025"));
+}
+
+#[test]
+fn lengths_and_angles_are_shown_in_units_that_are_defined() {
+    let elements = description();
+    let place = elements.iter().position(|it| it.get("name") == Some("floor.displacement.z")).unwrap();
+    assert_eq!(elements[place + 1].get("displayUnit"), Some("mm"));
+    let defined = below(&elements, "UnitDefinitions", "DisplayUnit");
+    assert_eq!(
+        defined.iter().map(|it| (it.get("name"), it.get("factor"))).collect::<Vec<_>>(),
+        [(Some("mm"), Some("1000.0"))]
+    );
+}
+
+#[test]
+fn usual_magnitudes_follow_from_the_particles_and_their_weight() {
+    let elements = description();
+    let nominal = |name: &str| -> f64 {
+        let place = elements.iter().position(|it| it.get("name") == Some(name)).unwrap();
+        elements[place + 1].get("nominal").unwrap().parse().unwrap()
+    };
+    // Two spheres of glass with a radius of 10 mm.
+    let weight = 2.0 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-6 * 9.81;
+    assert!((nominal("floor.force.z") / weight - 1.0).abs() < 1e-12);
+    assert!((nominal("floor.displacement.z") / 0.01 - 1.0).abs() < 1e-12);
+    assert!((nominal("floor.work") / (0.01 * weight) - 1.0).abs() < 1e-12);
+    assert_eq!(elements.iter().find(|it| it.name == "Integer").and_then(|it| it.get("nominal")), None);
+}
+
+#[test]
+fn what_the_scene_says_of_itself_stands_in_the_description_the_page_and_the_licence() {
+    let said = "[about]\ndescription = \"Two marbles & a floor\"\nauthor = \"Ada\"\nversion = \"2.1\"\nlicense = \"CC-BY-4.0\"\n";
+    let source = Source { text: format!("{SCENE}\n{said}"), ..source() };
+    let scene = Arc::new(Scene::from_source(&source).unwrap());
+    let folder = Folder::new();
+    export(&source, &scene, None, &[folder.library()], &folder.0.join("unit.fmu")).unwrap();
+    let unit = folder.read("unit.fmu");
+    let description = elements(&unit["modelDescription.xml"]);
+    for (name, text) in
+        [("description", "Two marbles & a floor"), ("author", "Ada"), ("version", "2.1"), ("license", "CC-BY-4.0")]
+    {
+        assert_eq!(description[0].get(name), Some(text));
+    }
+    let page = String::from_utf8_lossy(&unit["documentation/index.html"]);
+    assert!(page.contains("<p>Two marbles &amp; a floor.</p>") && page.contains("<td>Ada</td>"), "{page}");
+    assert!(unit["documentation/licenses/license.txt"].starts_with(b"The model in resources/: licence CC-BY-4.0."));
+}
+
+#[test]
+fn a_unit_has_a_library_for_each_platform_a_picture_a_page_and_licences() {
+    let (source, folder) = (source(), Folder::new());
+    let scene = Arc::new(Scene::from_source(&source).unwrap());
+    let samples = [sample_library::Sample::WINDOWS, sample_library::Sample::MACOS, sample_library::Sample::LINUX];
+    let libraries = ["w", "m", "l"].map(|name| folder.0.join(name));
+    for (sample, path) in samples.iter().zip(&libraries) {
+        fs::write(path, sample.bytes()).unwrap();
+    }
+    export(&source, &scene, None, &libraries, &folder.0.join("two.fmu")).unwrap();
+    let unit = folder.read("two.fmu");
+    let binaries: Vec<&str> = unit.keys().map(String::as_str).filter(|path| path.starts_with("binaries")).collect();
+    assert_eq!(binaries, ["binaries/darwin64/two.dylib", "binaries/linux64/two.so", "binaries/win64/two.dll"]);
+    assert_eq!(unit["binaries/win64/two.dll"], samples[0].bytes());
+    assert!(unit["model.png"].starts_with(b"\x89PNG"));
+    let page = String::from_utf8_lossy(&unit["documentation/index.html"]);
+    assert!(page.contains("darwin64, linux64, win64"), "{page}");
+    let notices = String::from_utf8_lossy(&unit["documentation/licenses/third_party.txt"]);
+    assert!(notices.contains("\nnalgebra "), "the notices name what is inside");
+}
+
+#[test]
+fn the_reference_experiment_is_what_the_scene_does() {
+    let unit = Folder::new().exported("unit.fmu", None);
+    let table = |name: &str| -> Vec<Vec<String>> {
+        let text = String::from_utf8_lossy(&unit[&format!("extra/org.fmi-standard.fmi-ls-ref/{name}")]).into_owned();
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let (inputs, results) = (table("inputs.csv"), table("results.csv"));
+    assert_eq!(inputs[0], ["time", "floor.displacement.x", "floor.displacement.z"]);
+    assert_eq!([inputs.len(), results.len()], [12, 12], "a heading and eleven communication points");
+    let mut simulation =
+        crate::engine::simulation::Simulation::new(Arc::new(Scene::from_source(&source()).unwrap())).unwrap();
+    let column = results[0].iter().position(|name| name == "energy.kinetic").unwrap();
+    for (point, row) in results[1..].iter().enumerate() {
+        if point > 0 {
+            simulation.advance(100.0 * 1.0e-5).unwrap();
+        }
+        let interface = Interface::of(simulation.scene());
+        let kinetic = interface.value(&simulation, interface.find("energy.kinetic").unwrap());
+        assert_eq!(row[column], kinetic.to_string(), "row {point}");
+    }
+    let manifest = elements(&unit["extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml"]);
+    assert_eq!(below(&manifest, "fmiReferences", "Related").len(), 4);
 }
 
 #[test]
@@ -285,8 +384,8 @@ fn the_identity_follows_scene_files_and_state() {
 #[test]
 fn nothing_is_left_where_a_unit_cannot_be_written() {
     let folder = Folder::new();
-    let (source, library) = (source(), folder.library());
-    let scene = Scene::from_source(&source).unwrap();
+    let (source, library) = (source(), [folder.library()]);
+    let scene = Arc::new(Scene::from_source(&source).unwrap());
     let missing = folder.0.join("missing/unit.fmu");
     let message = export(&source, &scene, None, &library, &missing).unwrap_err().to_string();
     assert!(message.contains("missing/unit.fmu"), "{message}");

@@ -167,10 +167,10 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
 /// A contact law in one line.
 fn contact_law(law: &ContactLaw) -> String {
     let parts = [
-        ("normal", law.normal.name()),
-        ("tangential", law.tangential.name()),
-        ("rolling", law.rolling.name()),
-        ("cohesion", law.cohesion.name()),
+        ("normal", law.choice.normal.name()),
+        ("tangential", law.choice.tangential.name()),
+        ("rolling", law.choice.rolling.name()),
+        ("cohesion", law.choice.cohesion.name()),
     ];
     let chosen: Vec<_> =
         parts.iter().filter(|(_, name)| *name != "none").map(|(kind, name)| format!("{kind} {name}")).collect();

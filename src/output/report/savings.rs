@@ -89,14 +89,14 @@ fn unused(scene: &Scene) -> Vec<Unused> {
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             unused.push(Unused { what, without });
         };
-        if law.tangential.row().is_active() && zero(|pair| pair.friction) {
-            add("tangential", law.tangential.name(), "friction", |law| law.tangential = SMOOTH);
+        if law.choice.tangential.row().is_active() && zero(|pair| pair.friction) {
+            add("tangential", law.choice.tangential.name(), "friction", |law| law.choice.tangential = SMOOTH);
         }
-        if law.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
-            add("rolling", law.rolling.name(), "rolling_friction", |law| law.rolling = ROLLING_FREELY);
+        if law.choice.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+            add("rolling", law.choice.rolling.name(), "rolling_friction", |law| law.choice.rolling = ROLLING_FREELY);
         }
-        if law.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
-            add("cohesion", law.cohesion.name(), "cohesion_energy_density", |law| law.cohesion = DRY);
+        if law.choice.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+            add("cohesion", law.choice.cohesion.name(), "cohesion_energy_density", |law| law.choice.cohesion = DRY);
         }
     }
     for (index, damping) in scene.damping.iter().enumerate() {

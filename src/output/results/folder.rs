@@ -9,7 +9,6 @@ use super::schedule::Schedule;
 use super::table::{Found, Table};
 use super::{BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, frame_name, frame_number};
 use crate::engine::state::{Break, State};
-use crate::laws::bond::breakage::cause_name;
 use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -179,9 +178,11 @@ impl Folder {
     fn breaks(&mut self, breaks: &[Break]) -> Result<(), OutputError> {
         let Some(table) = &mut self.breakage else { return Ok(()) };
         let scene = &self.scene;
-        let id = |index: u32| self.scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
+        let laws: Vec<_> = (0..scene.bonds.len()).map(|bond| scene.bond_law(bond)).collect();
+        let id = |index: u32| scene.particles.get(index as usize).map_or(index, |particle| particle.id.0);
         for broken in breaks {
-            let cause = cause_name(broken.cause).unwrap_or("unknown");
+            let law = laws.get(broken.law as usize);
+            let cause = law.and_then(|law| law.cause_name(broken.cause)).unwrap_or("unknown");
             let mut row = vec![
                 format!("{:?}", broken.time),
                 id(broken.first).to_string(),

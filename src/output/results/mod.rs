@@ -16,7 +16,7 @@
 //! they end with the same bytes as those of an uninterrupted run (except `summary.json`, which describes one
 //! session). `schedule.rs` says when outputs are due, and how that divides the run.
 
-mod boundaries;
+pub(crate) mod boundaries;
 mod collection;
 mod error;
 mod failure;

@@ -167,7 +167,7 @@ fn unread(scene: &Scene) -> Vec<String> {
         let laws: Vec<_> = scene.contacts.iter().filter(|law| law.between[a * count + b]).collect();
         let with = |law: &ContactLaw, properties: &PairProperties| {
             let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
-            law.choice().coefficients(&pair).ok()
+            law.choice.coefficients(&pair).ok()
         };
         let is_read = |variants: &[PairProperties; 2]| {
             laws.iter().any(|law| variants.iter().any(|other| with(law, other) != with(law, properties)))
@@ -232,12 +232,12 @@ fn cohesion(scene: &Scene) -> Vec<String> {
 /// On friction whose dashpot stretches its spring backwards where it exceeds the limit, as it does at first touch: what follows then depends
 /// on how deep the first time step finds the contact.
 fn friction(scene: &Scene) -> Vec<String> {
-    let named = scene.contacts.iter().filter(|law| law.choice().stretches_backwards());
+    let named = scene.contacts.iter().filter(|law| law.choice.stretches_backwards());
     let told = named.map(|law| {
         format!(
             "[contact.{}] tangential: with {}, rebounds of impacts that slide first may depend on the time step by some percent, and a shorter one need not help; with backward_spring = false, or history, they converge",
             law.name,
-            law.tangential.name()
+            law.choice.tangential.name()
         )
     });
     told.collect()

@@ -221,7 +221,7 @@ impl Course {
 /// Why a scene does not come to rest.
 fn why_not(simulation: &Simulation) -> String {
     let scene = simulation.scene();
-    let rolls = |law: &&crate::scene::ContactLaw| law.rolling.name() == "cdt";
+    let rolls = |law: &&crate::scene::ContactLaw| law.choice.rolling.name() == "cdt";
     let rubs = |pair: &crate::laws::contact::PairProperties| {
         pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0)
     };

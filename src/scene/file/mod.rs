@@ -58,12 +58,12 @@ impl Models {
     ) -> Result<Scene, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (table, key, file) in raw_tables::files(&document) {
+        for (table, key, file) in raw_tables::files(&document, self) {
             match bytes(&folder.join(&file)) {
                 Ok(bytes) => {
                     source.files.insert(file, bytes);
                 }
-                Err(reason) => faults.add(&table, key, Mistake::Unreadable { file, reason }),
+                Err(reason) => faults.add(&table, &key, Mistake::Unreadable { file, reason }),
             }
         }
         check::scene(source, &document, faults, self, tell)
@@ -78,10 +78,10 @@ impl Models {
         }
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
-        for (table, key, file) in raw_tables::files(&document) {
+        for (table, key, file) in raw_tables::files(&document, self) {
             if !source.files.contains_key(&file) {
                 let reason = "it was not handed over with the scene".to_owned();
-                faults.add(&table, key, Mistake::Unreadable { file, reason });
+                faults.add(&table, &key, Mistake::Unreadable { file, reason });
             }
         }
         check::scene(source, &document, faults, self, &mut |_| {})

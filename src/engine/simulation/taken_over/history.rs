@@ -158,7 +158,7 @@ impl Simulation {
             };
             match self.scene.bonds.iter().position(same) {
                 Some(law) => {
-                    let here = self.bonds_here(list, reached, numbers, &self.scene.bonds[law].law);
+                    let here = self.bonds_here(list, reached, numbers, &self.scene.bond_law(law));
                     self.state.bonds[law] = here;
                     taken[law] = true;
                     let missing = list.first.len() - self.state.bonds[law].first.len();

@@ -1,18 +1,17 @@
 //! Breakage by distance.
 
-use super::BreakageKeys;
-use super::{Breakage, Loaded, flat_keys};
+use super::{Breakage, Loaded, Strength};
 use crate::base::number::Number;
 use crate::base::quantity::Positive;
 use crate::laws::bond::formulation::FormulationChoice;
-use crate::laws::bond::key_error::KeyError;
+use serde::Deserialize;
 
-flat_keys! {
-    /// Those of [`Distance`].
-    {
-        /// Distance of the centres beyond which the bond breaks \[m\].
-        max_distance: Positive ["m"],
-    }
+/// Those of [`Distance`], in `[bond.<name>.breakage]`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// Distance of the centres beyond which the bond breaks \[m\].
+    pub max_distance: Positive,
 }
 
 /// Breaks where the centres (at a plane: centre and foot) are further apart than `max_distance`, as the engine does without
@@ -24,15 +23,20 @@ pub struct Distance {
 }
 
 impl Breakage for Distance {
+    const NAME: &'static str = "distance";
     type Keys = Keys;
-    const LIMITS: &'static [&'static str] = &["max_distance"];
+    const FLAT_KEYS: &'static [&'static str] = &["max_distance"];
+    const LIMITS: &'static [&'static str] = Self::FLAT_KEYS;
     const CAUSES: &'static [&'static str] = &["distance"];
+    const IS_THE_ENGINES: bool = true;
 
-    fn of(own: &Keys, _formulation: FormulationChoice) -> Option<Self> {
-        own.max_distance.map(|most| Self { most: most.get() })
+    fn of(keys: &Keys, _formulation: FormulationChoice) -> Self {
+        Self { most: keys.max_distance.get() }
     }
 
-    fn check(_own: &Keys, _all: &BreakageKeys, _formulation: FormulationChoice, _wrong: &mut Vec<KeyError>) {}
+    fn strengths(keys: &mut Keys) -> Vec<Strength<'_>> {
+        vec![Strength { key: "max_distance", unit: "m", value: &mut keys.max_distance }]
+    }
 
     #[inline(always)]
     fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N {

@@ -4,39 +4,67 @@
 //! cause. The file of a rule has its keys with their check, its numbers, its condition, and the causes that it reports; its
 //! row makes it part of `[bond.<name>.breakage]`. No other code knows the rule.
 
+mod columns;
 pub mod distance;
-mod keys;
 pub mod mohr_coulomb;
+mod row;
 pub mod stress;
 
-pub use keys::{KeysOf, Strength};
-pub(in crate::laws::bond) use keys::{breakage_rules, flat_keys, named_keys};
+pub(crate) use columns::LoadedBonds;
+pub(in crate::laws::bond) use row::NewStrengths;
+pub use row::{BreakageChoice, BreakageRow, Rule};
+
+pub use crate::laws::bond::key_error::KeyError;
+pub use crate::laws::kept::ModelKeys;
 
 use super::Section;
 use super::formulation::FormulationChoice;
-use super::key_error::KeyError;
 use crate::base::number::{Number, Vector};
+use crate::base::quantity::Positive;
 
-breakage_rules! {
-    distance: distance::Distance,
-    stress: stress::StressLimits,
-    mohr_coulomb: mohr_coulomb::MohrCoulomb,
-}
+/// The rules of the program.
+pub(crate) const STANDARD: &[&BreakageRow] = &[
+    BreakageRow::of::<distance::Distance>(),
+    BreakageRow::of::<stress::StressLimits>(),
+    BreakageRow::of::<mohr_coulomb::MohrCoulomb>(),
+];
 
 /// A rule of breakage, in numbers.
-pub trait Breakage: Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+pub trait Breakage: Copy + std::fmt::Debug + Send + Sync + 'static {
+    /// Its name: that of its table `[bond.<name>.breakage.<rule>]`.
+    const NAME: &'static str;
     /// What the scene writes of it.
-    type Keys: KeysOf;
-    /// The keys of which at least one must be given for the rule to act.
-    const LIMITS: &'static [&'static str];
+    type Keys: ModelKeys;
+    /// The keys of a rule that has no table of its own: they stand in `[bond.<name>.breakage]`.
+    const FLAT_KEYS: &'static [&'static str] = &[];
+    /// Its keys in `[bond.<name>.breakage]` of which one at least must be given for it to act.
+    const LIMITS: &'static [&'static str] = &[Self::NAME];
     /// The causes that it reports, by their names in `breakage.csv`.
     const CAUSES: &'static [&'static str];
-    /// The rule that the keys mean for a bond of this formulation, if they name this one at all.
-    fn of(own: &Self::Keys, formulation: FormulationChoice) -> Option<Self>;
-    /// Reports contradictions among the keys, or with those of the other rules, each with its key below `breakage`.
-    fn check(own: &Self::Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>);
+    /// Whether LIGGGHTS-INL has it.
+    const IS_THE_ENGINES: bool = false;
+    /// The rule that the keys mean for a bond of this formulation.
+    fn of(keys: &Self::Keys, formulation: FormulationChoice) -> Self;
+    /// Reports contradictions among the keys, or with the other rules of the table, each at its key, as `breakage.<key>`.
+    fn check(_keys: &Self::Keys, _all: &[BreakageChoice], _formulation: FormulationChoice, _wrong: &mut Vec<KeyError>) {
+    }
+    /// The strengths among the keys, which a unit may change while it runs.
+    fn strengths(_keys: &mut Self::Keys) -> Vec<Strength<'_>> {
+        Vec::new()
+    }
     /// 0 if the bond holds, else the place of its cause in [`Breakage::CAUSES`], from 1.
     fn judge<N: Number>(&self, loaded: &Loaded<N>) -> N;
+}
+
+/// A strength among the keys of a rule.
+#[derive(Debug)]
+pub struct Strength<'a> {
+    /// Its key.
+    pub key: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: &'a mut Positive,
 }
 
 /// A bond under its load, without damping, at the end of a time step: the input of a rule.
@@ -99,18 +127,5 @@ impl<N: Number> Loaded<N> {
     pub fn normal_stress(&self, stress: &Stress<N>, compression_share: N) -> N {
         let compressed = self.compression.greater(N::zero());
         stress.mean * N::select(compressed, compression_share, N::splat(1.0)) + stress.bending
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn codes_of_causes_are_counted_through_the_list() {
-        let names: Vec<&str> = (1..20).map_while(|code| cause_name(f64::from(code))).collect();
-        assert_eq!(names[..6], ["distance", "tension", "compression", "shear", "bending", "torsion"]);
-        assert_eq!(names.len(), CAUSES.iter().map(|causes| causes.len()).sum::<usize>());
-        assert_eq!((cause_name(0.0), cause_name(-1.0), cause_name(1e9)), (None, None, None));
     }
 }

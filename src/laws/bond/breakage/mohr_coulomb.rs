@@ -1,22 +1,22 @@
 //! Breakage by Mohr and Coulomb's limit on the principal stresses at the rim, with a limit of tension.
 
-use super::BreakageKeys;
-use super::{Breakage, Loaded, named_keys};
+use super::{Breakage, BreakageChoice, Loaded, Strength};
 use crate::base::number::Number;
 use crate::base::quantity::{NonNegative, Positive};
 use crate::laws::bond::formulation::FormulationChoice;
 use crate::laws::bond::key_error::KeyError;
+use serde::Deserialize;
 
-named_keys! {
-    /// `[bond.<name>.breakage.mohr_coulomb]`
-    mohr_coulomb {
-        /// c: shear strength where nothing presses \[Pa\].
-        cohesion: Positive ["Pa"],
-        /// φ: angle of internal friction, from 0 to below π/2 \[rad\].
-        friction_angle: NonNegative,
-        /// T: largest principal tension \[Pa\].
-        tensile_strength: Positive ["Pa"],
-    }
+/// `[bond.<name>.breakage.mohr_coulomb]`
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// c: shear strength where nothing presses \[Pa\].
+    pub cohesion: Positive,
+    /// φ: angle of internal friction, from 0 to below π/2 \[rad\].
+    pub friction_angle: NonNegative,
+    /// T: largest principal tension \[Pa\].
+    pub tensile_strength: Positive,
 }
 
 /// Breaks where the material of the bond would, by the principal stresses on the two sides of its rim.
@@ -58,21 +58,21 @@ const TENSION: f64 = 1.0;
 const SHEAR: f64 = 2.0;
 
 impl Breakage for MohrCoulomb {
+    const NAME: &'static str = "mohr_coulomb";
     type Keys = Keys;
-    const LIMITS: &'static [&'static str] = &["mohr_coulomb"];
     const CAUSES: &'static [&'static str] = &["tension", "shear"];
 
-    fn of(own: &Keys, _formulation: FormulationChoice) -> Option<Self> {
-        own.0.map(|table| Self {
-            shear_limit: 2.0 * table.cohesion.get() * libm::cos(table.friction_angle.get()),
-            friction: libm::sin(table.friction_angle.get()),
-            tensile_strength: table.tensile_strength.get(),
-        })
+    fn of(keys: &Keys, _formulation: FormulationChoice) -> Self {
+        let angle = keys.friction_angle.get();
+        Self {
+            shear_limit: 2.0 * keys.cohesion.get() * libm::cos(angle),
+            friction: libm::sin(angle),
+            tensile_strength: keys.tensile_strength.get(),
+        }
     }
 
-    fn check(own: &Keys, _all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
-        let Some(table) = own.0 else { return };
-        let (cohesion, angle) = (table.cohesion.get(), table.friction_angle.get());
+    fn check(keys: &Keys, _all: &[BreakageChoice], _formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
+        let (cohesion, angle) = (keys.cohesion.get(), keys.friction_angle.get());
         KeyError::add(
             wrong,
             angle >= std::f64::consts::FRAC_PI_2,
@@ -81,16 +81,15 @@ impl Breakage for MohrCoulomb {
         );
         KeyError::add(
             wrong,
-            table.tensile_strength.get() * libm::sin(angle) > cohesion * libm::cos(angle),
+            keys.tensile_strength.get() * libm::sin(angle) > cohesion * libm::cos(angle),
             "breakage.mohr_coulomb.tensile_strength",
             "expected at most cohesion/tan(friction_angle), where the shear limit ends, found more",
         );
-        KeyError::add(
-            wrong,
-            formulation.is_engine(),
-            "breakage.mohr_coulomb",
-            "expected a limit of the engine, as engine_exact has no other, found this one",
-        );
+    }
+
+    fn strengths(keys: &mut Keys) -> Vec<Strength<'_>> {
+        let all = [("cohesion", &mut keys.cohesion), ("tensile_strength", &mut keys.tensile_strength)];
+        all.into_iter().map(|(key, value)| Strength { key, unit: "Pa", value }).collect()
     }
 
     #[inline(always)]
@@ -114,7 +113,6 @@ mod tests {
     use super::*;
     use crate::base::number::Vector;
     use crate::laws::bond::Section;
-    use crate::laws::bond::breakage::{BreakageKeys, KeysOf};
 
     /// c = 3 Pa, sin φ = 0.6, cos φ = 0.8, T = 2 Pa.
     const RULE: MohrCoulomb = MohrCoulomb { shear_limit: 4.8, friction: 0.6, tensile_strength: 2.0 };
@@ -169,15 +167,5 @@ mod tests {
     fn bending_stretches_one_side_and_compresses_the_other() {
         assert_eq!([judge(RULE, 0.0, 0.0, 1.99), judge(RULE, 0.0, 0.0, 2.01)], [0.0, TENSION]);
         assert_eq!([judge(RULE, 11.0, 0.0, 0.99), judge(RULE, 11.0, 0.0, 1.01)], [0.0, SHEAR]);
-    }
-
-    #[test]
-    fn the_table_is_read_and_its_strengths_are_named() {
-        let text = "mohr_coulomb = { cohesion = 3.0, friction_angle = 0.5, tensile_strength = 2.0 }";
-        let mut keys: BreakageKeys = toml::from_str(text).unwrap();
-        let names: Vec<_> = keys.mohr_coulomb.strengths().iter().map(|strength| strength.key).collect();
-        assert_eq!(names, ["mohr_coulomb.cohesion", "mohr_coulomb.tensile_strength"]);
-        let missing = toml::from_str::<BreakageKeys>("mohr_coulomb = { cohesion = 3.0 }").unwrap_err().to_string();
-        assert!(missing.contains("friction_angle"), "{missing}");
     }
 }

@@ -1,33 +1,26 @@
 //! Breakage by the largest stresses at the rim.
 
-use super::BreakageKeys;
-use super::{Breakage, Loaded, flat_keys};
+use super::{Breakage, BreakageChoice, Loaded, Strength, distance};
 use crate::base::number::Number;
 use crate::base::quantity::{NonNegative, Positive};
 use crate::laws::bond::formulation::FormulationChoice;
 use crate::laws::bond::key_error::KeyError;
+use serde::Deserialize;
 
-flat_keys! {
-    /// Those of [`StressLimits`].
-    {
-        /// Largest normal stress \[Pa\].
-        max_normal_stress: Positive ["Pa"],
-        /// Largest shear stress without normal force \[Pa\].
-        max_shear_stress: Positive ["Pa"],
-        /// Strength in tension over that in compression.
-        tension_ratio: Positive,
-        /// φ of the growth of shear strength with compression, from 0 to below π/2 \[rad\].
-        friction_angle: NonNegative,
-        /// Whether compression adds to the normal stress (as in the engine) or relieves it.
-        compression_breaks: bool,
-    }
-}
-
-impl Keys {
-    /// Whether a largest stress is named.
-    fn has_limit(&self) -> bool {
-        self.max_normal_stress.is_some() || self.max_shear_stress.is_some()
-    }
+/// Those of [`StressLimits`], in `[bond.<name>.breakage]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// Largest normal stress \[Pa\].
+    pub max_normal_stress: Option<Positive>,
+    /// Largest shear stress without normal force \[Pa\].
+    pub max_shear_stress: Option<Positive>,
+    /// Strength in tension over that in compression.
+    pub tension_ratio: Option<Positive>,
+    /// φ of the growth of shear strength with compression, from 0 to below π/2 \[rad\].
+    pub friction_angle: Option<NonNegative>,
+    /// Whether compression adds to the normal stress (as in the engine) or relieves it.
+    pub compression_breaks: Option<bool>,
 }
 
 /// |u| below which the engine takes a bond for stretched \[m\].
@@ -81,53 +74,64 @@ impl Keys {
 }
 
 impl Breakage for StressLimits {
+    const NAME: &'static str = "stress";
     type Keys = Keys;
+    const FLAT_KEYS: &'static [&'static str] =
+        &["max_normal_stress", "max_shear_stress", "tension_ratio", "friction_angle", "compression_breaks"];
     const LIMITS: &'static [&'static str] = &["max_normal_stress", "max_shear_stress"];
     const CAUSES: &'static [&'static str] = &["tension", "compression", "shear", "bending", "torsion"];
+    const IS_THE_ENGINES: bool = true;
 
-    fn of(own: &Keys, formulation: FormulationChoice) -> Option<Self> {
-        let strength = own.max_normal_stress.map_or(f64::INFINITY, Positive::get);
-        own.has_limit().then(|| Self {
+    fn of(keys: &Keys, formulation: FormulationChoice) -> Self {
+        let strength = keys.max_normal_stress.map_or(f64::INFINITY, Positive::get);
+        Self {
             compression_strength: strength,
-            tension_strength: strength * own.tension_ratio.map_or(1.0, Positive::get),
-            shear_strength: own.max_shear_stress.map_or(f64::INFINITY, Positive::get),
-            friction: own.friction_angle.map_or(0.0, |angle| libm::tan(angle.get())),
-            compression_share: own.compression_share(formulation),
-        })
+            tension_strength: strength * keys.tension_ratio.map_or(1.0, Positive::get),
+            shear_strength: keys.max_shear_stress.map_or(f64::INFINITY, Positive::get),
+            friction: keys.friction_angle.map_or(0.0, |angle| libm::tan(angle.get())),
+            compression_share: keys.compression_share(formulation),
+        }
     }
 
-    fn check(own: &Keys, all: &BreakageKeys, formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
-        let (no_normal, no_shear) = (own.max_normal_stress.is_none(), own.max_shear_stress.is_none());
+    fn strengths(keys: &mut Keys) -> Vec<Strength<'_>> {
+        let all = [
+            ("max_normal_stress", keys.max_normal_stress.as_mut()),
+            ("max_shear_stress", keys.max_shear_stress.as_mut()),
+        ];
+        all.into_iter().filter_map(|(key, value)| Some(Strength { key, unit: "Pa", value: value? })).collect()
+    }
+
+    fn check(keys: &Keys, all: &[BreakageChoice], formulation: FormulationChoice, wrong: &mut Vec<KeyError>) {
+        let (no_normal, no_shear) = (keys.max_normal_stress.is_none(), keys.max_shear_stress.is_none());
         let mut add = |there: bool, key: &'static str, message: &str| KeyError::add(wrong, there, key, message);
         add(
-            own.tension_ratio.is_some() && no_normal,
+            keys.tension_ratio.is_some() && no_normal,
             "breakage.tension_ratio",
             "expected max_normal_stress beside it, which it multiplies, found none",
         );
         add(
-            own.friction_angle.is_some() && no_shear,
+            keys.friction_angle.is_some() && no_shear,
             "breakage.friction_angle",
             "expected max_shear_stress beside it, which it raises, found none",
         );
         add(
-            own.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
+            keys.friction_angle.is_some_and(|angle| angle.get() >= std::f64::consts::FRAC_PI_2),
             "breakage.friction_angle",
             "expected radians from 0 to below π/2, found an angle of π/2 or more",
         );
         add(
-            own.compression_breaks.is_some() && no_normal,
+            keys.compression_breaks.is_some() && no_normal,
             "breakage.compression_breaks",
             "expected max_normal_stress beside it, to which it belongs, found none",
         );
         let exact = formulation.is_engine();
         add(
-            exact && own.compression_breaks == Some(false),
+            exact && keys.compression_breaks == Some(false),
             "breakage.compression_breaks",
             "expected true, as compression always breaks in engine_exact, found false",
         );
-        let by_distance = all.distance.max_distance.is_some();
         add(
-            exact && own.has_limit() && by_distance,
+            exact && all.iter().any(|rule| rule.keys::<distance::Keys>().is_some()),
             "breakage.max_distance",
             "expected one limit, as engine_exact looks at one, found a largest stress beside it",
         );

@@ -110,7 +110,9 @@ impl Keys {
 }
 
 impl ShapeKeys for Keys {
+    const KEY: &'static str = "mesh";
     const HINT: &'static str = "mesh = { file }";
+    const FILES: &'static [&'static str] = &["file", "joined"];
 
     fn shape(&self, around: &mut dyn ShapeContext) -> Option<Shape> {
         let material = around.material("a mesh");

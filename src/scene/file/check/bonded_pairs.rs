@@ -29,16 +29,16 @@ impl<'a> Bonded<'a> {
         let sets = [a, b].map(|index| self.scene.particles[index].set);
         self.listed.binary_search(&[a as u32, b as u32]).is_ok()
             || self.scene.bonds.iter().any(|bond| {
-                bond.create.bonds_at_start()
+                bond.keys.create.bonds_at_start()
                     && bond.joins(sets[0], sets[1])
-                    && bond.create_distance.is_some_and(|most| distance < most)
+                    && bond.create_distance().is_some_and(|most| distance < most)
             })
     }
 }
 
 /// Reports bond laws that bond no pair at the start, although they make their bonds then.
 pub(super) fn idle(scene: &SceneDraft) -> Vec<Finding> {
-    let waiting = |bond: &&Bond| bond.create.bonds_near_pairs(&Moment::START);
+    let waiting = |bond: &&Bond| bond.keys.create.bonds_near_pairs(&Moment::START);
     scene.bonds.iter().filter(waiting).filter_map(|bond| idle_law(scene, bond)).collect()
 }
 
@@ -61,7 +61,7 @@ fn idle_at_plane(scene: &SceneDraft, bond: &Bond, distance: f64, plane: Boundary
 
 /// Whether this law bonds no pair.
 fn idle_law(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
-    let distance = bond.create_distance?;
+    let distance = bond.create_distance()?;
     if let Some(plane) = bond.plane {
         return idle_at_plane(scene, bond, distance, plane);
     }

@@ -9,7 +9,7 @@ use crate::laws::bond::creation::ListedPairs;
 use crate::laws::bond::keys::Keys;
 use crate::scene::Source;
 use crate::scene::import::REPORTED;
-use crate::scene::{Bond, Particle, Run, SceneDraft, Step};
+use crate::scene::{Bond, Boundary, Particle, Run, SceneDraft, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -17,6 +17,7 @@ pub(super) fn bonds(
     document: &Document,
     source: &Source,
     born: &ReadParticles,
+    boundaries: &[Boundary],
     run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
@@ -24,32 +25,15 @@ pub(super) fn bonds(
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
         given_step(keys, &table, run.step, faults);
-        let between = between(keys, document, &table, written, born, faults);
+        let between = between((keys, &table), document, (written, boundaries), born, faults);
         if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
             faults.add(&table, "create", listed_at_plane());
             continue;
         }
         let pairs = listed(keys, document, source, &table, born, faults);
-        let law = match keys.law(run.scheme.predicts()) {
-            Ok(law) => Some(law),
-            Err(errors) => {
-                for error in errors {
-                    faults.add(&table, error.key, Mistake::Refused { message: error.message });
-                }
-                None
-            }
-        };
-        if let (Some((between, plane)), Some(pairs), Some(law)) = (between, pairs, law) {
-            let bond = Bond {
-                name: name.clone(),
-                keys: keys.clone(),
-                law,
-                between,
-                plane,
-                create: keys.create.clone(),
-                create_distance: keys.create_distance.map(crate::base::quantity::Positive::get),
-                pairs,
-            };
+        contradictions(keys, run, &table, faults);
+        if let (Some((between, plane)), Some(pairs)) = (between, pairs) {
+            let bond = Bond { name: name.clone(), keys: keys.clone(), between, plane, pairs };
             outside_sets(&bond, &table, &born.particles, faults);
             bonds.push(bond);
         }
@@ -62,13 +46,18 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     for bond in &draft.bonds {
         let table = format!("bond.{}", bond.name);
         given_step(&bond.keys, &table, draft.run.step, faults);
-        if bond.plane.is_some() && !bond.create.needs_distance() {
+        if bond.plane.is_some() && !bond.keys.create.needs_distance() {
             faults.add(&table, "create", listed_at_plane());
         }
-        for error in bond.keys.law(draft.run.scheme.predicts()).err().unwrap_or_default() {
-            faults.add(&table, error.key, Mistake::Refused { message: error.message });
-        }
+        contradictions(&bond.keys, &draft.run, &table, faults);
         outside_sets(bond, &table, &draft.particles, faults);
+    }
+}
+
+/// Reports what keys contradict.
+fn contradictions(keys: &Keys, run: &Run, table: &str, faults: &mut Faults) {
+    for error in keys.law(run.scheme.predicts()).err().unwrap_or_default() {
+        faults.add(table, &error.key, Mistake::Refused { message: error.message });
     }
 }
 
@@ -95,13 +84,14 @@ fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
 
 /// The two particle sets that are bonded; at a plane, the same set twice and the plane.
 fn between(
-    keys: &Keys,
+    (keys, table): (&Keys, &str),
     document: &Document,
-    table: &str,
-    written: &RawTables,
+    (written, boundaries): (&RawTables, &[Boundary]),
     born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {
+    // One with a mistake of its own is not there.
+    let takes_bonds = |name: &str| boundaries.iter().find(|it| it.name == name).is_none_or(Boundary::takes_bonds);
     // An array of two takes no notice of a third.
     if document.has(&format!("{table}.between.3")) {
         let (found, expected) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
@@ -116,8 +106,8 @@ fn between(
             continue;
         }
         let boundary = written.boundaries.iter().position(|(boundary, _)| boundary == name);
-        let mistake = match boundary.map(|index| (index, &written.boundaries[index].1)) {
-            Some((index, boundary)) if boundary.takes_bonds() && plane.is_none() => {
+        let mistake = match boundary {
+            Some(index) if takes_bonds(name) && plane.is_none() => {
                 plane = Some(BoundaryIndex(index as u32));
                 continue;
             }
@@ -211,7 +201,7 @@ fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut F
         let expected = "pairs of the two sets in between".to_owned();
         faults.add(table, "create", Mistake::Unexpected { found, expected });
     }
-    let far = |pair: &&[u32; 2]| bond.create_distance.is_some_and(|most| distance(particles, **pair) >= most);
+    let far = |pair: &&[u32; 2]| bond.create_distance().is_some_and(|most| distance(particles, **pair) >= most);
     if let Some([a, b]) = bond.pairs.iter().find(far) {
         let found =
             format!("{:.3e} between {} and {}", distance(particles, [*a, *b]), particle(*a).id.0, particle(*b).id.0);

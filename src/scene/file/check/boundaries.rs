@@ -27,7 +27,9 @@ pub(super) fn boundaries(
     let mut boundaries = Vec::new();
     for (name, boundary) in &written.boundaries {
         let table = format!("boundary.{name}");
-        let Some(shape) = shape((boundary, &table), source, materials, born, faults) else { continue };
+        let Some(shape) = shape((boundary, &table), (&written.hints, source), materials, born, faults) else {
+            continue;
+        };
         owners.claim(shape.members(), &table, born, faults);
         let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
         let axes = motion::axes(&boundary.motion, source, &table, faults);
@@ -101,20 +103,21 @@ fn nodes(motion: NodeMotion, axes: &[AxisMotion; 6], shape: &dyn Surface, table:
 /// The shape of a boundary.
 fn shape(
     (boundary, table): (&BoundaryTable, &str),
-    source: &Source,
+    (hints, source): (&[&str], &Source),
     materials: &[Material],
     born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<Shape> {
-    match boundary.shapes()[..] {
-        [_] => boundary.shape(&mut Written { boundary, table, source, materials, born, faults }),
+    match &boundary.shapes[..] {
+        [(_, make)] => make(&mut Written { boundary, table, source, materials, born, faults }),
         [] => {
-            let expected = format!("{} gives its shape", alternatives(BoundaryTable::HINTS));
+            let expected = format!("{} gives its shape", alternatives(hints));
             faults.add(table, "", Mistake::Missing { expected });
             None
         }
-        [..] => {
-            let (found, expected) = (boundary.shapes().join(" and "), "one shape".to_owned());
+        several => {
+            let keys: Vec<&str> = several.iter().map(|(row, _)| row.key).collect();
+            let (found, expected) = (keys.join(" and "), "one shape".to_owned());
             faults.add(table, "", Mistake::Unexpected { found, expected });
             None
         }

@@ -26,7 +26,7 @@ pub(super) fn laws(scene: &SceneDraft) -> Vec<Finding> {
             continue;
         };
         let pair = MaterialPair { a: first, b: second, properties: &scene.pairs[a * count + b] };
-        for Missing { table, key } in law.choice().coefficients(&pair).err().unwrap_or_default() {
+        for Missing { table, key } in law.choice.coefficients(&pair).err().unwrap_or_default() {
             if !told.insert((table.clone(), key)) {
                 continue;
             }
@@ -64,13 +64,13 @@ fn touching(scene: &SceneDraft) -> Vec<(usize, usize)> {
 /// What speaks against a law where a bond suppresses contacts: its normal force must be one that an offset can be taken from.
 fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding> {
     let bond = scene.bonds.iter().find(|bond| bond.keys.contact != ContactPolicy::Parallel)?;
-    let composed = Law::of(&law.choice());
+    let composed = Law::of(&law.choice);
     if composed.takes_offset() {
         return None;
     }
     let (kind, model, why) = match composed.presses() {
-        false => ("normal", law.normal.name(), "adheres or remembers"),
-        true => ("cohesion", law.cohesion.name(), "acts beyond touch or remembers"),
+        false => ("normal", law.choice.normal.name(), "adheres or remembers"),
+        true => ("cohesion", law.choice.cohesion.name(), "acts beyond touch or remembers"),
     };
     let message = format!(
         "expected \"parallel\", or another {kind} model of [contact.{}] than {model}, which {why}, found \
@@ -82,14 +82,14 @@ fn cannot_be_suppressed(scene: &SceneDraft, law: &ContactLaw) -> Option<Finding>
 
 /// What speaks against the combination of a law's sub-models and switches.
 fn objection(law: &ContactLaw) -> Option<Finding> {
-    let objection = law.choice().objection()?;
+    let objection = law.choice.objection()?;
     let mut table = format!("contact.{}", law.name);
     if !objection.table.is_empty() {
         let model = match objection.table {
-            "normal" => law.normal.name(),
-            "tangential" => law.tangential.name(),
-            "rolling" => law.rolling.name(),
-            _ => law.cohesion.name(),
+            "normal" => law.choice.normal.name(),
+            "tangential" => law.choice.tangential.name(),
+            "rolling" => law.choice.rolling.name(),
+            _ => law.choice.cohesion.name(),
         };
         table = format!("{table}.{}.{model}", objection.table);
     }

@@ -5,7 +5,7 @@ use super::raw_tables::{Law, RawTables};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::MaterialIndex;
-use crate::laws::contact::{Material, PairProperties, Scheme, Switches};
+use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme, Switches};
 use crate::scene::ContactLaw;
 use crate::scene::file::tables::MaterialPairs;
 
@@ -100,14 +100,8 @@ fn governed(law: &Law, materials: &[Material], table: &str, faults: &mut Faults)
 
 /// The law as the program keeps it.
 fn composed(name: &str, law: &Law, between: Vec<bool>, scheme: Scheme) -> ContactLaw {
-    ContactLaw {
-        name: name.to_owned(),
-        between,
-        normal: law.normal,
-        tangential: law.tangential,
-        rolling: law.rolling,
-        cohesion: law.cohesion,
-        switches: Switches::of(law.table.limit_force, law.table.tangential_damping.unwrap_or(true)),
-        scheme,
-    }
+    let &Law { ref table, normal, tangential, rolling, cohesion } = law;
+    let switches = Switches::of(table.limit_force, table.tangential_damping.unwrap_or(true));
+    let choice = LawChoice { normal, tangential, rolling, cohesion, switches, scheme };
+    ContactLaw { name: name.to_owned(), between, choice }
 }

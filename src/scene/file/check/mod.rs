@@ -48,7 +48,7 @@ pub(super) fn scene(
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
     let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
-    let bonds = bonds::bonds(&written, document, source, &born, &run, &mut faults);
+    let bonds = bonds::bonds(&written, document, source, &born, &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
@@ -56,6 +56,7 @@ pub(super) fn scene(
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
     let mut draft = SceneDraft {
+        about: written.about,
         bonds,
         run,
         gravity: written.gravity.0,

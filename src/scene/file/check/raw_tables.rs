@@ -3,22 +3,25 @@
 use super::named_tables::{Named, all, names};
 use crate::base::document::Mistake;
 use crate::base::document::messages;
-use crate::base::document::{Document, Faults};
-use crate::laws::bond::keys::Keys;
+use crate::base::document::{Document, Faults, Part};
+use crate::laws::bond::keys::{BreakageChoice, Keys};
 use crate::laws::contact::{
-    CohesionModel, Model, ModelRow, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
 };
 use crate::laws::region;
+use crate::laws::surface::{ShapeRow, mesh};
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
-use crate::scene::{AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
+use crate::scene::{About, AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
 /// The whole text.
 pub(in crate::scene::file) struct RawTables {
+    /// `[about]`
+    pub(super) about: About,
     /// `[run]`
     pub(super) run: RunTable,
     /// `gravity`
@@ -35,6 +38,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) particles: Named<ParticlesTable>,
     /// `[boundary.<name>]`
     pub(super) boundaries: Named<BoundaryTable>,
+    /// How the key of each shape is written.
+    pub(super) hints: Vec<&'static str>,
     /// `[damping.<name>]`
     pub(super) damping: Named<DampingTable>,
     /// `[force.<name>]`
@@ -71,26 +76,21 @@ pub(super) struct Law {
 const MOST_MATERIALS: usize = 256;
 
 /// A file that a scene names: the table, the key, and the name.
-pub(in crate::scene::file) type FileName = (String, &'static str, String);
+pub(in crate::scene::file) type FileName = (String, String, String);
 
 /// The files that a scene names.
-pub(in crate::scene::file) fn files(document: &Document) -> Vec<FileName> {
-    let mut files = Vec::new();
-    for (kind, key) in
-        [("particles", "file"), ("bond", "create.file"), ("boundary", "mesh.file"), ("region", "mesh.file")]
-    {
-        for name in document.names(kind) {
-            let table = format!("{kind}.{name}");
-            if let Some(file) = document.text(&format!("{table}.{key}")) {
-                files.push((table, key, file.to_owned()));
-            }
-        }
+pub(in crate::scene::file) fn files(document: &Document, models: &Models) -> Vec<FileName> {
+    let mut keys = vec![("particles", "file".to_owned()), ("bond", "create.file".to_owned())];
+    let shapes = models.shapes.iter().map(|row| ("boundary", *row));
+    for (kind, row) in shapes.chain([("region", ShapeRow::of::<mesh::Keys>())]) {
+        keys.extend(row.files.iter().map(|key| (kind, format!("{}.{key}", row.key))));
     }
-    for kind in ["boundary", "region"] {
+    let mut files = Vec::new();
+    for (kind, key) in keys {
         for name in document.names(kind) {
             let table = format!("{kind}.{name}");
-            for file in document.texts(&format!("{table}.mesh.joined")) {
-                files.push((table.clone(), "mesh.joined", file.to_owned()));
+            for file in document.texts(&format!("{table}.{key}")) {
+                files.push((table.clone(), key.clone(), file.to_owned()));
             }
         }
     }
@@ -101,7 +101,7 @@ pub(in crate::scene::file) fn files(document: &Document) -> Vec<FileName> {
             let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
             let law = format!("{table}.motion.prescribed.{quoted}.table");
             if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
-                files.push((table.clone(), "motion.prescribed", file.to_owned()));
+                files.push((table.clone(), "motion.prescribed".to_owned(), file.to_owned()));
             }
         }
     }
@@ -112,6 +112,7 @@ impl RawTables {
     /// Reads all tables; `None` if any has a mistake.
     pub(super) fn read(document: &Document, models: &Models, faults: &mut Faults) -> Option<Self> {
         unknown_tables(document, faults);
+        let about = document.read("about", faults);
         let run = document.read("run", faults);
         let gravity = match document.has("gravity") {
             true => document.read_key("", "gravity", faults),
@@ -126,9 +127,9 @@ impl RawTables {
         let materials = all(document, "material", faults);
         let pairs = pairs(document, faults);
         let contacts = laws(document, models, faults);
-        let bonds = all(document, "bond", faults);
+        let bonds = bonds(document, models, faults);
         let particles = all(document, "particles", faults);
-        let boundaries = all(document, "boundary", faults);
+        let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
         let regions = all(document, "region", faults);
@@ -140,9 +141,10 @@ impl RawTables {
         if faults.count() > 0 {
             return None;
         }
-        let (run, gravity, output) = (run?, gravity?, output?);
+        let (about, run, gravity, output) = (about?, run?, gravity?, output?);
         let domain = domain.flatten();
         Some(Self {
+            about,
             run,
             gravity,
             materials,
@@ -151,6 +153,7 @@ impl RawTables {
             bonds,
             particles,
             boundaries,
+            hints: models.shapes.iter().map(|row| row.hint).collect(),
             damping,
             forces,
             regions,
@@ -247,6 +250,54 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
         }
     }
     laws
+}
+
+/// All bond laws.
+fn bonds(document: &Document, models: &Models, faults: &mut Faults) -> Named<Keys> {
+    let mut bonds = Vec::new();
+    for name in names(document, "bond", faults) {
+        let path = format!("bond.{name}");
+        let keys: Option<Keys> = document.read_part(&path, "", Part::Except(&["breakage"]), faults);
+        let breakage = breakage(document, &path, models, faults);
+        bonds.extend(keys.map(|keys| (name, Keys { breakage, ..keys })));
+    }
+    bonds
+}
+
+/// The rules of breakage of a bond law.
+fn breakage(document: &Document, bond: &str, models: &Models, faults: &mut Faults) -> Vec<BreakageChoice> {
+    let (path, before) = (format!("{bond}.breakage"), faults.count());
+    if !document.has(&path) {
+        return Vec::new();
+    }
+    let known: Vec<&str> = models.breakage.iter().flat_map(|row| row.keys()).copied().collect();
+    document.read_part::<NoKeys>(bond, "breakage", Part::Except(&known), faults);
+    let mut rules = Vec::new();
+    for row in &models.breakage {
+        if row.keys().iter().any(|key| document.has(&format!("{path}.{key}"))) {
+            rules.extend(row.read(document, bond, faults));
+        }
+    }
+    if rules.is_empty() && faults.count() == before {
+        let limits: Vec<&str> = models.breakage.iter().flat_map(|row| row.limits()).copied().collect();
+        let message = format!("expected {} or no table, found no limit", limits.join(", "));
+        faults.add(bond, "breakage", Mistake::Refused { message });
+    }
+    rules
+}
+
+/// All boundaries.
+fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Named<BoundaryTable> {
+    let known: Vec<&str> = models.shapes.iter().map(|row| row.key).collect();
+    let mut boundaries = Vec::new();
+    for name in names(document, "boundary", faults) {
+        let path = format!("boundary.{name}");
+        let table: Option<BoundaryTable> = document.read_part(&path, "", Part::Except(&known), faults);
+        let there = models.shapes.iter().filter(|row| document.has(&format!("{path}.{}", row.key)));
+        let shapes = there.filter_map(|row| Some((*row, (row.read)(document, &path, faults)?))).collect();
+        boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, ..table })));
+    }
+    boundaries
 }
 
 /// The sub-model of a kind, if the law names one.

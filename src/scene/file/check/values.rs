@@ -3,6 +3,8 @@
 
 use super::named_tables::is_name;
 use crate::base::document::{Faults, Mistake};
+use crate::base::quantity::SetIndex;
+use crate::laws::bond::creation::ListedPairs;
 use crate::scene::file::tables::is_positive_definite;
 use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
@@ -192,6 +194,10 @@ fn materials(draft: &SceneDraft, at: &mut Table) {
     for law in &draft.contacts {
         at.name = format!("contact.{}", law.name);
         at.length("between", law.between.len(), count * count);
+        if law.choice.scheme != draft.run.scheme {
+            let expected = format!("{:?}, as in [run]", draft.run.scheme.name());
+            at.wrong("scheme", format!("{:?}", law.choice.scheme.name()), &expected);
+        }
         if law.between.len() == count * count {
             at.mirrored("between", count, |one, other| law.between[one] == law.between[other]);
             if law.between.iter().zip(&governed).any(|(this, before)| *this && *before) {
@@ -292,11 +298,35 @@ fn bonds(draft: &SceneDraft, at: &mut Table) {
         }
         if let Some(plane) = bond.plane {
             at.points("between", plane.index(), draft.boundaries.len());
-            if draft.boundaries.get(plane.index()).is_some_and(|it| it.shifting_plane().is_none()) {
-                at.wrong("between", "a boundary that is no plane, or turns".to_owned(), "a plane that does not turn");
+            if draft.boundaries.get(plane.index()).is_some_and(|it| !it.takes_bonds()) {
+                let found = "a boundary that is no plane, or turns or conveys".to_owned();
+                at.wrong("between", found, "a plane that neither turns nor conveys");
             }
         }
-        at.positive("create_distance", bond.create_distance.unwrap_or(1.0));
+        let set = |set: SetIndex| draft.sets.get(set.index());
+        let plane = bond.plane.and_then(|it| draft.boundaries.get(it.index())).map(|it| &it.name);
+        let mut names = [set(bond.between[0]), plane.or(set(bond.between[1]))];
+        let mut written = bond.keys.between.each_ref().map(Some);
+        names.sort_unstable();
+        written.sort_unstable();
+        if names != written {
+            at.wrong("between", format!("{:?}", bond.keys.between), &format!("the names of what it bonds, {names:?}"));
+        }
+        let id = |index: u32| draft.particles.get(index as usize).map_or(0, |particle| particle.id.0);
+        let pairs = || bond.pairs.iter().map(|pair| pair.map(id));
+        match bond.keys.create.listed() {
+            Some(ListedPairs::Here(listed)) if !pairs().eq(listed.iter().copied()) => {
+                at.wrong(
+                    "create.pairs",
+                    format!("{listed:?}"),
+                    &format!("{:?}, the pairs", pairs().collect::<Vec<_>>()),
+                );
+            }
+            None if !bond.pairs.is_empty() => {
+                at.wrong("create", format!("{} listed pairs", bond.pairs.len()), "none, as the keys list none");
+            }
+            _ => {}
+        }
         for pair in &bond.pairs {
             at.points("create.pairs", pair[0].max(pair[1]) as usize, draft.particles.len());
             if pair[0] == pair[1] {

@@ -102,8 +102,8 @@ fn row(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
 /// The parameter of this name, if it is a strength of a bond law.
 fn strength(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
     let (bond, key) = scene.strength_of(name)?;
-    let mut keys = scene.bonds[bond].keys.breakage?;
-    let unit = keys.strengths().iter().find(|strength| strength.key == key)?.unit;
+    let strengths = scene.bonds[bond].keys.breakage.iter().flat_map(|rule| rule.strengths());
+    let (_, unit) = strengths.into_iter().find(|(name, _)| name == key)?;
     let about = format!("strength of bonds: {}", key.replace(['.', '_'], " "));
     Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range: POSITIVE, tunable: true, about })
 }

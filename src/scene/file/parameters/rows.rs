@@ -37,17 +37,21 @@ pub(super) use Unit::{Always, ByLaw};
 
 /// Of a given stiffness: a force over a length, or a pressure where the overlap or the contact radius is a factor.
 fn stiffness(law: &ContactLaw) -> &'static str {
-    if law.normal.name() == "hertz_stiffness" || law.normal.keys::<sticky::Keys>().is_some() { "Pa" } else { "N/m" }
+    if law.choice.normal.name() == "hertz_stiffness" || law.choice.normal.keys::<sticky::Keys>().is_some() {
+        "Pa"
+    } else {
+        "N/m"
+    }
 }
 
 /// Of a given damping over the effective mass.
 fn damping(law: &ContactLaw) -> &'static str {
-    if law.normal.name() == "hertz_stiffness" { "1/(m.s)" } else { "1/s" }
+    if law.choice.normal.name() == "hertz_stiffness" { "1/(m.s)" } else { "1/s" }
 }
 
 /// Of the damping of `jkr` and `dmt`.
 fn sticky_damping(law: &ContactLaw) -> &'static str {
-    match law.normal.keys::<sticky::Keys>().map(|keys| keys.damping) {
+    match law.choice.normal.keys::<sticky::Keys>().map(|keys| keys.damping) {
         Some(DampingKind::MassVelocity) => "1/s",
         Some(DampingKind::Velocity) => "kg/s",
         Some(DampingKind::Viscoelastic) | None => "1/(m.s)",

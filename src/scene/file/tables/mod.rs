@@ -22,7 +22,8 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 16] = [
+pub(in crate::scene::file) const TABLES: [&str; 17] = [
+    "about",
     "run",
     "gravity",
     "material",

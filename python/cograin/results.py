@@ -1,0 +1,262 @@
+"""What a run leaves, as arrays: `Run` reads the folder of ``cograin run``, `read_frame` one frame.
+
+>>> from cograin.results import unit_of
+>>> unit_of("lid.mean_force.z"), unit_of("energy.lost.sliding"), unit_of("contacts.count")
+('N', 'J', '1')
+"""
+
+from __future__ import annotations
+
+import base64
+import csv
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cograin.vector import Vector
+
+#: Units of the columns of a history or a record, by the first word of their names.
+FIRST = {
+    "time": "s",
+    "time_step": "s",
+    "length": "s",
+    "energy": "J",
+    "interface_energy": "J",
+    "exchanged_work": "J",
+}
+#: By the last of these words behind the name of a boundary, a region and so on.
+UNITS = {
+    "displacement": "m",
+    "velocity": "m/s",
+    "rotation": "rad",
+    "angular_velocity": "rad/s",
+    "force": "N",
+    "mean_force": "N",
+    "target_force": "N",
+    "applied_force": "N",
+    "servo_error": "N",
+    "force_slope": "N/s",
+    "moment": "N.m",
+    "mean_moment": "N.m",
+    "applied_moment": "N.m",
+    "work": "J",
+    "elastic_energy": "J",
+    "dissipated_energy": "J",
+    "mass": "kg",
+    "mass_flow": "kg/s",
+    "stress": "Pa",
+    "temperature": "m2/s2",
+    "stiffness": "N/m",
+}
+
+
+def unit_of(name: str) -> str:
+    """The unit of a variable of a unit or a column of a history; ``1`` for counts and ratios."""
+    first, *words = name.split(".")
+    return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
+
+
+class ResultError(Exception):
+    """A file that cannot be read, and why."""
+
+
+class Table(Mapping[str, Vector]):
+    """Columns of numbers by name, each with its unit: ``table["lid.force.z"]``."""
+
+    def __init__(self, columns: Mapping[str, Any]) -> None:
+        self._columns = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+
+    def __getitem__(self, name: str) -> Vector:
+        try:
+            return self._columns[name]
+        except KeyError:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, self._columns, n=1)
+            hint = f"; the nearest is {near[0]}" if near else ""
+            raise KeyError(f"expected a column of the table, found {name}{hint}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def rows(self) -> int:
+        """Number of its rows."""
+        return len(next(iter(self._columns.values()), ()))
+
+    def to_pandas(self) -> Any:
+        """The table as a ``pandas.DataFrame`` over ``time``; ``frame.attrs["units"]`` has the units."""
+        import pandas
+
+        frame = pandas.DataFrame(self._columns)
+        frame.attrs["units"] = {name: unit_of(name) for name in self}
+        return frame.set_index("time") if "time" in self else frame
+
+    def to_xarray(self) -> Any:
+        """The table as an ``xarray.Dataset`` over ``time``; each variable has its unit in ``attrs["units"]``."""
+        import xarray
+
+        time = "time" if "time" in self else "row"
+        variables = {name: (time, values, {"units": unit_of(name)}) for name, values in self.items() if name != time}
+        at = self._columns.get("time", np.arange(self.rows, dtype=float))
+        return xarray.Dataset(variables, coords={time: (time, at, {"units": unit_of(time)})})
+
+
+def read_table(path: str | Path) -> Table:
+    """Reads a CSV file of numbers: a history, or the record of a coupled run."""
+    path = Path(path)
+    try:
+        with path.open(newline="", encoding="utf-8") as text:
+            lines = list(csv.reader(text))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ResultError(f"{path}: {error}") from None
+    if not lines or len(set(lines[0])) != len(lines[0]):
+        raise ResultError(f"{path}: expected a heading with a name for each column, found {lines[:1]}")
+    names, rows = lines[0], lines[1:]
+    for number, row in enumerate(rows, 2):
+        if len(row) != len(names):
+            raise ResultError(f"{path}, line {number}: expected {len(names)} numbers, found {len(row)}")
+    try:
+        numbers = [[float(word) if word else np.nan for word in row] for row in rows]
+    except ValueError as error:
+        raise ResultError(f"{path}: expected numbers: {error}") from None
+    values = np.array(numbers, dtype=float).reshape(len(rows), len(names))
+    return Table({name: values[:, place] for place, name in enumerate(names)})
+
+
+@dataclass
+class Cloud:
+    """The points, lines or facets of one file of a frame."""
+
+    points: NDArray[np.float64]  # a row each: x, y, z [m]
+    fields: dict[str, NDArray[Any]]  # values at the points
+    cells: list[NDArray[np.int64]] = field(default_factory=list)  # points of each line or facet
+    cell_fields: dict[str, NDArray[Any]] = field(default_factory=dict)  # values of lines or facets
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name in self.fields:
+            return self.fields[name]
+        if name in self.cell_fields:
+            return self.cell_fields[name]
+        raise KeyError(f"expected one of {', '.join([*self.fields, *self.cell_fields])}, found {name}")
+
+
+_TYPES = {"Float64": "f8", "Int64": "i8", "UInt64": "u8", "UInt8": "u1", "Float32": "f4", "Int32": "i4"}
+
+
+def _array(element: ElementTree.Element) -> NDArray[Any]:
+    """The numbers of a DataArray: their count in bytes, then they themselves, in base 64."""
+    text = (element.text or "").strip()
+    data = base64.b64decode(text) if text else b""
+    values = np.frombuffer(data[8:], dtype="<" + _TYPES[element.get("type", "Float64")]).copy()
+    components = int(element.get("NumberOfComponents", "1"))
+    return values.reshape(-1, components) if components > 1 else values
+
+
+def read_frame(path: str | Path) -> Cloud:
+    """Reads a ``.vtu`` file as ``cograin`` writes them."""
+    path = Path(path)
+    try:
+        piece = ElementTree.parse(path).find("./UnstructuredGrid/Piece")
+        if piece is None:
+            raise ResultError(f"{path}: expected an unstructured grid, found another file")
+        found: dict[str, dict[str, NDArray[Any]]] = {
+            group.tag: {array.get("Name", ""): _array(array) for array in group.iter("DataArray")} for group in piece
+        }
+    except (OSError, ElementTree.ParseError, ValueError, KeyError) as error:
+        raise ResultError(f"{path}: expected a frame of cograin: {error}") from None
+    points = next(iter(found.get("Points", {}).values()), np.empty((0, 3))).reshape(-1, 3)
+    structure = found.get("Cells", {})
+    corners = structure.get("connectivity", np.empty(0, dtype=int)).astype(np.int64)
+    ends = structure.get("offsets", np.empty(0, dtype=int)).astype(np.int64)
+    cells = [] if not len(points) else np.split(corners, ends[:-1])
+    return Cloud(points, found.get("PointData", {}), list(cells), found.get("CellData", {}))
+
+
+@dataclass
+class Frame:
+    """What a run wrote at one time. A kind of file that is not there is `None`."""
+
+    folder: Path
+    number: int
+    time: float  # [s]
+
+    def _read(self, kind: str) -> Cloud | None:
+        path = self.folder / f"{kind}_{self.number:06}.vtu"
+        return read_frame(path) if path.is_file() else None
+
+    @property
+    def particles(self) -> Cloud:
+        """The particles, in the order of their ids."""
+        return read_frame(self.folder / f"particles_{self.number:06}.vtu")
+
+    @property
+    def contacts(self) -> Cloud | None:
+        """The contacts, a point each."""
+        return self._read("contacts")
+
+    @property
+    def bonds(self) -> Cloud | None:
+        """The living bonds, a line each."""
+        return self._read("bonds")
+
+    @property
+    def boundaries(self) -> Cloud | None:
+        """The surfaces, facet by facet."""
+        return self._read("boundaries")
+
+
+class Run:
+    """The results of ``cograin run`` in a folder: `history`, `summary`, `breakage`, `frames`."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        if not (self.folder / "history.csv").is_file():
+            raise ResultError(f"{self.folder}: expected the results of a run, found no history.csv")
+
+    @property
+    def history(self) -> Table:
+        """`history.csv`."""
+        return read_table(self.folder / "history.csv")
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """`summary.json`."""
+        path = self.folder / "summary.json"
+        try:
+            read: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise ResultError(f"{path}: {error}") from None
+        return read
+
+    @property
+    def breakage(self) -> list[dict[str, str]]:
+        """`breakage.csv`: a row for each bond that broke; none without bonds."""
+        path = self.folder / "breakage.csv"
+        if not path.is_file():
+            return []
+        with path.open(newline="", encoding="utf-8") as text:
+            return list(csv.DictReader(text))
+
+    @property
+    def frames(self) -> list[Frame]:
+        """The frames, in their order; they are read when they are asked for."""
+        path = self.folder / "particles.pvd"
+        if not path.is_file():
+            return []
+        text = path.read_text(encoding="utf-8")
+        found = re.findall(r'timestep="([^"]+)"[^>]*file="particles_(\d+)\.vtu"', text)
+        return [Frame(self.folder, int(number), float(time)) for time, number in found]

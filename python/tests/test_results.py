@@ -1,0 +1,139 @@
+"""What a run leaves comes back as numbers with their units, and as pictures."""
+
+import numpy as np
+import pytest
+
+from cograin.results import ResultError, Run, read_frame, read_table
+
+SCENE = """
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 0.02
+step = 1.0e-5
+[material.s]
+density = 2500.0
+[pair.s.s]
+normal_stiffness = 1.0e4
+normal_damping = 0.0
+tangential_stiffness = 1.0e3
+tangential_damping = 0.0
+friction = 0.3
+[contact.touch.normal.hooke_stiffness]
+[contact.touch.tangential.history]
+[particles.left]
+material = "s"
+list = [{ position = [0.0, 0.0, 0.0099], radius = 0.01 }, { position = [0.0, 0.0, 0.0297], radius = 0.01 }]
+[particles.right]
+material = "s"
+list = [{ position = [0.05, 0.0, 0.03], radius = 0.01, velocity = [0.3, 0.0, 0.0] }]
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "s"
+motion = { driven = ["z"] }
+[bond.glue]
+between = ["left", "left"]
+create_distance = 0.02
+normal_stiffness = 1.0e8
+tangential_stiffness = 1.0e8
+[bond.glue.breakage]
+max_normal_stress = 1.0
+[output]
+history_interval = 1.0e-3
+frame_interval = 1.0e-2
+contacts = true
+boundaries = true
+energy = true
+losses = true
+[region.all]
+box = [[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]]
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results")
+    (folder / "scene.toml").write_text(SCENE)
+    program("run", folder / "scene.toml", "-o", folder / "out")
+    return folder / "out"
+
+
+def test_the_history_is_a_table_by_names(folder):
+    history = Run(folder).history
+    assert history.rows == 21
+    assert history["time"][-1] == 0.02
+    with pytest.raises(KeyError, match=r"the nearest is floor\.force\.z"):
+        history["floor.force.zz"]
+
+
+def test_frames_are_the_arrays_that_meshio_reads(folder):
+    meshio = pytest.importorskip("meshio")
+    for kind in ("particles", "contacts", "boundaries", "bonds"):
+        path = folder / f"{kind}_000000.vtu"
+        ours, theirs = read_frame(path), meshio.read(path)
+        assert np.array_equal(ours.points, theirs.points), kind
+        assert ours.fields.keys() == theirs.point_data.keys()
+        for name, values in theirs.point_data.items():
+            assert np.array_equal(ours[name], values), (kind, name)
+        ends = [list(cell) for block in theirs.cells for cell in block.data]
+        assert [list(cell) for cell in ours.cells] == ends, kind
+
+
+def test_a_frame_knows_its_time_and_what_it_has(folder):
+    first, *_, last = Run(folder).frames
+    assert [first.time, last.time] == [0.0, 0.02]
+    assert len(last.particles) == 3 and len(first.contacts) == 2 and len(last.boundaries.cells) == 1
+    assert first.bonds is not None and len(first.bonds.cells) == 1
+
+
+def test_files_that_are_no_results_are_refused_in_words(tmp_path):
+    with pytest.raises(ResultError, match="found no history"):
+        Run(tmp_path)
+    for text, reason in [
+        ("", "heading"),
+        ("time,a,a\n", "heading"),
+        ("time,a\n1\n", "line 2: expected 2"),
+        ("time\nx\n", "numbers"),
+    ]:
+        (tmp_path / "table.csv").write_text(text)
+        with pytest.raises(ResultError, match=reason):
+            read_table(tmp_path / "table.csv")
+    for data in (b"", b"<VTKFile/>", b"\xff\x00", b"<VTKFile><UnstructuredGrid><Piece/></UnstructuredGrid></VTKFile"):
+        (tmp_path / "frame.vtu").write_bytes(data)
+        with pytest.raises(ResultError, match=r"frame\.vtu: expected"):
+            read_frame(tmp_path / "frame.vtu")
+
+
+def test_tables_become_those_of_pandas_and_xarray(folder):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    history = Run(folder).history
+    frame = history.to_pandas()
+    assert frame.index.name == "time" and frame.attrs["units"]["floor.force.z"] == "N"
+    assert (frame["floor.work"].to_numpy() == history["floor.work"]).all()
+    dataset = history.to_xarray()
+    assert dataset["energy.kinetic"].attrs["units"] == "J" and dataset.sizes == {"time": 21}
+
+
+def test_everything_that_a_run_has_is_drawn(folder, tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import draw, main
+
+    made = {path.name for path in draw(folder, tmp_path / "pictures")}
+    assert made == {
+        "history.png", "energy.png", "packing_velocity.png", "packing_force.png", "packing_set.png", "force_chains.png",
+        "cracks.png", "animation.gif",
+    }  # fmt: skip
+    for path in (tmp_path / "pictures").iterdir():
+        assert path.stat().st_size > 3000, path
+    assert main([str(tmp_path / "nothing")]) == 2
+    assert main([str(folder), "-o", str(tmp_path / "other"), "--by", "colour"]) == 2
+
+
+def test_a_record_of_a_coupled_run_is_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import draw
+
+    time = np.linspace(0.0, 1.0, 50)
+    rows = "\n".join(f"{t},{np.sin(5 * t)},{1e-3 * np.cos(5 * t)}" for t in time)
+    (tmp_path / "coupled.csv").write_text(f"time,table.mean_force.z,table.displacement.z\n{rows}\n")
+    assert [path.name for path in draw(tmp_path / "coupled.csv")] == ["history.png"]
