@@ -20,6 +20,9 @@ const TURNS: usize = 12;
 /// How many surfaces that stand or are led a body may meet at once: two in an edge.
 const AT_SURFACES: f64 = 2.0;
 
+/// What meets: a particle, another one, or a boundary.
+type ImpactBodies = (u32, Option<u32>, Option<u32>);
+
 /// A body that may meet another one, or a surface.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
@@ -106,7 +109,7 @@ impl System<'_> {
         &self,
         speed: f64,
         acceleration: f64,
-        tell: &mut dyn FnMut((u32, Option<u32>, Option<u32>), Freedoms, [Frame; 2]),
+        tell: &mut dyn FnMut(ImpactBodies, Freedoms, [Frame; 2]),
     ) {
         let (candidates, surfaces) = (self.candidates(), self.moved_surfaces());
         let closing = |radius: f64| 2.0 * speed + (2.0 * acceleration * radius).sqrt();
