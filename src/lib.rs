@@ -40,7 +40,7 @@ mod laws;
 mod output;
 pub mod scene;
 
-pub use base::{geometry, lanes, memory, number, quantity};
+pub use base::{geometry, lanes, memory, number, quantity, words};
 pub use engine::{averages, simulation, state, statics};
 pub use laws::{bond, contact, motion, region, surface};
 pub use output::{export, report, results, run};

@@ -161,3 +161,41 @@ fn largest_difference(a: &Simulation, b: &Simulation) -> f64 {
     });
     differences.fold(0.0, f64::max)
 }
+
+#[test]
+fn a_communication_step_made_in_parts_and_saved_between_them_gives_the_same_bits() {
+    let given = SCENE.replace("THREADS", "2").replace("SKIN", "4.0e-4");
+    let automatic = given.replace("step = 2.0e-5", "step = \"auto\"\nsafety = 0.7");
+    assert_ne!(given, automatic);
+    for text in [given, automatic] {
+        let (mut whole, mut parts) = (start(&text), start(&text));
+        let scene = whole.scene().clone();
+        for (number, interval) in (0..).zip([4.0e-4, 1.0e-3, 2.03e-3]) {
+            for simulation in [&mut whole, &mut parts] {
+                simulation.set_input(BoundaryIndex(0), 2, 3e-5 * f64::from(number % 2));
+            }
+            whole.advance(interval).expect("it runs");
+            let mut made = 0;
+            while !parts.advance_part(interval, 3 + made % 5).expect("it runs") {
+                made += 1;
+                let underway = parts.state().underway.expect("a part is left");
+                assert!((whole.time() - interval + underway.elapsed() - parts.time()).abs() < 1e-12);
+                let bytes = parts.state().to_bytes(scene.fingerprint);
+                let state = State::from_bytes(&bytes, scene.fingerprint).expect("the bytes are whole");
+                parts = Simulation::resume(scene.clone(), state).expect("it is a state of the scene");
+            }
+            assert!(made > 3, "{made} parts");
+            assert_eq!(parts.state().fingerprint(), whole.state().fingerprint(), "after {interval} s");
+        }
+    }
+}
+
+#[test]
+fn what_was_left_on_its_way_is_not_gone_on_with_unasked() {
+    let mut simulation = simulation(1);
+    assert!(!simulation.advance_part(1.0e-3, 5).unwrap());
+    let time = simulation.time();
+    simulation.advance(4.0e-4).unwrap();
+    assert!((simulation.time() - time - 4.0e-4).abs() < 1e-15);
+    assert_eq!(simulation.state().underway, None);
+}

@@ -3,7 +3,9 @@
 //! A program with sub-models of its own calls [`main_with`]; it checks, runs, settles and exports scenes that name them.
 
 mod chart;
+mod progress;
 mod recipes;
+mod shell;
 
 use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
@@ -11,20 +13,20 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_libraries};
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
-use cograin::run::{EarlierResults, Progress, RunOrder, SettleOrder, SettleProgress, Start};
+use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
 use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
 use cograin_verify as verify;
-use indicatif::{ProgressBar, ProgressStyle};
+use progress::Progress;
 use rayon::prelude::*;
+use shell::CompletionArguments;
 use std::ffi::c_int;
 use std::fmt::Display;
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::io::{ErrorKind, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 /// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
 ///
@@ -35,6 +37,9 @@ struct Arguments {
     /// What to do.
     #[command(subcommand)]
     command: Command,
+    /// Tell no progress and no closing line; reports and errors are still told
+    #[arg(short, long, global = true)]
+    quiet: bool,
 }
 
 /// The commands.
@@ -54,6 +59,8 @@ enum Command {
     Verify(VerifyArguments),
     /// Chart the outputs of a scene over its time step, and recommend one: a table and a picture
     Chart(ChartArguments),
+    /// Print what a shell needs to complete commands and options, or the manual page
+    Completion(CompletionArguments),
 }
 
 /// A scene.
@@ -89,6 +96,9 @@ struct CheckArguments {
     /// Print the condensed static stiffness of every boundary instead; the packing should be at rest
     #[arg(long)]
     stiffness: bool,
+    /// Print the report as JSON
+    #[arg(long, conflicts_with = "stiffness")]
+    json: bool,
 }
 
 /// `cograin run`
@@ -123,6 +133,9 @@ struct SettleArguments {
     /// Begin with this checkpoint, which may be that of another scene: takes over particles, contacts and bonds
     #[arg(long, value_name = "CHECKPOINT")]
     from: Option<PathBuf>,
+    /// Go on with what an earlier attempt left in FILE.unsettled
+    #[arg(long, conflicts_with = "from")]
+    resume: bool,
     /// File of the settled state
     #[arg(short, long, value_name = "CHECKPOINT")]
     output: PathBuf,
@@ -212,14 +225,16 @@ impl From<Failure> for Ending {
 /// with the same sub-models.
 pub fn main_with(models: &Models, library: &str) -> ExitCode {
     tell_of_full_files();
-    let ended = match Arguments::parse().command {
+    let Arguments { command, quiet } = Arguments::parse();
+    let ended = match command {
         Command::New(arguments) => recipes::new(&arguments),
-        Command::Check(arguments) => check(models, &arguments),
-        Command::Run(arguments) => run(models, &arguments),
-        Command::Settle(arguments) => settle(models, &arguments),
-        Command::Export(arguments) => package(models, library, &arguments),
+        Command::Check(arguments) => check(models, &arguments, quiet),
+        Command::Run(arguments) => run(models, &arguments, quiet),
+        Command::Settle(arguments) => settle(models, &arguments, quiet),
+        Command::Export(arguments) => package(models, library, &arguments, quiet),
         Command::Verify(arguments) => replay(&arguments),
         Command::Chart(arguments) => chart::chart(models, &arguments),
+        Command::Completion(arguments) => shell::completion(&arguments),
     };
     let (status, reason) = match ended {
         Ok(()) => return ExitCode::SUCCESS,
@@ -231,10 +246,15 @@ pub fn main_with(models: &Models, library: &str) -> ExitCode {
     ExitCode::from(status)
 }
 
-/// Prints a line. A reader that is gone does not want to know more; that a disk is full must be told.
+/// Prints a line.
 fn say(line: impl Display) -> Result<(), Ending> {
+    say_as_it_is(format!("{}\n", printable(&line.to_string())).as_bytes())
+}
+
+/// Prints a text of the program's own. A reader that is gone does not want to know more; that a disk is full must be told.
+fn say_as_it_is(text: &[u8]) -> Result<(), Ending> {
     let mut output = std::io::stdout();
-    match writeln!(output, "{}", printable(&line.to_string())).and_then(|()| output.flush()) {
+    match output.write_all(text).and_then(|()| output.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Ending::failed(format_args!("the standard output cannot be written: {error}")))
         }
@@ -253,20 +273,17 @@ fn printable(text: &str) -> String {
 }
 
 /// Reads a scene, and shows how far its random packings are.
-fn read(models: &Models, arguments: &SceneArguments) -> Result<(Scene, Source), Ending> {
-    let bar = bar("{spinner} {msg}  {elapsed}");
+fn read(models: &Models, arguments: &SceneArguments, quiet: bool) -> Result<(Scene, Source), Ending> {
+    let mut shown = Progress::new(quiet, "{spinner} {msg}  {elapsed}");
     let result = models.read(&arguments.scene, &arguments.settings, &mut |progress| {
-        if bar.is_hidden() {
-            return;
-        }
-        bar.set_message(match progress {
+        shown.tell(None, || match progress {
             PackingProgress::Placing { set, placed, count } => format!("[{set}] {placed} of {count} spheres placed"),
             PackingProgress::Pushing { set, rounds, overlap } => {
                 format!("[{set}] packing: {rounds} rounds, largest overlap {overlap:.1e} of the radius")
             }
         });
     });
-    bar.finish_and_clear();
+    shown.end();
     result.map_err(Ending::refused)
 }
 
@@ -284,8 +301,8 @@ fn earlier_file(overwrite: bool) -> EarlierFile {
 }
 
 /// Reads a scene to be computed here. Its files are needed no more when the work begins.
-fn read_to_run(models: &Models, arguments: &ComputeArguments) -> Result<(Arc<Scene>, Source), Ending> {
-    let (scene, source) = read(models, &arguments.scene)?;
+fn read_to_run(models: &Models, arguments: &ComputeArguments, quiet: bool) -> Result<(Arc<Scene>, Source), Ending> {
+    let (scene, source) = read(models, &arguments.scene, quiet)?;
     let scene = match arguments.threads {
         Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
         None => scene,
@@ -294,18 +311,18 @@ fn read_to_run(models: &Models, arguments: &ComputeArguments) -> Result<(Arc<Sce
 }
 
 /// `cograin check`
-fn check(models: &Models, arguments: &CheckArguments) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(models, &arguments.scene)?;
+fn check(models: &Models, arguments: &CheckArguments, quiet: bool) -> Result<(), Ending> {
+    let (scene, source) = read_to_run(models, &arguments.scene, quiet)?;
     if arguments.stiffness {
         return say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
     }
     let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
-    say(report)
+    if arguments.json { say_as_it_is(report.to_json().as_bytes()) } else { say(report) }
 }
 
 /// `cograin run`
-fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
-    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), Ending> {
+    let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
     let read = files_read(&arguments.scene.scene.scene, &source, &[]);
     refuse_to_replace(&arguments.output, &read).map_err(Ending::refused)?;
     source.files.clear();
@@ -330,22 +347,19 @@ fn run(models: &Models, arguments: &RunArguments) -> Result<(), Ending> {
         inputs: arguments.inputs.as_deref(),
         stop: &stop,
     };
-    let bar = bar("{bar:40} {percent:>3} %  {msg}  {eta} left");
-    let result = cograin::run::run(order, &mut |progress: Progress| {
-        if bar.is_hidden() {
-            return;
-        }
+    let mut shown = Progress::new(quiet, "{bar:40} {percent:>3} %  {msg}  {eta} left");
+    let result = cograin::run::run(order, &mut |progress: cograin::run::Progress| {
         let share = (progress.time - progress.start) / (progress.end - progress.start);
-        bar.set_position((share * BAR_LENGTH as f64) as u64);
-        bar.set_message(format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
+        shown.tell(Some(share), || format!("t = {:.4e} of {:.4e} s", progress.time, progress.end));
     });
-    bar.finish_and_clear();
-    say(result?)
+    shown.end();
+    let summary = result?;
+    if quiet { Ok(()) } else { say(summary) }
 }
 
 /// `cograin settle`
-fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
-    let (scene, mut source) = read_to_run(models, &arguments.scene)?;
+fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(), Ending> {
+    let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
     let read = files_read(&arguments.scene.scene.scene, &source, &[&arguments.from]);
     claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     source.files.clear();
@@ -353,33 +367,28 @@ fn settle(models: &Models, arguments: &SettleArguments) -> Result<(), Ending> {
     let order = SettleOrder {
         scene: &scene,
         scene_name: &source.name,
-        from: arguments.from.as_deref(),
+        start: match &arguments.from {
+            _ if arguments.resume => SettleStart::Unsettled,
+            Some(path) => SettleStart::From(path),
+            None => SettleStart::Scene,
+        },
         checkpoint: &arguments.output,
         most_steps: arguments.steps,
         stop: &stop,
     };
-    let bar = bar("{spinner} {msg}  {elapsed}");
+    let mut shown = Progress::new(quiet, "{spinner} {msg}  {elapsed}");
     let result = cograin::run::settle(order, &mut |progress: SettleProgress| {
-        if bar.is_hidden() {
-            return;
-        }
         let SettleProgress { steps, ratio, tolerance } = progress;
-        bar.set_message(format!("{steps} steps, unbalanced force {ratio:.2e}, {tolerance:.0e} asked for"));
+        shown.tell(None, || format!("{steps} steps, unbalanced force {ratio:.2e}, {tolerance:.0e} asked for"));
     });
-    bar.finish_and_clear();
+    shown.end();
     let settled = result?;
-    let kind = if settled.contacts > 0 { "contact" } else { "bond" };
-    say(format_args!(
-        "settled after {} steps (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {} contacts, \
-         kinetic energy {:.3e} J",
-        settled.steps, settled.time, settled.wall_time, settled.ratio, kind, settled.contacts, settled.kinetic_energy
-    ))?;
-    say_left_behind(&settled.left_behind)
+    if quiet { Ok(()) } else { say(settled) }
 }
 
 /// `cograin export`
-fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Result<(), Ending> {
-    let (scene, source) = read(models, &arguments.scene)?;
+fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: bool) -> Result<(), Ending> {
+    let (scene, source) = read(models, &arguments.scene, quiet)?;
     let scene = Arc::new(scene);
     let libraries = find_libraries(library, &arguments.libraries).map_err(Ending::failed)?;
     let mut read = files_read(&arguments.scene.scene, &source, &[&arguments.from]);
@@ -396,14 +405,11 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments) -> Resul
     let exported = export(&source, &scene, state, &libraries, &arguments.output);
     exported.map_err(|error| match error {
         PackageError::Write { .. } => Ending::failed(error),
+        PackageError::Chosen(error) => Ending::refused(format_args!("{}, {error}", source.name)),
         error => Ending::refused(error),
     })?;
-    say_left_behind(begun.as_ref().map_or(&[], |begun| &begun.left_behind))
-}
-
-/// Prints what could not be taken over from the checkpoint of another scene.
-fn say_left_behind(left_behind: &[String]) -> Result<(), Ending> {
-    left_behind.iter().try_for_each(|left| say(format_args!("not taken along: {left}")))
+    let left_behind = begun.map_or_else(Vec::new, |begun| begun.left_behind);
+    left_behind.iter().filter(|_| !quiet).try_for_each(|left| say(format_args!("not taken along: {left}")))
 }
 
 /// `cograin verify`
@@ -423,23 +429,6 @@ fn replay(arguments: &VerifyArguments) -> Result<(), Ending> {
         say(report)?;
     }
     if failed > 0 { Err(Ending::failed(format_args!("{failed} of {} cases failed", cases.len()))) } else { Ok(()) }
-}
-
-/// Parts of a progress bar.
-const BAR_LENGTH: u64 = 10_000;
-
-/// Time between two drawings of a progress bar while nothing is told.
-const BAR_PAUSE: Duration = Duration::from_millis(500);
-
-/// A progress bar; invisible where the standard error is not a terminal.
-fn bar(template: &str) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(BAR_LENGTH).with_style(style);
-    bar.enable_steady_tick(BAR_PAUSE);
-    bar
 }
 
 /// Lets the first Ctrl-C, or another request to end, end the work in good order, and the second at once: all files are whole at any

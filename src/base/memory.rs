@@ -7,7 +7,8 @@
 //! Here each begins some lines of the cache further into its page than the one before.
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Arrays from this size on are placed \[bytes\].
 const LARGE: usize = 1 << 16;
@@ -28,7 +29,8 @@ const BEGINNINGS: usize = 60;
 const NOTE: usize = size_of::<*mut u8>();
 
 /// The system's allocator with large arrays beginning at different places of a page. Programs choose it with
-/// `#[global_allocator]`; results do not depend on it.
+/// `#[global_allocator]`; results do not depend on it. Where the system has no memory left it ends the program in words and with
+/// status 1, instead of by a signal.
 pub struct Staggered;
 
 /// Large arrays that were given out.
@@ -45,14 +47,32 @@ fn is_large(array: Layout) -> bool {
     array.size() >= LARGE && array.align() <= LINE
 }
 
+/// The memory that the system gave; where it has none left the program ends.
+fn given(start: *mut u8, memory: Layout) -> *mut u8 {
+    if start.is_null() { end_without(memory) } else { start }
+}
+
+/// Ends the program in words and with status 1, as other work that failed. Files are whole at any time.
+#[cold]
+fn end_without(memory: Layout) -> ! {
+    /// Whether the words are being said: saying them must not ask for memory again and again.
+    static SAID: AtomicBool = AtomicBool::new(false);
+    if !SAID.swap(true, Ordering::Relaxed) {
+        let megabytes = memory.size() as f64 / 1e6;
+        let _ = writeln!(
+            io::stderr(),
+            "expected {megabytes:.3} MB more of memory, found none free in the machine or within the limit of this process; the \
+             files written so far are whole"
+        );
+    }
+    std::process::exit(1)
+}
+
 /// Places an array in its memory, and notes where that begins.
 ///
 /// # Safety
-/// `start` is null or memory of the layout [`around`] the array.
+/// `start` is memory of the layout [`around`] the array.
 unsafe fn place(start: *mut u8) -> *mut u8 {
-    if start.is_null() {
-        return start;
-    }
     let lines = GIVEN.fetch_add(1, Ordering::Relaxed) * STRIDE % BEGINNINGS;
     // The next page begins at most one page further on, and never less than `NOTE` after the start with a line more.
     let ahead = PAGE - start.addr() % PAGE + LINE + LINE * lines;
@@ -71,18 +91,18 @@ unsafe impl GlobalAlloc for Staggered {
     unsafe fn alloc(&self, array: Layout) -> *mut u8 {
         match around(array).filter(|_| is_large(array)) {
             // SAFETY: the size is not zero.
-            Some(memory) => unsafe { place(System.alloc(memory)) },
+            Some(memory) => unsafe { place(given(System.alloc(memory), memory)) },
             // SAFETY: the caller's promise.
-            None => unsafe { System.alloc(array) },
+            None => given(unsafe { System.alloc(array) }, array),
         }
     }
 
     unsafe fn alloc_zeroed(&self, array: Layout) -> *mut u8 {
         match around(array).filter(|_| is_large(array)) {
             // SAFETY: the size is not zero. The note stands in front of the array.
-            Some(memory) => unsafe { place(System.alloc_zeroed(memory)) },
+            Some(memory) => unsafe { place(given(System.alloc_zeroed(memory), memory)) },
             // SAFETY: the caller's promise.
-            None => unsafe { System.alloc_zeroed(array) },
+            None => given(unsafe { System.alloc_zeroed(array) }, array),
         }
     }
 

@@ -8,3 +8,4 @@ pub mod number;
 pub mod quantity;
 pub(crate) mod threads;
 pub(crate) mod vtk_reader;
+pub mod words;

@@ -151,6 +151,6 @@ fn is_read_at_once(variable: &Variable) -> bool {
 fn rate_of(variable: &Variable) -> Option<(rows::ReadRate, rows::At)> {
     match &variable.source {
         Source::Row(rows::Source { row, at }) => row.rate.map(|rate| (rate, *at)),
-        Source::Parameter(_) | Source::Text(_) => None,
+        Source::Parameter(_) | Source::Text(_) | Source::Derived(_) => None,
     }
 }

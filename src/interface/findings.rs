@@ -1,7 +1,7 @@
 //! Quantities that need a pass over particles or contacts: each is computed once at a communication point.
 
 use crate::base::quantity::BoundaryIndex;
-use crate::engine::averages::{self, Content, Coordination, Tensor};
+use crate::engine::averages::{self, Content, Coordination, Sight, Tensor};
 use crate::engine::simulation::{ElasticEnergy, Simulation};
 use crate::engine::state::Loss;
 use crate::engine::statics;
@@ -31,6 +31,8 @@ pub struct Findings {
     carried: OnceCell<Vec<Tensor>>,
     /// Contacts of the particles in each region.
     coordination: OnceCell<Vec<Coordination>>,
+    /// What each probe sees.
+    sights: OnceCell<Vec<Sight>>,
 }
 
 impl Findings {
@@ -81,6 +83,11 @@ impl Findings {
         let fluctuation = self.content(simulation, region).fluctuation;
         let carried = 0.5 * (carried[row][column] + carried[column][row]);
         (carried - fluctuation[row][column]) / simulation.scene().regions[region].shape.volume()
+    }
+
+    /// What a probe sees.
+    pub(super) fn sight(&self, simulation: &Simulation, probe: usize) -> Sight {
+        self.sights.get_or_init(|| averages::sights(simulation))[probe]
     }
 
     /// Largest overlap over the smaller radius.

@@ -3,6 +3,7 @@
 //! Forces and moments are those *of the particles on the boundary*; moments are taken about the boundary's
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
+mod chosen;
 mod derivatives;
 mod error;
 mod findings;
@@ -14,6 +15,7 @@ mod rows;
 mod texts;
 mod writing;
 
+pub use chosen::{ChosenError, MOST_COLUMNS};
 pub use derivatives::Derivatives;
 pub use error::InterfaceError;
 pub use findings::Findings;
@@ -115,7 +117,15 @@ impl Variable {
     pub fn node(&self) -> Option<usize> {
         match &self.source {
             Source::Row(row) => row.node(),
-            Source::Parameter(_) | Source::Text(_) => None,
+            Source::Parameter(_) | Source::Text(_) | Source::Derived(_) => None,
+        }
+    }
+
+    /// The boundary that it is of, from 0, if it is of one.
+    pub fn boundary(&self) -> Option<usize> {
+        match &self.source {
+            Source::Row(row) => row.boundary(),
+            Source::Parameter(_) | Source::Text(_) | Source::Derived(_) => None,
         }
     }
 
@@ -123,7 +133,7 @@ impl Variable {
     pub fn start_text(&self) -> Option<&'static str> {
         match self.source {
             Source::Text(text) => Some(text.start),
-            Source::Row(_) | Source::Parameter(_) => None,
+            Source::Row(_) | Source::Parameter(_) | Source::Derived(_) => None,
         }
     }
 }
@@ -137,6 +147,8 @@ enum Source {
     Parameter(Parameter),
     /// A row of the table of texts.
     Text(&'static Text),
+    /// The sum of these variables.
+    Derived(Vec<usize>),
 }
 
 /// All variables of a scene. The index of a variable is its place in the table.
@@ -146,16 +158,21 @@ pub struct Interface {
     variables: Vec<Variable>,
     /// How each is read.
     readers: Vec<Reader>,
+    /// Indices of the outputs that a run records.
+    recorded: Vec<usize>,
 }
 
 impl Interface {
     /// The variables of a scene.
     pub fn of(scene: &Scene) -> Self {
         let mut variables = rows::variables(scene);
+        let derived = chosen::derived(scene, &variables);
+        variables.extend(derived);
         variables.extend(parameters::variables(scene));
         variables.extend(texts::variables());
         let readers = variables.iter().map(Reader::of).collect();
-        Self { variables, readers }
+        let recorded = chosen::recorded(scene, &variables);
+        Self { variables, readers, recorded }
     }
 
     /// The same variables, with the start values of a scene that begins in this state.
@@ -183,9 +200,10 @@ impl Interface {
         self.of_causality(Causality::Output)
     }
 
-    /// The outputs that a run records, each with its index: all but those of single nodes.
+    /// The outputs that a run records, each with its index: those that the scene names, or all but those of single nodes and, beyond
+    /// [`MOST_COLUMNS`], of groups of particles.
     pub fn recorded(&self) -> impl Iterator<Item = (usize, &Variable)> {
-        self.outputs().filter(|(_, variable)| variable.node().is_none())
+        self.recorded.iter().map(|&index| (index, &self.variables[index]))
     }
 
     /// The inputs, each with its index.
@@ -218,6 +236,19 @@ impl Interface {
         match &self.variables[index].source {
             Source::Row(rows::Source { row, at }) => (row.read)(Present { simulation, findings }, *at),
             Source::Parameter(parameter) => parameter.value(simulation),
+            Source::Derived(terms) => {
+                let values = || terms.iter().map(|&term| self.value_with(simulation, findings, term));
+                match self.type_of(index) {
+                    Some(Type::Integer) => {
+                        let count = |sum: i32, value: Value| match value {
+                            Value::Integer(count) => sum.saturating_add(count),
+                            Value::Real(_) => sum,
+                        };
+                        Value::Integer(values().fold(0, count))
+                    }
+                    _ => Value::Real(values().map(Value::number).sum()),
+                }
+            }
             // Who holds the simulation holds its texts.
             Source::Text(_) => Value::Real(f64::NAN),
         }

@@ -19,7 +19,7 @@ impl Reader {
     pub(super) fn of(variable: &Variable) -> Self {
         let (read, at) = match &variable.source {
             Source::Row(Place { row, at }) => (Some(row.read), *at),
-            Source::Parameter(_) | Source::Text(_) => (None, At::NOWHERE),
+            Source::Parameter(_) | Source::Text(_) | Source::Derived(_) => (None, At::NOWHERE),
         };
         Self { read, at, of_type: variable.quantity.of_type() }
     }

@@ -18,6 +18,7 @@ mod output;
 pub(crate) mod packing;
 mod parameters;
 mod plane;
+mod probe;
 mod region;
 mod source;
 mod statics;
@@ -43,6 +44,8 @@ pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
 pub(crate) use plane::objections as plane_objections;
 pub use plane::{MotionPlane, ParticleShape};
+pub use probe::{Derived, Probe, Probed};
+pub(crate) use probe::{DerivedKeys, ProbeKeys};
 pub use region::Region;
 pub use source::Source;
 
@@ -114,6 +117,10 @@ pub struct SceneDraft {
     pub outlets: Vec<Outlet>,
     /// Polygons at which is counted what passes, in the order of the file.
     pub meters: Vec<FlowMeter>,
+    /// Particles, sets and contacts that are looked at, in the order of the file.
+    pub probes: Vec<Probe>,
+    /// Sums of outputs, in the order of the file.
+    pub derived: Vec<Derived>,
     /// What a run writes.
     pub output: Output,
     /// Numbers of the text that a unit shows as its parameters; none in a scene built in code.

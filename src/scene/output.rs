@@ -4,12 +4,14 @@ use crate::base::quantity::Positive;
 use serde::{Deserialize, Deserializer};
 
 /// `[output]`: what a run writes; what is absent is not computed.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Time between rows of `history.csv` \[s\].
     #[serde(deserialize_with = "positive")]
     pub history_interval: Option<f64>,
+    /// Names of the columns of `history.csv`, `*` for any characters; none: all outputs but those of nodes.
+    pub columns: Option<Vec<String>>,
     /// Time between `.vtu` frames of the particles \[s\].
     #[serde(deserialize_with = "positive")]
     pub frame_interval: Option<f64>,

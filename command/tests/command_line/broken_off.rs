@@ -1,9 +1,13 @@
 //! Runs that are broken off and go on.
 
 use crate::ground::{ALL_OUTPUTS, Place, assert_same, cograin, complaint, results, summary, wait_for_rows};
+use cograin::results::read_checkpoint;
+use cograin::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// Starts a run of many steps, stops it as told, and returns the folder; also the folder of a run that was left alone.
 fn broken_and_whole(place: &Place, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf, PathBuf) {
@@ -133,4 +137,98 @@ fn resuming_without_a_checkpoint_is_refused() {
     let said = complaint(&cograin(&[&"run", &scene, &"-o", &place.at("out"), &"--resume"]).output().unwrap(), 2);
     assert!(said.contains("holds no checkpoint.cograin"), "{said}");
     assert!(!place.at("out").exists());
+}
+
+/// Starts a run that goes on for as long as nobody stops it, and interrupts it after a while. Returns what it says.
+fn interrupted(scene: &Path, out: &Path, more: &[&str], wait: Duration) -> String {
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT", env!("CARGO_BIN_EXE_cograin"), "run"]).arg(scene).arg("-o").arg(out);
+    let mut child =
+        command.args(more).stdin(Stdio::null()).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    sleep(wait);
+    assert!(child.try_wait().unwrap().is_none(), "the run ended before it could be stopped");
+    let begun = Instant::now();
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let said = complaint(&child.wait_with_output().unwrap(), 1);
+    assert!(begun.elapsed() < Duration::from_secs(5), "it took {:?} to stop", begun.elapsed());
+    said
+}
+
+/// An interruption waited for the end of the communication step: of an hour, in a run without intervals and with short time steps.
+#[test]
+fn an_interruption_acts_between_time_steps() {
+    let place = Place::new("between_steps");
+    let (scene, out) = (place.scene("end = 1e6\nstep = 1e-6", ""), place.at("out"));
+    let said = interrupted(&scene, &out, &[], Duration::from_millis(1500));
+    assert!(said.contains("interrupted at t = ") && said.contains("--resume"), "{said}");
+    let checked = Scene::read(&scene).unwrap().0;
+    let state = |out: &Path| read_checkpoint(&out.join("checkpoint.cograin"), &checked).unwrap();
+    let before = state(&out);
+    assert!(before.clock.steps > 1000 && before.underway.is_some(), "{:?}", before.clock);
+    assert_eq!(summary(&out)["steps"], before.clock.steps);
+    // From another folder, too.
+    let other = place.at("other");
+    let file = out.join("checkpoint.cograin");
+    interrupted(&scene, &other, &["--resume", file.to_str().unwrap()], Duration::from_millis(1500));
+    interrupted(&scene, &out, &["--resume"], Duration::from_millis(1500));
+    for folder in [&out, &other] {
+        assert!(state(folder).clock.steps > before.clock.steps + 1000, "it has gone on");
+        assert!(summary(folder)["momentum"]["relative_residual"].as_f64().unwrap() < 1e-12);
+    }
+    assert_eq!(fs::read_to_string(out.join("history.csv")).unwrap().lines().count(), 2);
+}
+
+#[test]
+fn a_run_that_was_interrupted_on_its_way_ends_with_the_same_bytes() {
+    let place = Place::new("on_its_way");
+    let scene = place.at("scene.toml");
+    let text = BEAM
+        .replace("history_interval = 4e-5", "history_interval = 2e-2")
+        .replace("frame_interval = 1e-3\ncheckpoint_interval = 1e-4", "")
+        .replace("end = 4e-3", "end = 4e-2");
+    fs::write(&scene, text).unwrap();
+    let (broken, whole) = (place.at("broken"), place.at("whole"));
+    interrupted(&scene, &broken, &[], Duration::from_millis(700));
+    interrupted(&scene, &broken, &["--resume"], Duration::from_millis(700));
+    assert!(!results(&broken)["breakage.csv"].is_empty());
+    complaint(&cograin(&[&"run", &scene, &"-o", &broken, &"--resume"]).output().unwrap(), 0);
+    complaint(&cograin(&[&"run", &scene, &"-o", &whole]).output().unwrap(), 0);
+    assert_same(&broken, &whole);
+    assert!(results(&whole)["breakage.csv"].iter().filter(|byte| **byte == b'\n').count() > 1, "nothing broke");
+}
+
+#[test]
+fn settling_is_interrupted_between_time_steps_and_can_be_gone_on_with() {
+    let place = Place::new("settling_interrupted");
+    // Nothing comes to rest without damping.
+    let run = "step = 1e-7\nsettle_damping = 0.0\nsettle_tolerance = 1e-12";
+    let (scene, state) = (place.scene(run, ""), place.at("settled.cograin"));
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT", env!("CARGO_BIN_EXE_cograin"), "settle"]).arg(&scene).arg("-o").arg(&state);
+    let child = command.args(["--steps", "1000000000"]).stderr(Stdio::piped()).spawn().unwrap();
+    sleep(Duration::from_millis(700));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let said = complaint(&child.wait_with_output().unwrap(), 1);
+    assert!(said.contains("interrupted after ") && said.contains("run again with --resume"), "{said}");
+    let kept = place.at("settled.cograin.unsettled");
+    assert!(kept.exists() && !state.exists());
+    let again = cograin(&[&"settle", &scene, &"-o", &state, &"--resume", &"--steps", &"200"]).output().unwrap();
+    let said = complaint(&again, 1);
+    assert!(said.contains("not settled after 200 steps"), "{said}");
+}
+
+/// An automatic step of 2e-21 s: 2e18 time steps to the end.
+#[test]
+fn an_automatic_step_that_never_comes_to_the_end_is_refused() {
+    let place = Place::new("endless");
+    let scene = place.at("scene.toml");
+    let text = BEAM.replace("step = 2e-8", "step = \"auto\"").replace("1e12", "1e40").replace("4e11", "4e39");
+    fs::write(&scene, text).unwrap();
+    for command in ["check", "run"] {
+        let out =
+            if command == "run" { vec!["-o".to_owned(), place.at("out").display().to_string()] } else { Vec::new() };
+        let done = cograin(&[&command, &scene]).args(&out).output().unwrap();
+        let said = complaint(&done, 2);
+        assert!(said.contains("expected at most 1e15 time steps"), "{said}");
+    }
 }

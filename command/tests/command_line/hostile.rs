@@ -91,3 +91,54 @@ fn a_limit_on_the_size_of_files_is_told_in_words() {
     let said = complaint(&Command::new("sh").args(["-c", &line]).output().unwrap(), 1);
     assert!(said.contains("cannot be written"), "{said}");
 }
+
+/// Frames and the state behind a checkpoint were not foreseen: the program ended by a signal.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_memory_a_run_ends_in_words() {
+    let place = Place::new("without_memory");
+    let scene = place.at("scene.toml");
+    let text = r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 4e-6
+step = 1e-6
+threads = 2
+[material.g]
+density = 2500.0
+youngs_modulus = 1e7
+poissons_ratio = 0.25
+[pair.g.g]
+restitution = 0.5
+[contact.c.normal.hertz]
+[particles.p]
+material = "g"
+lattice = { kind = "face_centred_cubic", radius = 0.001, spacing = 0.00199, counts = [14, 14, 14] }
+[bond.b]
+between = ["p", "p"]
+create_distance = 0.0021
+normal_stiffness = 1e10
+tangential_stiffness = 4e9
+[output]
+history_interval = 2e-6
+frame_interval = 2e-6
+contacts = true
+checkpoint_interval = 2e-6
+"#;
+    fs::write(&scene, text).unwrap();
+    let mut words = Vec::new();
+    for megabytes in [40, 60, 80, 100, 120, 140, 160, 180, 200, 230, 260, 300] {
+        let line = format!("ulimit -v {}; exec \"$0\" \"$@\"", 1000 * megabytes);
+        let out = place.at(&megabytes.to_string());
+        let mut run = Command::new("sh");
+        run.args(["-c", &line, env!("CARGO_BIN_EXE_cograin"), "run"]).arg(&scene).arg("-o").arg(&out);
+        let done = run.stdin(Stdio::null()).output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        let status = done.status.code();
+        assert!(matches!(status, Some(0..=2)), "{megabytes} MB: {:?}\n{said}", done.status);
+        assert!(!said.contains("panicked") && !said.contains("backtrace"), "{megabytes} MB: {said}");
+        assert!(status == Some(0) || said.contains("memory"), "{megabytes} MB: {said}");
+        words.extend((status == Some(1)).then_some(said));
+    }
+    assert!(words.iter().any(|said| said.contains("more of memory, found none free")), "{words:?}");
+}

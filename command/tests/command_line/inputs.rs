@@ -38,8 +38,9 @@ fn a_table_of_inputs_moves_driven_boundaries_and_ends_the_run() {
 fn a_table_of_inputs_that_does_not_fit_is_refused_with_its_line() {
     let place = Place::new("bad_inputs");
     let cases = [
-        ("floor.displacement.z\n1e-3\n", "has no column time"),
-        ("time,floor.force.z\n1e-3,0\n", "has no column floor.displacement.z"),
+        ("floor.displacement.z\n1e-3\n", "line 1: expected a column time, found floor.displacement.z"),
+        ("time,floor.force.z\n1e-3,0\n", "line 1: expected a column floor.displacement.z, found time, floor.force.z"),
+        ("0.0,0.0\n1e-3,0\n", "line 1: expected a column time, found no names but numbers"),
         (
             "time,floor.displacment.z\n1e-3,0\n",
             "line 1: expected time and variables of the unit, found a column \"floor.displacment.z\"; the nearest is floor.displacement.z",

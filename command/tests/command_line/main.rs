@@ -3,6 +3,8 @@
 mod broken_off;
 mod charts;
 mod checks;
+mod chosen;
+mod economy;
 mod faults;
 mod folders;
 mod ground;
@@ -13,3 +15,4 @@ mod recipes;
 mod refusals;
 mod runs;
 mod settling;
+mod shells;

@@ -2,6 +2,9 @@
 
 use super::nearest::nearest;
 
+/// How many known words a message lists at most.
+const LISTED: usize = 40;
+
 /// A length in at most four digits: `2.0e-3`, `1.837e-3`.
 pub(super) fn short(length: f64) -> String {
     let text = format!("{length:.3e}");
@@ -37,6 +40,7 @@ pub(crate) fn proposal(found: &str, known: &[String], all: &str) -> String {
     match nearest(found, known.iter().map(String::as_str)) {
         Some(near) => format!("the nearest is {near}"),
         None if known.is_empty() => "none is known here".to_owned(),
+        None if known.len() > LISTED => format!("{all} {}, ..", listed(&known[..LISTED])),
         None => format!("{all} {}", listed(known)),
     }
 }

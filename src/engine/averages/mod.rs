@@ -1,5 +1,9 @@
 //! What is in the regions of a scene: found by looking, never in a time step.
 
+mod probes;
+
+pub use probes::{Sight, sights};
+
 use crate::base::number::Vector;
 use crate::engine::simulation::Simulation;
 use crate::engine::state::State;

@@ -4,11 +4,14 @@ mod cause;
 
 pub use cause::Cause;
 
+use crate::base::words::plain;
+use crate::engine::state::clock::MOST_STEPS;
+
 /// Why a run stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// A particle would move further in one step than its neighbours were looked for.
-    #[error("particle {id} would move {radii:.2} of its radius in one step at t = {time} s: {cause}")]
+    #[error("particle {id} would move {radii:.2} of its radius in one step at t = {time} s: {cause}", time = plain(*time))]
     Runaway {
         /// The particle.
         id: u32,
@@ -21,8 +24,7 @@ pub enum RunError {
     },
     /// A surface that forces move would pass particles in one step.
     #[error(
-        "boundary {boundary} would move {way:.3e} m in one step, {radii:.2} of the radius of the smallest particle, at t = {time} s: {cause}"
-    )]
+        "boundary {boundary} would move {way:.3e} m in one step, {radii:.2} of the radius of the smallest particle, at t = {time} s: {cause}", time = plain(*time))]
     SurfaceRunaway {
         /// The boundary.
         boundary: String,
@@ -36,7 +38,7 @@ pub enum RunError {
         cause: Cause,
     },
     /// A number ceased to be finite.
-    #[error("particle {id} has a {quantity} that is not finite at t = {time} s: {cause}")]
+    #[error("particle {id} has a {quantity} that is not finite at t = {time} s: {cause}", time = plain(*time))]
     NotFinite {
         /// The particle.
         id: u32,
@@ -48,7 +50,7 @@ pub enum RunError {
         cause: Cause,
     },
     /// The centre of a particle is behind a plane.
-    #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}")]
+    #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}", time = plain(*time))]
     Behind {
         /// The particle.
         id: u32,
@@ -60,7 +62,7 @@ pub enum RunError {
         cause: Cause,
     },
     /// Two particles are pressed into each other deeper than any contact law is valid.
-    #[error("particles {first} and {second} overlap by {overlap:.2} of the smaller radius at t = {time} s: {cause}")]
+    #[error("particles {first} and {second} overlap by {overlap:.2} of the smaller radius at t = {time} s: {cause}", time = plain(*time))]
     Crushed {
         /// One particle.
         first: u32,
@@ -75,8 +77,7 @@ pub enum RunError {
     },
     /// More energy came out of contacts and bonds than went in.
     #[error(
-        "contacts and bonds gave {gained:.3e} J more than they got, of {turnover:.3e} J that were turned over, at t = {time} s: {cause}"
-    )]
+        "contacts and bonds gave {gained:.3e} J more than they got, of {turnover:.3e} J that were turned over, at t = {time} s: {cause}", time = plain(*time))]
     EnergyGain {
         /// Energy that came out of nothing \[J\].
         gained: f64,
@@ -88,7 +89,7 @@ pub enum RunError {
         cause: Cause,
     },
     /// A particle left the domain.
-    #[error("particle {id} left the [domain] at t = {time} s, at ({x:.3e}, {y:.3e}, {z:.3e}) m; likely a missing wall")]
+    #[error("particle {id} left the [domain] at t = {time} s, at ({x:.3e}, {y:.3e}, {z:.3e}) m; likely a missing wall", time = plain(*time))]
     Escaped {
         /// The particle.
         id: u32,
@@ -104,8 +105,7 @@ pub enum RunError {
     /// A particle left the plane in which the scene says that all stay.
     #[error(
         "particle {id} left the [run] plane at t = {time} s: {quantity} is {value:e} {unit}; keep all forces and \
-         motions in the plane, or leave this key out"
-    )]
+         motions in the plane, or leave this key out", time = plain(*time))]
     LeftPlane {
         /// The particle.
         id: u32,
@@ -121,8 +121,7 @@ pub enum RunError {
     /// A bond is bent further than its formulation can follow.
     #[error(
         "the bond of particle {first} and {} is bent beyond half a turn at t = {time} s: {cause}",
-        second.map_or_else(|| "a plane".to_owned(), |second| format!("particle {second}"))
-    )]
+        second.map_or_else(|| "a plane".to_owned(), |second| format!("particle {second}")), time = plain(*time))]
     Overbent {
         /// One particle.
         first: u32,
@@ -135,8 +134,7 @@ pub enum RunError {
     },
     /// The given time step is too long.
     #[error(
-        "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s, limited by {by}; set [run] step below it, or \"auto\" (allow_unstable = true lets it run all the same)"
-    )]
+        "the time step {step:.3e} s is above the stable one, {stable:.3e} s, at t = {time} s, limited by {by}; set [run] step below it, or \"auto\" (allow_unstable = true lets it run all the same)", time = plain(*time))]
     StepTooLong {
         /// The step given \[s\].
         step: f64,
@@ -150,8 +148,7 @@ pub enum RunError {
     /// Half a turn or more about several axes at once.
     #[error(
         "boundary {boundary}: expected less than half a turn (pi) about several axes in one communication step, \
-         found {angle:.4} rad at t = {time} s"
-    )]
+         found {angle:.4} rad at t = {time} s", time = plain(*time))]
     Turn {
         /// The boundary.
         boundary: String,
@@ -163,8 +160,7 @@ pub enum RunError {
     /// A triangle of a mesh whose nodes the outside moves has no area any more.
     #[error(
         "boundary {boundary}: expected displacements that leave every face its area, found face {face} without one \
-         at t = {time} s: its nodes were moved onto a line or a point, or out of all bounds"
-    )]
+         at t = {time} s: its nodes were moved onto a line or a point, or out of all bounds", time = plain(*time))]
     Collapsed {
         /// The boundary.
         boundary: String,
@@ -201,8 +197,7 @@ pub enum RunError {
     /// A sphere of a group where particles are taken away.
     #[error(
         "particle {id} of [boundary.{boundary}] is where {by} takes particles away, at t = {time} s, and a group \
-         keeps all its particles; keep the group away from there"
-    )]
+         keeps all its particles; keep the group away from there", time = plain(*time))]
     GroupLeaves {
         /// The particle.
         id: u32,
@@ -214,7 +209,7 @@ pub enum RunError {
         time: f64,
     },
     /// So many particles came that no number is left for another.
-    #[error("all numbers of particles are used up at t = {time} s; number the particles from a lower one on")]
+    #[error("all numbers of particles are used up at t = {time} s; number the particles from a lower one on", time = plain(*time))]
     NoNumberLeft {
         /// Time \[s\].
         time: f64,
@@ -235,8 +230,7 @@ pub enum RunError {
     /// A number of the state cannot be.
     #[error(
         "expected {expected} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \
-         numbers of 64 bits"
-    )]
+         numbers of 64 bits", time = plain(*time))]
     Invalid {
         /// Which part of the state.
         part: &'static str,
@@ -248,8 +242,20 @@ pub enum RunError {
         time: f64,
     },
     /// The caller has asked to stop.
-    #[error("stopped at t = {time} s, as asked for")]
+    #[error("stopped at t = {time} s, as asked for", time = plain(*time))]
     Stopped {
+        /// Time \[s\].
+        time: f64,
+    },
+    /// More time steps than a clock can count.
+    #[error("expected at most {MOST_STEPS:e} time steps in {interval:e} s from t = {time} s on, found {count:.3e} of {step:e} s", time = plain(*time))]
+    TooManySteps {
+        /// The time step \[s\].
+        step: f64,
+        /// How many there would be.
+        count: f64,
+        /// What was to be divided \[s\].
+        interval: f64,
         /// Time \[s\].
         time: f64,
     },

@@ -3,18 +3,47 @@
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
+use crate::engine::state::Underway;
+use crate::engine::state::clock::MOST_STEPS;
 use crate::laws::motion::Progress;
 
 /// An interval this close to a whole number of time steps (over the time step) counts as that number.
 const WHOLE: f64 = 1e-6;
 
 impl Simulation {
-    /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end.
+    /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end. One that was left on its way is not gone on
+    /// with.
     ///
     /// An error that is found before a step ([`RunError::Runaway`]) leaves the state of the last good time step, at
     /// [`Simulation::time`]. An error that a step itself causes leaves the state after that step, which serves to find
     /// the cause only: to be able to go on, keep a copy of the state.
     pub fn advance(&mut self, interval: f64) -> Result<(), RunError> {
+        self.state.underway = None;
+        self.advance_part(interval, u64::MAX).map(drop)
+    }
+
+    /// The same in parts of at most so many time steps: goes on with the communication step that is under way, or begins one of
+    /// `interval` \[s\]. Returns whether its end is reached. Parts, and saving the state between them, change no bit.
+    pub fn advance_part(&mut self, interval: f64, most: u64) -> Result<bool, RunError> {
+        if self.state.underway.is_none() {
+            self.begin_interval(interval)?;
+        }
+        let mut workers = std::mem::take(&mut self.workers);
+        let (elapsed, result) = workers.run(|threads| self.run((interval, most), threads));
+        self.workers = workers;
+        if self.state.underway.is_some() {
+            return Ok(false);
+        }
+        course::end(&mut self.state, elapsed);
+        nodes::end(&mut self.state, elapsed);
+        if let Some(flow) = &self.flow {
+            flow.end(&mut self.state, elapsed);
+        }
+        result.map(|()| true).map_err(|error| self.named(error))
+    }
+
+    /// Begins a communication step: what the outside gave is taken.
+    fn begin_interval(&mut self, interval: f64) -> Result<(), RunError> {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });
         }
@@ -24,68 +53,78 @@ impl Simulation {
         if let Some(flow) = &self.flow {
             flow.begin(&mut self.state, interval);
         }
-        let mut workers = std::mem::take(&mut self.workers);
-        let (elapsed, result) = workers.run(|threads| self.run(interval, threads));
-        self.workers = workers;
-        course::end(&mut self.state, elapsed);
-        nodes::end(&mut self.state, elapsed);
-        if let Some(flow) = &self.flow {
-            flow.end(&mut self.state, elapsed);
-        }
-        result.map_err(|error| self.named(error))
+        Ok(())
     }
 
-    /// Makes the time steps of a communication step and looks at where they led. Returns how long they took \[s\], and why they
-    /// ended early.
-    fn run(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
-        let (elapsed, result) = self.make_steps(interval, threads);
-        (elapsed, result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
-    }
-
-    /// Makes as many time steps as fit when a communication step begins; where the stable one becomes shorter on the way, the
-    /// rest is divided again.
-    fn make_steps(&mut self, interval: f64, threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
+    /// Makes the time steps of a communication step, or as many as are asked for, and looks at where it led. Returns how much of its
+    /// time has passed \[s\], and why it ended early.
+    fn run(&mut self, (interval, most): (f64, u64), threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
         let standing = Context { threads, ..self.standing() };
-        let mut boundaries = self.boundary_speed();
+        let mut underway = match self.state.underway.take().map_or_else(|| self.divided(interval, &standing), Ok) {
+            Ok(underway) => underway,
+            Err(error) => return (0.0, Err(error)),
+        };
+        let result = self.make_steps(&mut underway, most, &standing);
+        if result.is_ok() && underway.done < underway.count {
+            self.state.underway = Some(underway);
+            return (underway.elapsed(), Ok(()));
+        }
+        (underway.elapsed(), result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
+    }
+
+    /// Divides a communication step into as many time steps as fit when it begins.
+    fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
+        let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        if self.is_due(boundaries, step) {
-            if let Err(error) = self.look(step, &Context { step, ..standing }) {
-                return (0.0, Err(error));
-            }
+        if self.is_due(boundary_speed, step) {
+            self.look(step, &Context { step, ..*standing })?;
             self.shorten_step();
         }
         self.lengthen_step();
-        let (count, step) = divide(interval, self.state.clock.step);
-        let length = count as f64 * step;
-        let mut progress = Progress { done: 0, count, step, time: 0.0, passed: 0.0, length };
-        while progress.done < progress.count {
-            let (step, elapsed) = (progress.step, |done: u64| progress.passed * length + done as f64 * progress.step);
-            if let Err(error) = self.check_displacement(step) {
-                return (elapsed(progress.done), Err(error));
-            }
+        let (count, step) = self.divide(interval)?;
+        Ok(Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed })
+    }
+
+    /// Divides an interval \[s\] by the present time step, unless nobody can mean so many.
+    fn divide(&self, interval: f64) -> Result<(u64, f64), RunError> {
+        let (step, time) = (self.state.clock.step, self.time());
+        let count = interval / step;
+        if count > MOST_STEPS {
+            return Err(RunError::TooManySteps { step, count, interval, time });
+        }
+        Ok(divide(interval, step))
+    }
+
+    /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, the rest is
+    /// divided again.
+    fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
+        let mut left = most;
+        while underway.done < underway.count && left > 0 {
+            let step = underway.step;
+            self.check_displacement(step)?;
             if self.is_stopped() {
-                return (elapsed(progress.done), Err(RunError::Stopped { time: self.time() }));
+                return Err(RunError::Stopped { time: self.time() });
             }
-            progress.done += 1;
-            let (context, elapsed) = (Context { step, ..standing }, elapsed(progress.done));
-            if let Err(error) = self.step(progress, &context) {
-                return (elapsed, Err(error));
-            }
+            left -= 1;
+            underway.done += 1;
+            let Underway { done, count, passed, length, .. } = *underway;
+            let context = Context { step, ..*standing };
+            self.step(Progress { done, count, step, time: 0.0, passed, length }, &context)?;
             if self.boundaries_change_speed() {
-                boundaries = self.boundary_speed();
+                underway.boundary_speed = self.boundary_speed();
             }
-            if !self.is_due(boundaries, step) {
+            if !self.is_due(underway.boundary_speed, step) {
                 continue;
             }
-            if let Err(error) = self.check_plane().and_then(|()| self.look(step, &Context { step, ..standing })) {
-                return (elapsed, Err(error));
-            }
-            if self.shorten_step() && progress.done < progress.count {
-                let (count, step) = divide(length - elapsed, self.state.clock.step);
-                progress = Progress { done: 0, count, step, passed: elapsed / length, ..progress };
+            self.check_plane()?;
+            self.look(step, &context)?;
+            if self.shorten_step() && done < count {
+                let elapsed = underway.elapsed();
+                let (count, step) = self.divide(length - elapsed)?;
+                *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
             }
         }
-        (progress.passed * length + progress.done as f64 * progress.step, Ok(()))
+        Ok(())
     }
 }
 

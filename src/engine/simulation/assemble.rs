@@ -25,6 +25,7 @@ pub(super) fn state(scene: &Scene) -> State {
     let lists = Neighbours { skin: scene.run.skin.unwrap_or(neighbours::FIRST_SKIN * mean), ..Neighbours::default() };
     State {
         clock: Clock::default(),
+        underway: None,
         foresight: Foresight::default(),
         neighbours: lists,
         coefficients: scene.contacts.iter().map(|law| coefficients::rows(law, scene)).collect(),

@@ -7,7 +7,7 @@ use crate::engine::contacts::{BondRecord, ContactRecord, SLIGHT};
 use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::State;
-use crate::engine::state::contacts::{TOUCHING, is_resting, is_told};
+use crate::engine::state::contacts::{TOUCHING, is_resting, is_suppressed, is_told};
 use crate::engine::state::exchange::NetExchange;
 use crate::engine::state::ledger::Source;
 use crate::laws::bond::BondLoads;
@@ -70,18 +70,22 @@ impl Simulation {
         self.passes.iter().for_each(|pass| pass.bonds(&self.state, tell));
     }
 
-    /// Largest overlap over the smaller radius of the two (the particle's, at a plane). From positions alone: rows of
-    /// a history ask for it often.
+    /// Largest overlap over the smaller radius of the two (the particle's, at a plane), of contacts that no bond suppresses. From
+    /// positions alone: rows of a history ask for it often.
     pub fn largest_overlap(&self) -> f64 {
         let mut largest: f64 = 0.0;
-        each_overlap(&self.state, &self.scene, &mut |overlap, radius| largest = largest.max(overlap / radius));
+        each_overlap(&self.state, &self.scene, &mut |flags, overlap, radius| {
+            if !is_suppressed(flags) {
+                largest = largest.max(overlap / radius);
+            }
+        });
         self.passes.iter().fold(largest, |most, pass| most.max(pass.largest_overlap(&self.state)))
     }
 
     /// Mean overlap of the contacts that touch \[m\], if any do.
     pub fn mean_overlap(&self) -> Option<f64> {
         let (mut sum, mut count) = (0.0, 0_usize);
-        each_overlap(&self.state, &self.scene, &mut |overlap, _| {
+        each_overlap(&self.state, &self.scene, &mut |_, overlap, _| {
             sum += overlap;
             count += 1;
         });
@@ -228,22 +232,22 @@ impl Simulation {
     }
 }
 
-/// Hands out the overlap of each contact between particles and at planes and the smaller radius of the two bodies (the
+/// Hands out the flags of each contact between particles and at planes, its overlap and the smaller radius of the two bodies (the
 /// particle's, at a plane) \[m\]. From positions alone.
-pub(super) fn each_overlap(state: &State, scene: &Scene, hand: &mut dyn FnMut(f64, f64)) {
+pub(super) fn each_overlap(state: &State, scene: &Scene, hand: &mut dyn FnMut(u8, f64, f64)) {
     let State { particles, contacts, walls, boundaries, .. } = state;
     let position = |slot: u32| particles.position[slot as usize];
     let touches = |flags: &[u8], place: usize| flags[place] & TOUCHING != 0 || is_resting(flags[place]);
-    let mut hand = |resting: bool, overlap: f64, radius: f64| {
-        if !resting || overlap > 0.0 {
-            hand(overlap, radius);
+    let mut hand = |flags: u8, overlap: f64, radius: f64| {
+        if !is_resting(flags) || overlap > 0.0 {
+            hand(flags, overlap, radius);
         }
     };
     for list in contacts {
         for place in (0..list.flags.len()).filter(|&place| touches(&list.flags, place)) {
             let (a, b) = (position(list.first[place]), position(list.second[place]));
             let distance = (Vector::from(a) - Vector::from(b)).length();
-            hand(is_resting(list.flags[place]), a[3] + b[3] - distance, a[3].min(b[3]));
+            hand(list.flags[place], a[3] + b[3] - distance, a[3].min(b[3]));
         }
     }
     for list in walls {
@@ -253,7 +257,7 @@ pub(super) fn each_overlap(state: &State, scene: &Scene, hand: &mut dyn FnMut(f6
         for place in (0..list.flags.len()).filter(|&place| touches(&list.flags, place)) {
             let particle = position(list.particle[place]);
             let distance = (Vector::from(particle) - point).dot(normal.into());
-            hand(is_resting(list.flags[place]), particle[3] - distance, particle[3]);
+            hand(list.flags[place], particle[3] - distance, particle[3]);
         }
     }
 }

@@ -214,6 +214,7 @@ impl Simulation {
             | RunError::PutAtPlane { .. }
             | RunError::Invalid { .. }
             | RunError::Stopped { .. }
+            | RunError::TooManySteps { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
             | RunError::Collapsed { .. }

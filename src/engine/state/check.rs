@@ -5,8 +5,9 @@
 //! anything is done with it. Each part looks through itself; the passes add what their laws demand of their lists
 //! ([`Pass::check`](crate::engine::contacts::Pass::check)).
 
+use super::boundaries::Pressed;
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{Exchange, GONE, History, NearParts, Nodes, Row, State, WallContacts};
+use super::{Exchange, GONE, History, NearParts, Nodes, Row, State, Underway, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -133,6 +134,7 @@ impl State {
     /// Whether this can be a state of any scene: lengths and order of its lists, slots of particles, finite numbers.
     pub(crate) fn check_lists(&self) -> Result<(), StateFault> {
         self.clock.check()?;
+        self.underway.iter().try_for_each(Underway::check)?;
         self.foresight.check()?;
         self.particles.check()?;
         let count = self.particles.len();
@@ -179,6 +181,17 @@ impl Clock {
         let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
         demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
         demand(self.steps < MOST && self.rebuilds < MOST, "clock", 1, "a count that can be reached")
+    }
+}
+
+impl Underway {
+    /// Whether this can be one.
+    fn check(&self) -> Result<(), StateFault> {
+        let Self { done, count, step, passed, length, boundary_speed } = *self;
+        all_finite(&[step, passed, length, boundary_speed], "underway")?;
+        let lengths = step > 0.0 && length > 0.0 && (0.0..1.0).contains(&passed) && boundary_speed >= 0.0;
+        demand(lengths, "underway", 0, "steps above 0 and a share from 0 to 1")?;
+        demand(done < count, "underway", 1, "time steps that are left")
     }
 }
 
@@ -523,14 +536,20 @@ impl BoundaryState {
             &inertial.support,
             &inertial.applied_impulse,
             &inertial.support_impulse,
-            &inertial.added_impulse,
         ];
-        let blocks = inertial.stiffness.iter().chain(&inertial.damping).flatten();
         let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
-            && blocks.clone().all(|number| number.is_finite())
-            && [*work].iter().chain(&self.impedance).all(|number| number.is_finite())
+            && work.is_finite()
+            && self.pressed.iter().all(Pressed::is_finite)
+    }
+}
+
+impl Pressed {
+    /// Whether all numbers are finite.
+    fn is_finite(&self) -> bool {
+        let Self { impedance, stiffness, force, way } = *self;
+        [impedance, stiffness, force, way].iter().all(|number| number.is_finite())
     }
 }
 

@@ -24,6 +24,33 @@ pub struct Clock {
     pub rebuilds: u64,
 }
 
+/// Time steps of an interval that there may be: beyond, a clock of 53 bits no longer tells one from the next.
+pub(crate) const MOST_STEPS: f64 = 1e15;
+
+/// A communication step of which a part has been made.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Underway {
+    /// Time steps done since it was divided last.
+    pub done: u64,
+    /// Time steps in all since then.
+    pub count: u64,
+    /// Length of each \[s\].
+    pub step: f64,
+    /// Share of its time that had passed when it was divided last.
+    pub passed: f64,
+    /// Its length \[s\].
+    pub length: f64,
+    /// Largest speed of a boundary, as foreseen for it \[m/s\].
+    pub boundary_speed: f64,
+}
+
+impl Underway {
+    /// How much of its time has passed \[s\].
+    pub fn elapsed(&self) -> f64 {
+        self.passed * self.length + self.done as f64 * self.step
+    }
+}
+
 impl Clock {
     /// Moves on by `interval` \[s\].
     pub fn advance(&mut self, interval: f64) {

@@ -111,7 +111,12 @@ pub const RELEASED: u8 = 128;
 
 /// Whether a contact is one of those that are counted and told.
 pub fn is_told(flags: u8) -> bool {
-    flags & TOUCHING != 0 && flags & (BONDED | SILENT) != BONDED | SILENT
+    flags & TOUCHING != 0 && !is_suppressed(flags)
+}
+
+/// Whether a bond takes the place of a contact.
+pub fn is_suppressed(flags: u8) -> bool {
+    flags & (BONDED | SILENT) == BONDED | SILENT
 }
 
 /// Whether there is nothing to do for a contact until its bond breaks: what it remembers follows from where the bodies are

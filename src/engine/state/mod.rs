@@ -24,7 +24,7 @@ pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation};
 pub use check::StateFault;
 pub(crate) use check::demand;
-pub use clock::Clock;
+pub use clock::{Clock, Underway};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
@@ -45,6 +45,8 @@ use serde::{Deserialize, Serialize};
 pub struct State {
     /// Time and counters.
     pub clock: Clock,
+    /// The communication step of which a part has been made; none at a communication point.
+    pub underway: Option<Underway>,
     /// For which conditions the stable time step was computed.
     pub foresight: Foresight,
     /// Positions, velocities, forces.
@@ -83,6 +85,7 @@ pub struct State {
 
 clone_in_place!(State {
     clock,
+    underway,
     foresight,
     particles,
     neighbours,

@@ -5,6 +5,7 @@
 
 mod boundaries;
 mod exchange;
+mod probes;
 mod regions;
 mod row;
 mod scene;
@@ -14,6 +15,7 @@ use crate::interface::{Causality, Variable};
 use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
 pub(super) use row::{At, Present, ReadRate, Row};
@@ -56,7 +58,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     };
     let exchange = each(&OF_INSERTIONS, scene.insertions.len())
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
-        .chain(each(&OF_METERS, scene.meters.len()));
+        .chain(each(&OF_METERS, scene.meters.len()))
+        .chain(each(&OF_PROBES, scene.probes.len()));
     let of_scene = OF_SCENE.iter().chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
     let places = of_boundaries
         .chain(each(&OF_REGIONS, scene.regions.len()))
@@ -69,7 +72,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 /// All rows.
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
-    let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN);
+    let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
     let of_parts = OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
     of_parts.chain(&OF_SCENE).chain(&OF_LOSSES)
 }
@@ -78,6 +81,11 @@ impl Source {
     /// The node that it is of, from 0.
     pub(super) fn node(&self) -> Option<usize> {
         (self.row.each == Each::Node).then_some(self.at.node())
+    }
+
+    /// The boundary that it is of, from 0.
+    pub(super) fn boundary(&self) -> Option<usize> {
+        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node).then(|| self.at.boundary.index())
     }
 
     /// Whether it is of a boundary and not of one of its nodes.
@@ -95,6 +103,7 @@ impl Source {
             Each::Insertion => &scene.insertions[at.place()].name,
             Each::Outlet => &scene.outlets[at.place()].name,
             Each::Meter => &scene.meters[at.place()].name,
+            Each::Probe | Each::ProbeAxis => &scene.probes[at.place()].name,
         };
         let own = row.each.names()[at.axis()];
         let number = (at.node() + 1).to_string();

@@ -1,7 +1,7 @@
 //! The description of a kind of variable, and what many kinds have in common.
 
 use crate::base::quantity::BoundaryIndex;
-use crate::engine::averages::Content;
+use crate::engine::averages::{Content, Sight};
 use crate::engine::simulation::{Input, Simulation};
 use crate::engine::state::{BondList, BoundaryState, Exchange, Nodes, State};
 use crate::interface::{Findings, Quantity, Value, Variability};
@@ -39,15 +39,25 @@ pub(in crate::interface) enum Each {
     RegionAxis,
     /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
     Component,
+    /// One for each probe: `<probe>.<name>`.
+    Probe,
+    /// One for each probe and axis: `<probe>.<name>.<axis>`.
+    ProbeAxis,
 }
 
 impl Each {
     /// What tells the variables of a boundary or a region apart; one empty name where there is one.
     pub(super) fn names(self) -> &'static [&'static str] {
         match self {
-            Self::Axis | Self::Node | Self::RegionAxis => &AXES,
+            Self::Axis | Self::Node | Self::RegionAxis | Self::ProbeAxis => &AXES,
             Self::Component => &COMPONENTS,
-            Self::Scene | Self::Boundary | Self::Region | Self::Insertion | Self::Outlet | Self::Meter => &[""],
+            Self::Scene
+            | Self::Boundary
+            | Self::Region
+            | Self::Insertion
+            | Self::Outlet
+            | Self::Meter
+            | Self::Probe => &[""],
         }
     }
 }
@@ -59,7 +69,7 @@ pub(in crate::interface) struct At {
     pub(super) boundary: BoundaryIndex,
     /// The node, from 0.
     node: u32,
-    /// The region, insertion, outlet or flow meter.
+    /// The region, insertion, outlet, flow meter or probe.
     place: u32,
     /// The axis or component.
     axis: u32,
@@ -79,7 +89,7 @@ impl At {
         Self { node: node as u32, ..self }
     }
 
-    /// At this region, insertion, outlet or flow meter.
+    /// At this region, insertion, outlet, flow meter or probe.
     pub(super) fn at_place(self, place: usize) -> Self {
         Self { place: place as u32, ..self }
     }
@@ -94,7 +104,7 @@ impl At {
         self.node as usize
     }
 
-    /// The region, insertion, outlet or flow meter.
+    /// The region, insertion, outlet, flow meter or probe.
     pub(in crate::interface) fn place(self) -> usize {
         self.place as usize
     }
@@ -129,6 +139,11 @@ impl Present<'_> {
     /// The particles in a region.
     pub(super) fn content(&self, at: At) -> Content {
         self.findings.content(self.simulation, at.place())
+    }
+
+    /// What a probe sees.
+    pub(super) fn sight(&self, at: At) -> Sight {
+        self.findings.sight(self.simulation, at.place())
     }
 
     /// What is known of particles that come and go, in a scene that has any.

@@ -2,6 +2,7 @@
 
 use super::{Shape, ShapeContext, ShapeKeys, Surface};
 use crate::base::quantity::Corners;
+use crate::base::words::counted;
 use serde::Deserialize;
 
 /// A group of particles that moves as one rigid body. Its particles touch others as all particles do; its load is the sum
@@ -18,7 +19,7 @@ impl Surface for Group {
     }
 
     fn words(&self) -> String {
-        format!("group of {} particles", self.members.len())
+        format!("group of {}", counted(self.members.len(), "particle"))
     }
 
     fn members(&self) -> &[u32] {

@@ -18,7 +18,7 @@ pub use resources::{Content, Contents, Resource, ResourceError, identity, read_r
 use crate::engine::simulation::{RunError, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::snapshot::SnapshotError;
-use crate::interface::Interface;
+use crate::interface::{ChosenError, Interface};
 use crate::scene::{Scene, Source};
 use experiment::Experiment;
 use library::Library;
@@ -32,6 +32,9 @@ pub enum PackageError {
     /// No usable library.
     #[error(transparent)]
     Library(#[from] LibraryError),
+    /// An output that the scene names and does not have.
+    #[error(transparent)]
+    Chosen(#[from] ChosenError),
     /// The unit would not start.
     #[error(transparent)]
     Start(#[from] RunError),
@@ -73,6 +76,7 @@ pub fn export(
         Some(state) => Interface::of(scene).starting_in(state),
         None => Interface::of(scene),
     };
+    interface.check_names(scene)?;
     let bytes = state.map(|state| state.to_bytes(scene.fingerprint));
     let identifier = identifier(output);
     let written = |cause| PackageError::Write { path: output.to_owned(), cause };
@@ -84,11 +88,22 @@ pub fn export(
     };
 
     let mut entries = vec![Resource::new("modelDescription.xml", description::write(&model).map_err(written)?)];
-    let picture = picture::png(scene, simulation.state());
-    entries.extend(picture.as_ref().map(|picture| Resource::new("model.png", picture.clone())));
     let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder).collect();
-    let page = page::Page { model: &model, simulation: &simulation, source, platforms: &platforms };
-    let page = page.write(picture.is_some(), state.is_some());
+    let picture = picture::png(scene, simulation.state());
+    let steps = page::steps(scene, &simulation);
+    // A scene that starts and then stops by itself has a unit without an experiment.
+    let experiment = Experiment::run(simulation, &interface).ok();
+    let page = page::Page {
+        model: &model,
+        source,
+        platforms: &platforms,
+        steps,
+        has_picture: picture.is_some(),
+        has_state: state.is_some(),
+        has_experiment: experiment.is_some(),
+    };
+    let page = page.write();
+    entries.extend(picture.map(|picture| Resource::new("model.png", picture)));
     entries.extend(libraries.into_iter().map(|Library { platform, bytes }| {
         let path = format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix);
         Resource::new(path, Content::Program(bytes))
@@ -97,8 +112,7 @@ pub fn export(
     entries.extend(licenses(scene));
     let resources = resources(source, bytes).into_iter().chain(nodes::tables(scene));
     entries.extend(resources.map(|entry| entry.inside("resources")));
-    // A scene that starts and then stops by itself has a unit without an experiment.
-    if let Ok(experiment) = Experiment::run(simulation, &interface) {
+    if let Some(experiment) = experiment {
         entries.extend(experiment.files().map_err(written)?);
     }
     archive::write(&entries, output).map_err(written)

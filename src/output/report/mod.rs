@@ -1,5 +1,6 @@
 //! The report of `cograin check`: what a user should know of a scene before it runs.
 
+mod economy;
 mod forecast;
 mod passing;
 mod rules;
@@ -9,6 +10,7 @@ mod trial;
 
 pub use stiffness::{StiffnessReport, stiffness};
 
+use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
 use crate::output::results::Refusal;
@@ -18,14 +20,38 @@ use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Insertion, Scene, Step};
 use rules::rules;
+use serde::Serialize;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 use trial::Trial;
 
+/// The numbers behind the lines, for programs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Figures {
+    /// Particles at the start.
+    pub particles: usize,
+    /// Contacts at the start, those with boundaries included.
+    pub contacts: usize,
+    /// Threads.
+    pub threads: usize,
+    /// Time step at the start \[s\].
+    pub time_step: f64,
+    /// The stable one; none where nothing is stiff \[s\].
+    pub stable_step: Option<f64>,
+    /// Wall time of a time step, measured; none where none could be made \[s\].
+    pub cost_of_step: Option<f64>,
+    /// Time steps of the run: at least, expected, at most; none if the scene does not say when it ends.
+    pub steps: Option<[u64; 3]>,
+    /// Wall time of the run: at least, expected, at most \[s\].
+    pub run_time: Option<[f64; 3]>,
+}
+
 /// What a user should know of a scene before it runs. Displays as text for a person.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
+    /// The numbers behind the lines.
+    pub figures: Figures,
     /// What the scene uses and pays for, a line each.
     pub uses: Vec<String>,
     /// The time step, the stable one and what limits it.
@@ -42,6 +68,8 @@ pub struct Report {
     pub cost: String,
     /// Wall time of a run.
     pub time: Option<String>,
+    /// What makes the run long, and what it would cost without, a line each.
+    pub economy: Vec<String>,
     /// What the scene pays for and could do without, and what that saves, a line each.
     pub savings: Vec<String>,
     /// What is legal but risky.
@@ -50,6 +78,9 @@ pub struct Report {
 
 /// Starts a scene, makes a few steps, writes nothing, and reports what it found.
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
+    let interface = Interface::of(scene);
+    let chosen = interface.check_names(scene);
+    chosen.map_err(|source| Refusal::Chosen { scene: scene_name.to_owned(), source })?;
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
     if let Some(schedule) = &schedule {
@@ -65,23 +96,46 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let time_step = time_step(scene, &simulation);
     let rules = rules(scene, &simulation);
     let present = simulation.state().clone();
-    let trial = trial::of(&mut simulation, &Interface::of(scene), schedule.as_ref().map(|schedule| (schedule, begins)));
+    let trial = trial::of(&mut simulation, &interface, schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&simulation);
     simulation.return_to(&present);
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
+    let economy = economy::of(scene, &simulation, forecast::fall(scene, &simulation));
     let savings = savings::of(scene, &simulation);
     if scene.changes_number() {
         let what = "the number of particles changes: memory and cost are as measured at the start; time is a range, from as many particles as in the trial to all that come and none that go";
         remarks.push(what.to_owned());
     }
-    remarks.extend(trial.failed.map(|error| format!("it stops after {} steps: {error}", trial.steps)));
-    let (outputs, steps, time) = match forecast {
-        Some(forecast) => (forecast.outputs, Some(forecast.steps), Some(forecast.time)),
-        None => (Vec::new(), None, None),
+    remarks.extend(trial.failed.map(|error| format!("it stops after {}: {error}", counted(trial.steps, "step"))));
+    let stable = simulation.state().clock.stable;
+    let mut figures = Figures {
+        particles: scene.particles.len(),
+        contacts: simulation.contact_count(),
+        threads: simulation.threads(),
+        time_step: simulation.state().clock.step,
+        stable_step: Some(stable).filter(|stable| stable.is_finite()),
+        cost_of_step: (trial.steps > 0).then_some(trial.step),
+        steps: None,
+        run_time: None,
     };
-    Ok(Report { uses, time_step, rules, outputs, steps, memory, cost, time, savings, remarks })
+    let (mut outputs, mut steps, mut time) = (Vec::new(), None, None);
+    if let Some(forecast) = forecast {
+        (figures.steps, figures.run_time) = (Some(forecast.counts), forecast.times);
+        (outputs, steps, time) = (forecast.outputs, Some(forecast.steps), Some(forecast.time));
+    }
+    Ok(Report { figures, uses, time_step, rules, outputs, steps, memory, cost, time, economy, savings, remarks })
+}
+
+impl Report {
+    /// The report as JSON, lines and numbers.
+    pub fn to_json(&self) -> String {
+        // Plain numbers and strings: writing them to memory has no way to fail.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
 }
 
 /// The scene at its start, which may be that of a checkpoint, and what could not be taken over from it.
@@ -113,7 +167,10 @@ impl fmt::Display for Report {
         writeln!(formatter, "memory     {}", self.memory)?;
         write!(formatter, "cost       {}", self.cost)?;
         if let Some(time) = &self.time {
-            write!(formatter, "\ntime       about {time} for the run, as measured at its start")?;
+            write!(formatter, "\ntime       {time}")?;
+        }
+        for line in &self.economy {
+            write!(formatter, "\neconomy    {line}")?;
         }
         for saving in &self.savings {
             write!(formatter, "\nunused     {saving}")?;
@@ -127,10 +184,9 @@ impl fmt::Display for Report {
 
 /// What the scene uses and pays for.
 fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
-    let count = |number: usize, thing: &str| format!("{number} {thing}{}", if number == 1 { "" } else { "s" });
-    let particles = count(scene.particles.len(), "particle");
-    let contacts = count(simulation.contact_count(), "contact");
-    let mut uses = vec![format!("{particles}, {contacts} at the start, {}", count(simulation.threads(), "thread"))];
+    let particles = counted(scene.particles.len(), "particle");
+    let contacts = counted(simulation.contact_count(), "contact");
+    let mut uses = vec![format!("{particles}, {contacts} at the start, {}", counted(simulation.threads(), "thread"))];
     uses.extend(scene.contacts.iter().map(contact_law));
     if scene.contacts.is_empty() {
         uses.push("no contact law: no neighbour search".to_owned());
@@ -140,7 +196,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .bonds
             .iter()
             .zip(&simulation.state().bonds)
-            .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, count(list.first.len(), "bond"))),
+            .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, counted(list.first.len(), "bond"))),
     );
     uses.extend(scene.boundaries.iter().map(boundary));
     if scene.gravity.iter().any(|part| *part != 0.0) {
@@ -148,10 +204,13 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     }
     uses.extend(scene.damping.iter().map(|damping| {
         let damped = damping.linear.iter().zip(&damping.angular).filter(|(a, b)| **a != 0.0 || **b != 0.0).count();
-        format!("damping {} of {}", damping.name, count(damped, "particle"))
+        format!("damping {} of {}", damping.name, counted(damped, "particle"))
     }));
     uses.extend(
-        scene.forces.iter().map(|force| format!("force {} on {}", force.name, count(force.members.len(), "particle"))),
+        scene
+            .forces
+            .iter()
+            .map(|force| format!("force {} on {}", force.name, counted(force.members.len(), "particle"))),
     );
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(exchange(scene));
@@ -247,8 +306,10 @@ fn cost(simulation: &Simulation, trial: &Trial) -> String {
         contacts => format!(", {:.1} ns for each contact", trial.step * 1e9 / contacts as f64),
     };
     format!(
-        "{:.3e} s wall for each step{share} (measured over {} steps; the trial took {:.2} s)",
-        trial.step, trial.steps, trial.cost
+        "{:.3e} s wall for each step{share} (measured over {}; the trial took {:.2} s)",
+        trial.step,
+        counted(trial.steps, "step"),
+        trial.cost
     )
 }
 

@@ -3,7 +3,9 @@
 use super::trial;
 use crate::base::quantity::NonNegative;
 use crate::engine::simulation::Simulation;
+use crate::interface::Interface;
 use crate::laws::contact::PairProperties;
+use crate::scene::Output;
 use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
 use std::sync::Arc;
 use std::time::Duration;
@@ -106,13 +108,36 @@ fn unused(scene: &Scene) -> Vec<Unused> {
             unused.push(Unused { what: format!("[damping.{}]: damps no particle", damping.name), without });
         }
     }
-    if scene.output.energy && scene.output.history_interval.is_none() {
-        let what = "[output] energy: the book is kept, and without history_interval only summary.json tells of it";
+    for bond in 0..scene.bonds.len() {
+        unused.extend(without_breakage(scene, bond));
+    }
+    let books: [(&str, bool, fn(&mut Output)); 2] = [
+        ("energy", scene.output.energy, |output| output.energy = false),
+        ("losses", scene.output.losses, |output| output.losses = false),
+    ];
+    for (key, _, drop) in books.into_iter().filter(|(_, kept, _)| *kept && !is_read(scene)) {
         let mut without = SceneDraft::clone(scene);
-        without.output.energy = false;
-        unused.push(Unused { what: what.to_owned(), without });
+        drop(&mut without.output);
+        let what = format!("[output] {key}: the book is kept, and no row of history.csv has it, only summary.json");
+        unused.push(Unused { what, without });
     }
     unused
+}
+
+/// Whether rows of the history have energies.
+fn is_read(scene: &Scene) -> bool {
+    let recorded = || Interface::of(scene).recorded().any(|(_, variable)| variable.name.starts_with("energy."));
+    scene.output.history_interval.is_some() && recorded()
+}
+
+/// A scene in which the bonds of a law never break, if they may.
+fn without_breakage(scene: &Scene, bond: usize) -> Option<Unused> {
+    let what = format!("[bond.{}] breakage, if its strengths are never reached", scene.bonds[bond].name);
+    let mut without = SceneDraft::clone(scene);
+    let breakage = std::mem::take(&mut without.bonds[bond].keys.breakage);
+    // Its strengths are none.
+    without.parameters.clear();
+    (!breakage.is_empty()).then_some(Unused { what, without })
 }
 
 /// Whether a property is given as 0 for all pairs of a law that say it.

@@ -1,6 +1,7 @@
 //! The condensed static stiffness of the boundaries, for people.
 
 use crate::base::quantity::BoundaryIndex;
+use crate::base::words::counted;
 use crate::engine::statics::{self, Stiffness};
 use crate::output::results::Refusal;
 use crate::scene::Scene;
@@ -56,7 +57,13 @@ impl fmt::Display for StiffnessReport {
             if !list.is_empty() {
                 let named: Vec<_> = list.iter().take(NAMED).map(u32::to_string).collect();
                 let more = if list.len() > NAMED { ", .." } else { "" };
-                write!(formatter, "\nremark     {} particles are {what}: {}{more}", list.len(), named.join(", "))?;
+                write!(
+                    formatter,
+                    "\nremark     {} {} {what}: {}{more}",
+                    counted(list.len(), "particle"),
+                    if list.len() == 1 { "is" } else { "are" },
+                    named.join(", ")
+                )?;
             }
         }
         Ok(())

@@ -33,6 +33,8 @@ pub(crate) struct Trial {
     pub particle: f64,
     /// Time steps made.
     pub steps: u64,
+    /// The time step at its end \[s\].
+    pub last_step: f64,
     /// Wall time of the whole trial \[s\].
     pub cost: f64,
     /// A row of the history.
@@ -113,6 +115,7 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
         let each = took / made.max(1) as f64;
         at_once = (BETWEEN_LOOKS / each.max(1e-9)).clamp(1.0, 1e6).floor();
     }
+    trial.last_step = simulation.state().clock.step;
     trial.step = match (counted, trial.steps) {
         (0, 0) => 0.0,
         (0, steps) => begun.elapsed().as_secs_f64() / steps as f64,

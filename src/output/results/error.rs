@@ -2,6 +2,7 @@
 
 use super::vtk::EncodeError;
 use crate::base::document::proposal;
+use crate::base::words::plain;
 use crate::engine::simulation::RunError;
 use crate::engine::state::snapshot::SnapshotError;
 use crate::interface::InterfaceError;
@@ -42,18 +43,6 @@ pub enum OutputError {
     Gone {
         /// The file.
         path: PathBuf,
-    },
-    /// There is no memory for an output.
-    #[error("{}: expected {expected} for {what}, which needs about {:.2} GB", path.display(), *needed as f64 / 1e9)]
-    Memory {
-        /// The folder of the results.
-        path: PathBuf,
-        /// What it is needed for.
-        what: &'static str,
-        /// Bytes that are needed.
-        needed: u64,
-        /// What was expected.
-        expected: String,
     },
     /// A child of the process that writes.
     #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
@@ -124,8 +113,7 @@ pub enum ResumeError {
     /// It is of another scene.
     #[error(
         "{}: is a checkpoint of {scene} at t = {time} s, written by {program}, and that scene differs from this one in text, files, \
-         settings or program; --from takes it along into another scene", path.display()
-    )]
+         settings or program; --from takes it along into another scene", path.display(), time = plain(*time))]
     OtherScene {
         /// The file.
         path: PathBuf,
@@ -139,8 +127,7 @@ pub enum ResumeError {
     /// A run of this scene never stops at its time.
     #[error(
         "expected a checkpoint where a run of this scene writes, as at t = {nearest} s, found one at t = {time} \
-             s"
-    )]
+             s", time = plain(*time))]
     Between {
         /// Time of the checkpoint \[s\].
         time: f64,
@@ -150,8 +137,7 @@ pub enum ResumeError {
     /// Rows that were there when the checkpoint was written are missing.
     #[error(
         "{}: expected {expected} rows in a run that is continued at t = {time} s, found {found}; take another \
-         folder with -o to begin a new file", path.display()
-    )]
+         folder with -o to begin a new file", path.display(), time = plain(*time))]
     Rows {
         /// The file.
         path: PathBuf,
@@ -193,12 +179,20 @@ pub enum InputsError {
         source: csv::Error,
     },
     /// A column is missing.
-    #[error("{}: has no column {expected}", path.display())]
+    #[error("{}, line 1: expected a column {expected}, found {}", path.display(), headed(found))]
     Column {
         /// The file.
         path: PathBuf,
         /// What was expected.
         expected: String,
+        /// Its first line.
+        found: Vec<String>,
+    },
+    /// Nothing takes a table.
+    #[error("{}: expected a scene with an input, such as a driven boundary, found none: nothing takes the table", path.display())]
+    NoInput {
+        /// The file.
+        path: PathBuf,
     },
     /// A column that stands for nothing.
     #[error("{}, line 1: expected time and variables of the unit, found a column {column:?}{}", path.display(), nearest_of(column, known))]
@@ -252,6 +246,14 @@ pub enum InputsError {
         /// What was found.
         found: String,
     },
+}
+
+/// What stands in a first line.
+fn headed(found: &[String]) -> String {
+    match found.iter().all(|name| name.parse::<f64>().is_ok()) {
+        true => "no names but numbers".to_owned(),
+        false => found.join(", "),
+    }
 }
 
 /// The known word that a column most likely stands for, in a message.

@@ -2,7 +2,9 @@
 
 use super::error::{InputsError, OutputError, ResumeError, TakeOverError};
 use super::vtk::EncodeError;
+use crate::base::words::{counted, plain};
 use crate::engine::simulation::RunError;
+use crate::interface::ChosenError;
 use std::path::PathBuf;
 
 /// Why the input was refused.
@@ -100,6 +102,14 @@ pub enum Refusal {
         /// What is known of that run.
         held: String,
     },
+    /// An output that the scene names and does not have.
+    #[error("{scene}, {source}")]
+    Chosen {
+        /// File name of the scene.
+        scene: String,
+        /// Which.
+        source: ChosenError,
+    },
     /// More outputs than anybody can mean.
     #[error(
         "{scene}, [output] {key}: expected at most {most:e} {what} up to t = {end} s, found {count:.3e}, one every \
@@ -141,7 +151,7 @@ pub enum Refusal {
     #[error(transparent)]
     Resume(#[from] ResumeError),
     /// The run ends before it begins.
-    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s")]
+    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s", time = plain(*time))]
     Ended {
         /// File name of the scene.
         scene: String,
@@ -168,7 +178,7 @@ pub enum Failure {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// Someone asked to stop.
-    #[error("interrupted at t = {time} s; run again with -o {} --resume to go on from there", folder.display())]
+    #[error("interrupted at t = {time} s; run again with -o {} --resume to go on from there", folder.display(), time = plain(*time))]
     Interrupted {
         /// How far it came \[s\].
         time: f64,
@@ -176,7 +186,7 @@ pub enum Failure {
         folder: PathBuf,
     },
     /// Someone asked to stop before the packing had come to rest.
-    #[error("interrupted after {steps} steps {}; {}", reached(*ratio), going_on(kept))]
+    #[error("interrupted after {} {}; {}", counted(*steps, "step"), reached(*ratio), going_on(kept))]
     SettlingInterrupted {
         /// Where the state is kept.
         kept: PathBuf,
@@ -187,9 +197,9 @@ pub enum Failure {
     },
     /// The packing will not come to rest.
     #[error(
-        "not settled after {steps} steps (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
+        "not settled after {} (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
          the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
-        going_on(kept)
+        counted(*steps, "step"), going_on(kept), time = plain(*time)
     )]
     Restless {
         /// Where the state is kept.
@@ -206,7 +216,7 @@ pub enum Failure {
         why: String,
     },
     /// The packing did not come to rest.
-    #[error("not settled after {steps} steps (t = {time} s): {}; {}", unsettled(*ratio, *tolerance), going_on(kept))]
+    #[error("not settled after {} (t = {time} s): {}; {}", counted(*steps, "step"), unsettled(*ratio, *tolerance), going_on(kept), time = plain(*time))]
     Unsettled {
         /// Where the state is kept.
         kept: PathBuf,
@@ -239,7 +249,7 @@ impl From<ResumeError> for Failure {
 
 /// Where a packing that is not at rest is kept, and how to go on with it.
 fn going_on(kept: &std::path::Path) -> String {
-    format!("{} holds the state so far: settle --from it to go on", kept.display())
+    format!("{} holds the state so far; run again with --resume to go on from there", kept.display())
 }
 
 /// How far settling had come.

@@ -2,14 +2,15 @@
 //!
 //! Each kind of output has an interval; its k-th output is at k × interval, and the last one at the end of the
 //! run. A run goes from one of these times to the next in one communication step
-//! ([`Simulation::advance`](crate::engine::simulation::Simulation::advance)) whose length is the difference of the two times
-//! as numbers, wherever it was started. A run that is continued at one of them therefore takes the same
+//! ([`Simulation::advance`](crate::engine::simulation::Simulation::advance)) whose length is the interval, or the difference of the
+//! two times as numbers where these are of several kinds, wherever it was started. A run that is continued at one of them therefore takes the same
 //! communication steps as the unbroken run, and gives the same bits. Times are products and no sums, so they do
 //! not drift; two of them that differ by rounding alone are one.
 
 use super::failure::Refusal;
 use super::frame_files::Frame;
 use crate::engine::simulation::divide;
+use crate::engine::state::clock::MOST_STEPS;
 use crate::scene::{Scene, Step};
 
 /// Communication steps of a run whose scene names no interval.
@@ -21,9 +22,6 @@ const MOST: [(&str, &str, f64); 3] = [
     ("frame_interval", "frames", 1e6),
     ("checkpoint_interval", "checkpoints", 1e6),
 ];
-
-/// Time steps there may be: beyond, a clock of 53 bits no longer tells one from the next.
-const MOST_STEPS: f64 = 1e15;
 
 /// Two times closer than this part of an interval are one.
 const SAME: f64 = 1e-9;
@@ -186,7 +184,11 @@ impl Schedule {
             frame: is_due(self.frames),
             checkpoint: is_due(self.checkpoints) || next >= self.end,
         };
-        Some(Point { time: next, interval: next - time, due })
+        let between = next - time;
+        let is_whole = |interval: &f64| (between - interval).abs() <= ROUNDING * next;
+        // As the scene has it, and a master that steps by it: the difference of two times differs from it by rounding.
+        let interval = self.series().map(|series| series.interval).find(is_whole).unwrap_or(between);
+        Some(Point { time: next, interval, due })
     }
 
     /// The end of the run \[s\].

@@ -36,7 +36,13 @@ impl Inputs {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
         let names = reader.headers().map_err(unreadable)?.clone();
-        let missing = |expected| InputsError::Column { path: path.to_owned(), expected };
+        if interface.inputs().next().is_none() {
+            return Err(InputsError::NoInput { path: path.to_owned() });
+        }
+        let missing = |expected| {
+            let found = names.iter().map(str::to_owned).collect();
+            InputsError::Column { path: path.to_owned(), expected, found }
+        };
         let time = names.iter().position(|name| name == "time").ok_or_else(|| missing("time".to_owned()))?;
         for (place, name) in names.iter().enumerate() {
             let column = || name.to_owned();
@@ -55,9 +61,7 @@ impl Inputs {
         let chosen: Vec<(usize, usize)> = inputs.collect();
         if chosen.is_empty() {
             let known: Vec<String> = interface.inputs().map(|(_, variable)| variable.name.clone()).collect();
-            let expected =
-                if known.is_empty() { "a scene with a driven boundary".to_owned() } else { known.join(" or ") };
-            return Err(missing(expected));
+            return Err(missing(known.join(" or ")));
         }
         let mut table =
             Self { times: vec![0.0], columns: chosen.iter().map(|(_, index)| Column::of(interface, *index)).collect() };

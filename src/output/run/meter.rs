@@ -3,6 +3,37 @@
 use crate::engine::simulation::{RunError, Simulation};
 use std::time::{Duration, Instant};
 
+/// Wall time of a part of a communication step: how long a request to stop may wait, if a time step does not take longer.
+const PART: Duration = Duration::from_millis(100);
+
+/// How many times as many time steps the next part may have as the one before.
+const FASTER: u64 = 16;
+
+/// How many time steps make a part of a communication step, by what they took so far. Results do not depend on it.
+#[derive(Debug)]
+pub(super) struct Pace {
+    /// Time steps of the next part.
+    most: u64,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self { most: 1 }
+    }
+}
+
+impl Pace {
+    /// Makes a part of a communication step. Returns whether its end is reached.
+    pub(super) fn part(&mut self, simulation: &mut Simulation, interval: f64) -> Result<bool, RunError> {
+        let (begun, before) = (Instant::now(), simulation.state().clock.steps);
+        let result = simulation.advance_part(interval, self.most);
+        let made = simulation.state().clock.steps - before;
+        let fitting = PART.as_secs_f64() / begun.elapsed().as_secs_f64().max(1e-9) * made as f64;
+        self.most = (fitting as u64).clamp(1, FASTER * self.most);
+        result
+    }
+}
+
 /// Counts what a session does.
 pub(crate) struct Meter {
     /// When the session began.
@@ -19,6 +50,8 @@ pub(crate) struct Meter {
     pub(super) contacts: usize,
     /// Largest overlap over radius at any look.
     pub(super) largest_overlap: f64,
+    /// How long parts of communication steps are.
+    pace: Pace,
 }
 
 impl Meter {
@@ -32,13 +65,14 @@ impl Meter {
             bond_steps: 0.0,
             contacts: simulation.contact_count(),
             largest_overlap: simulation.largest_overlap(),
+            pace: Pace::default(),
         }
     }
 
-    /// Makes a communication step and counts it.
-    pub(crate) fn step(&mut self, simulation: &mut Simulation, interval: f64) -> Result<(), RunError> {
+    /// Makes a part of a communication step and counts it. Returns whether its end is reached.
+    pub(crate) fn part(&mut self, simulation: &mut Simulation, interval: f64) -> Result<bool, RunError> {
         let (begun, before) = (Instant::now(), simulation.state().clock.steps);
-        let result = simulation.advance(interval);
+        let result = self.pace.part(simulation, interval);
         self.stepping += begun.elapsed();
         let contacts = simulation.contact_count();
         let steps = (simulation.state().clock.steps - before) as f64;

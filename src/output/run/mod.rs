@@ -14,7 +14,7 @@ mod summary;
 pub use frame_writer::FrameWriter;
 pub use order::{EarlierResults, Progress, RunOrder, Start};
 pub use remarks::remarks;
-pub use settle::{SettleOrder, SettleProgress, Settled, settle};
+pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 
 use crate::engine::simulation::{RunError, Simulation};
@@ -75,6 +75,8 @@ struct Session<'a> {
     writer: Writer,
     /// Communication point that was reached last \[s\].
     time: f64,
+    /// Bonds that broke since then and are told.
+    told_breaks: usize,
     /// Communication point where this session began \[s\].
     start: f64,
     /// Momentum and impulses at the start of this session.
@@ -94,6 +96,8 @@ impl<'a> Session<'a> {
     fn begin(order: RunOrder<'a>) -> Result<Self, Failure> {
         let scene_name = || order.scene_name.to_owned();
         let interface = Interface::of(order.scene);
+        let chosen = interface.check_names(order.scene);
+        chosen.map_err(|source| Refusal::Chosen { scene: scene_name(), source })?;
         let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
         let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
         let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
@@ -115,9 +119,10 @@ impl<'a> Session<'a> {
             }
             Some((path, origin)) => {
                 let state = read_checkpoint(&path, order.scene)?;
-                let saved = state.clock.time;
-                let time = schedule.point_of(saved).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
-                let origin = if time > 0.0 { origin } else { Origin::Anew };
+                let (saved, underway) = (state.clock.time, state.underway);
+                let point = underway.map_or(saved, |underway| saved - underway.elapsed());
+                let time = schedule.point_of(point).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
+                let origin = if time > 0.0 || underway.is_some() { origin } else { Origin::Anew };
                 let resumed = Simulation::resume(Arc::clone(order.scene), state);
                 let source =
                     |fault: crate::engine::state::StateFault| ResumeError::Snapshot { path, source: fault.into() };
@@ -142,6 +147,7 @@ impl<'a> Session<'a> {
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
+        let told_breaks = simulation.state().underway.map_or(0, |_| simulation.state().breaks.len());
         let meter = Meter::start(&simulation);
         Ok(Self {
             order,
@@ -153,6 +159,7 @@ impl<'a> Session<'a> {
             folder,
             writer,
             time,
+            told_breaks,
             start: time,
             momentum,
             meter,
@@ -168,12 +175,22 @@ impl<'a> Session<'a> {
         let tell = |time| Progress { start, time, end };
         watch(tell(self.time));
         while let Some(point) = self.schedule.after(self.time) {
-            if let Some(inputs) = &self.inputs {
-                inputs.set(&self.interface, &mut self.simulation, point.time);
+            if self.simulation.state().underway.is_none() {
+                self.told_breaks = 0;
+                if let Some(inputs) = &self.inputs {
+                    inputs.set(&self.interface, &mut self.simulation, point.time);
+                }
             }
-            let advanced = self.meter.step(&mut self.simulation, point.interval);
-            self.write_breaks()?;
-            advanced?;
+            while !self.advance_part(point.interval)? {
+                watch(tell(self.simulation.time()));
+                let stopped = stop.load(Ordering::Relaxed);
+                if stopped || self.overdue() {
+                    self.write_checkpoint(if stopped { WrittenFrom::InPlace } else { WrittenFrom::Copied })?;
+                }
+                if stopped {
+                    return Err(self.interrupted());
+                }
+            }
             self.time = point.time;
             let stopped = stop.load(Ordering::Relaxed);
             let last = stopped || point.time >= self.end;
@@ -187,16 +204,24 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
+    /// Makes a part of a communication step of this length \[s\]. Returns whether its end is reached.
+    fn advance_part(&mut self, interval: f64) -> Result<bool, Failure> {
+        let reached = self.meter.part(&mut self.simulation, interval);
+        self.write_breaks()?;
+        Ok(reached?)
+    }
+
     /// Whether a scene that gives no interval has waited long for a checkpoint.
     fn overdue(&self) -> bool {
         let unnamed = self.order.scene.output.checkpoint_interval.is_none();
         unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
     }
 
-    /// Hands the bonds that broke in the last communication step to the writer.
+    /// Hands the bonds that broke in this communication step, and are not told yet, to the writer.
     fn write_breaks(&mut self) -> Result<(), OutputError> {
-        let breaks = &self.simulation.state().breaks;
-        if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.clone())) }
+        let breaks = self.simulation.state().breaks.get(self.told_breaks..).unwrap_or_default();
+        self.told_breaks += breaks.len();
+        if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.to_vec())) }
     }
 
     /// Hands the outputs that are due to the writer.
@@ -208,16 +233,19 @@ impl<'a> Session<'a> {
         if due.frame {
             self.writer.send(frame(&self.simulation, time))?;
         }
-        if due.checkpoint {
-            self.last_checkpoint = Instant::now();
-            self.simulation.check_present()?;
-            let state = self.simulation.state();
-            match checkpoint {
-                WrittenFrom::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
-                WrittenFrom::InPlace => {
-                    self.writer.wait()?;
-                    opened(&self.folder).checkpoint(state)?;
-                }
+        if due.checkpoint { self.write_checkpoint(checkpoint) } else { Ok(()) }
+    }
+
+    /// Hands the present state to the writer.
+    fn write_checkpoint(&mut self, from: WrittenFrom) -> Result<(), Failure> {
+        self.last_checkpoint = Instant::now();
+        self.simulation.check_present()?;
+        let state = self.simulation.state();
+        match from {
+            WrittenFrom::Copied => self.writer.send(Job::Checkpoint(Box::new(state.clone())))?,
+            WrittenFrom::InPlace => {
+                self.writer.wait()?;
+                opened(&self.folder).checkpoint(state)?;
             }
         }
         Ok(())
@@ -225,7 +253,7 @@ impl<'a> Session<'a> {
 
     /// The answer to a request to stop.
     fn interrupted(&self) -> Failure {
-        Failure::Interrupted { time: self.time, folder: self.order.folder.to_owned() }
+        Failure::Interrupted { time: self.simulation.time(), folder: self.order.folder.to_owned() }
     }
 
     /// Waits for the writer and writes the summary. Returns the first error.

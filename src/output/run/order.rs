@@ -42,7 +42,7 @@ pub struct RunOrder<'a> {
     pub earlier_results: EarlierResults,
     /// A table of the driven boundaries' displacements over time; without one they stay where they are.
     pub inputs: Option<&'a Path>,
-    /// Set from outside to stop at the next communication point.
+    /// Set from outside to stop after the present time step, or within a tenth of a second.
     pub stop: &'a AtomicBool,
 }
 

@@ -1,9 +1,10 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
-use crate::laws::contact::{MaterialPair, PairProperties};
+use crate::interface::{Interface, MOST_COLUMNS};
+use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
-use crate::scene::{ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, ContactLaw, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -17,6 +18,9 @@ const DEEP_COHESION: f64 = 0.03;
 /// Overlap over radius above which contact laws are hardly valid.
 const DEEP_OVERLAP: f64 = 0.05;
 
+/// Share of the target by which a servo misses it that is remarked.
+const MISSED: f64 = 0.01;
+
 /// The remarks on a scene in its present state.
 pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let mut remarks = Vec::new();
@@ -25,12 +29,15 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(moduli(scene));
     remarks.extend(unusual(scene));
     remarks.extend(unread(scene));
+    remarks.extend(idle(scene));
+    remarks.extend(columns(scene));
     remarks.extend(passed_through(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
     remarks.extend(full(scene, simulation));
+    remarks.extend(missed(scene, simulation));
     remarks
 }
 
@@ -47,6 +54,23 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     (step > NEAR_THE_BOUND * stable).then(|| {
         format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
     })
+}
+
+/// On servos that press with another force than they are to, as a mean over the last interval.
+fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let mut missed = Vec::new();
+    for (boundary, moved) in scene.boundaries.iter().zip(&simulation.state().boundaries) {
+        for axis in (0..3).filter(|&axis| boundary.axes[axis].servo().is_some()) {
+            let (found, target) = (moved.mean_force[axis], 0.5 * (moved.start[axis] + moved.end[axis]));
+            if simulation.state().clock.steps > 0 && (found - target).abs() > MISSED * target.abs() {
+                let [name, axis] = [&boundary.name, AxisMotion::WORDS[axis]];
+                missed.push(format!(
+                    "[boundary.{name}] servo: the particles press with {found:.4e} N along {axis} in the last interval, to be {target:.4e} N"
+                ));
+            }
+        }
+    }
+    missed
 }
 
 /// On what insertions did not let come for want of room.
@@ -187,6 +211,79 @@ fn unread(scene: &Scene) -> Vec<String> {
     remarks
 }
 
+/// On materials of which nothing is made, laws that are for none that can meet, and moduli that no law reads.
+fn idle(scene: &Scene) -> Vec<String> {
+    let count = scene.materials.len();
+    let particles =
+        scene.particles.iter().map(|particle| particle.material).chain(scene.insertions.iter().map(|it| it.material));
+    let (mut moving, mut there) = (vec![false; count], vec![false; count]);
+    particles.for_each(|material| moving[material.index()] = true);
+    there.clone_from(&moving);
+    let walls = scene.boundaries.iter().filter_map(|boundary| boundary.shape.material());
+    walls.for_each(|material| there[material.index()] = true);
+    let mut remarks = Vec::new();
+    for (index, material) in scene.materials.iter().enumerate() {
+        if !there[index] {
+            remarks.push(format!("[material.{}]: nothing is made of it", material.name));
+            continue;
+        }
+        let elastic = [
+            (
+                "youngs_modulus",
+                material.youngs_modulus.is_some(),
+                Material { youngs_modulus: None, ..material.clone() },
+            ),
+            (
+                "poissons_ratio",
+                material.poissons_ratio.is_some(),
+                Material { poissons_ratio: None, ..material.clone() },
+            ),
+        ];
+        let is_read = |other: &Material| {
+            (0..count).any(|partner| {
+                let entry = index * count + partner;
+                let with = |own: &Material| {
+                    let b = if partner == index { own } else { &scene.materials[partner] };
+                    let pair = MaterialPair { a: own, b, properties: &scene.pairs[entry] };
+                    let laws = scene.contacts.iter().filter(|law| law.between[entry]);
+                    laws.map(|law| law.choice.coefficients(&pair).ok()).collect::<Vec<_>>()
+                };
+                with(other) != with(material)
+            })
+        };
+        let keys: Vec<_> =
+            elastic.iter().filter(|(_, given, other)| *given && !is_read(other)).map(|(key, ..)| *key).collect();
+        if !keys.is_empty() {
+            remarks.push(format!(
+                "[material.{}] {}: nothing reads it; no contact law takes it",
+                material.name,
+                keys.join(", ")
+            ));
+        }
+    }
+    let meet = |entry: usize| {
+        let (a, b) = (entry / count, entry % count);
+        moving[a] && there[b] || there[a] && moving[b]
+    };
+    for law in scene.contacts.iter().filter(|law| !(0..count * count).any(|entry| law.between[entry] && meet(entry))) {
+        remarks.push(format!("[contact.{}]: no two bodies of the scene are of its materials", law.name));
+    }
+    remarks
+}
+
+/// On columns of `history.csv` that are left out because there would be very many.
+fn columns(scene: &Scene) -> Option<String> {
+    let interface = Interface::of(scene);
+    let all = interface.outputs().filter(|(_, variable)| variable.node().is_none()).count();
+    (scene.output.columns.is_none() && all > MOST_COLUMNS).then(|| {
+        format!(
+            "[output] columns: history.csv has {} of {all} outputs, without those of groups of particles; columns names those that you \
+             want, [\"*\"] all of them",
+            interface.recorded().count()
+        )
+    })
+}
+
 /// On particles that pass through boundaries because no law is for their contacts.
 fn passed_through(scene: &Scene) -> Vec<String> {
     let count = scene.materials.len();
@@ -295,6 +392,28 @@ mod tests {
         );
         let read = format!("{law}\n[contact.c.rolling.cdt]\n[contact.c.cohesion.sjkr]");
         assert!(unread(&scene(&more, &read, 2500.0)).is_empty());
+    }
+
+    #[test]
+    fn materials_laws_and_moduli_that_nothing_takes_are_remarked() {
+        let pair = "restitution = 0.5\nfriction = 0.4";
+        let law = "[contact.c.normal.hertz]\n[contact.c.tangential.history]";
+        assert!(idle(&scene(pair, law, 2500.0)).is_empty());
+        let more = "[material.steel]\ndensity = 7800.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.3\n";
+        assert_eq!(idle(&scene(pair, &format!("{more}{law}"), 2500.0)), ["[material.steel]: nothing is made of it"]);
+        let other = format!(
+            "{more}[pair.g.steel]\nrestitution = 0.5\nfriction = 0.4\n[contact.c]\nbetween = [[\"g\", \"g\"]]\n{law}\n[contact.s]\n\
+             between = [[\"g\", \"steel\"]]\n[contact.s.normal.hertz]\n[contact.s.tangential.history]"
+        );
+        let told = idle(&scene(pair, &other, 2500.0));
+        assert_eq!(
+            told,
+            ["[material.steel]: nothing is made of it", "[contact.s]: no two bodies of the scene are of its materials"]
+        );
+        assert_eq!(
+            idle(&scene(pair, "", 2500.0)),
+            ["[material.g] youngs_modulus, poissons_ratio: nothing reads it; no contact law takes it"]
+        );
     }
 
     #[test]

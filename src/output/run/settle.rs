@@ -1,11 +1,14 @@
 //! A scene brought to rest, as a start for others.
 
+use super::meter::Pace;
+use crate::base::words::{counted, plain};
 use crate::engine::simulation::{Description, Simulation};
 use crate::output::results::files::{Checkpoint, write_checkpoint};
-use crate::output::results::{Failure, Refusal};
+use crate::output::results::{Failure, OutputError, Refusal};
 use crate::scene::{AxisMotion, Boundary, Scene, SceneDraft};
 use std::collections::VecDeque;
 use std::ffi::OsString;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,6 +26,17 @@ const LOOKS_TO_COMPARE: u32 = 400;
 /// Part of the smallest ratio before that counts as nearer to rest.
 const NEARER: f64 = 0.8;
 
+/// Where settling begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettleStart<'a> {
+    /// With the scene as its file has it.
+    Scene,
+    /// With this checkpoint, which may be another scene's.
+    From(&'a Path),
+    /// With what an earlier attempt left beside the file of the settled state.
+    Unsettled,
+}
+
 /// What is to be settled, and where to.
 #[derive(Clone, Copy, Debug)]
 pub struct SettleOrder<'a> {
@@ -30,8 +44,8 @@ pub struct SettleOrder<'a> {
     pub scene: &'a Arc<Scene>,
     /// Its file name, for messages.
     pub scene_name: &'a str,
-    /// The checkpoint that it begins with, which may be another scene's; none: the scene as its file has it.
-    pub from: Option<&'a Path>,
+    /// Where it begins.
+    pub start: SettleStart<'a>,
     /// The file that gets the state.
     pub checkpoint: &'a Path,
     /// Time steps after which the attempt is given up.
@@ -72,13 +86,36 @@ pub struct Settled {
     pub left_behind: Vec<String>,
 }
 
+impl std::fmt::Display for Settled {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            formatter,
+            "settled after {} (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {}, kinetic energy {:.3e} J",
+            counted(self.steps, "step"),
+            plain(self.time),
+            self.wall_time,
+            self.ratio,
+            if self.contacts > 0 { "contact" } else { "bond" },
+            counted(self.contacts, "contact"),
+            self.kinetic_energy
+        )?;
+        self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
+    }
+}
+
 /// Runs a scene with damping, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
 /// tolerance; then writes the state as one at time 0, contact histories kept, velocities as they are.
 pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> Result<Settled, Failure> {
     let begun = Instant::now();
     let refused = |source| Refusal::Start { scene: order.scene_name.to_owned(), source };
     let still = standing_still(order.scene);
-    let (mut simulation, left_behind) = match order.from {
+    let unsettled = kept(order.checkpoint);
+    let from = match order.start {
+        SettleStart::Scene => None,
+        SettleStart::From(path) => Some(path),
+        SettleStart::Unsettled => Some(unsettled.as_path()),
+    };
+    let (mut simulation, left_behind) = match from {
         None => (Simulation::new(Arc::clone(&still)).map_err(refused)?, Vec::new()),
         Some(path) => {
             let not = |error| Refusal::not_taken_over(order.scene_name, error);
@@ -94,21 +131,24 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
     };
     let (steps, time) = (simulation.state().clock.steps - steps_before, simulation.time());
     let reached = simulation.state().clone();
-    let simulation = match order.from {
-        None => Simulation::settled(Arc::clone(order.scene), reached)?,
-        Some(_) => {
+    let simulation = match order.start {
+        SettleStart::Scene | SettleStart::Unsettled => Simulation::settled(Arc::clone(order.scene), reached)?,
+        SettleStart::From(_) => {
             let from = Description::of(&still, order.scene_name, time);
             Simulation::taken_over(Arc::clone(order.scene), &reached, &from)?.0
         }
     };
     let ratio = match come {
         Ok(ratio) => ratio,
-        Err(unsettled) => {
-            write_checkpoint(&kept(order.checkpoint), simulation.state(), order.scene, order.scene_name)?;
-            return Err(unsettled);
+        Err(failure) => {
+            write_checkpoint(&unsettled, simulation.state(), order.scene, order.scene_name)?;
+            return Err(failure);
         }
     };
     write_checkpoint(order.checkpoint, simulation.state(), order.scene, order.scene_name)?;
+    if order.start == SettleStart::Unsettled {
+        fs::remove_file(&unsettled).map_err(OutputError::at(&unsettled))?;
+    }
     Ok(Settled {
         steps,
         time,
@@ -137,7 +177,7 @@ fn come_to_rest(
     let tolerance = order.scene.run.settle_tolerance;
     let before = simulation.state().clock.steps;
     let mut looks = VecDeque::from(vec![f64::INFINITY; LOOKS]);
-    let mut course = Course::default();
+    let (mut course, mut pace) = (Course::default(), Pace::default());
     loop {
         let clock = simulation.state().clock;
         let ratio = looks.iter().copied().fold(0.0, f64::max);
@@ -147,9 +187,6 @@ fn come_to_rest(
             return Ok(ratio);
         }
         let latest = looks.back().copied().unwrap_or(ratio);
-        if order.stop.load(Ordering::Relaxed) {
-            return Err(Failure::SettlingInterrupted { kept: kept(order.checkpoint), steps, ratio: latest });
-        }
         if steps >= order.most_steps {
             return Err(Failure::Unsettled {
                 kept: kept(order.checkpoint),
@@ -172,7 +209,14 @@ fn come_to_rest(
         }
         let left = order.most_steps - steps;
         let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
-        simulation.advance(count * clock.step)?;
+        while !pace.part(simulation, count * clock.step)? && !order.stop.load(Ordering::Relaxed) {
+            let steps = simulation.state().clock.steps - before;
+            watch(SettleProgress { steps, ratio, tolerance });
+        }
+        if order.stop.load(Ordering::Relaxed) {
+            let steps = simulation.state().clock.steps - before;
+            return Err(Failure::SettlingInterrupted { kept: kept(order.checkpoint), steps, ratio: latest });
+        }
         looks.pop_front();
         looks.push_back(if simulation.is_filling() { f64::INFINITY } else { unbalanced_force(simulation) });
     }

@@ -4,6 +4,7 @@ use super::meter::{Meter, intact_bonds};
 use super::momentum::MomentumBalance;
 use super::order::RunOrder;
 use super::remarks::remarks;
+use crate::base::words::{counted, plain};
 use crate::engine::simulation::Simulation;
 use crate::engine::state::Loss;
 use crate::engine::state::ledger::Source;
@@ -248,20 +249,16 @@ impl Summary {
     }
 }
 
-/// A number of things, in words.
-fn counted(number: u64, thing: &str) -> String {
-    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
-}
-
 impl std::fmt::Display for Summary {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "{} to t = {} s, {}, {:.0} contacts on average, {:.3} s wall",
+            "{} to t = {} s, {}, {:.0} contact{} on average, {:.3} s wall",
             counted(self.session_steps, "step"),
-            self.time,
-            counted(self.counts.particles as u64, "particle"),
+            plain(self.time),
+            counted(self.counts.particles, "particle"),
             self.counts.mean_contacts,
+            if self.counts.mean_contacts.round() == 1.0 { "" } else { "s" },
             self.wall_time
         )?;
         let costs = [
@@ -273,7 +270,7 @@ impl std::fmt::Display for Summary {
         if let Some((cost, of)) = costs.into_iter().find_map(|(cost, of)| Some((cost?, of))) {
             write!(formatter, ", {cost:.1} ns per {of} and step")?;
         }
-        write!(formatter, ", {} thread{}", self.threads, if self.threads == 1 { "" } else { "s" })?;
+        write!(formatter, ", {}", counted(self.threads, "thread"))?;
         self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
     }
 }
@@ -283,7 +280,7 @@ pub(crate) fn told(path: &Path) -> String {
     let summary = fs::read(path).ok().and_then(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).ok());
     let Some(summary) = summary else { return "it did not come to its end".to_owned() };
     match (summary["scene"].as_str(), summary["ended"].as_str(), summary["time"].as_f64()) {
-        (Some(scene), Some(ended), Some(time)) => format!("{scene}, {ended} at t = {time} s"),
+        (Some(scene), Some(ended), Some(time)) => format!("{scene}, {ended} at t = {} s", plain(time)),
         _ => "its summary.json cannot be read".to_owned(),
     }
 }

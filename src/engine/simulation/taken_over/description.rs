@@ -238,6 +238,7 @@ fn course(scene: &Scene) -> u64 {
         hashed.0.update(parameter.name.as_bytes());
     }
     rest.parameters = Vec::new();
+    (rest.probes, rest.derived) = (Vec::new(), Vec::new());
     let defaults = crate::scene::Run::default();
     rest.run.settle_tolerance = defaults.settle_tolerance;
     rest.run.settle_damping = defaults.settle_damping;

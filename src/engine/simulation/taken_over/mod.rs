@@ -45,6 +45,8 @@ impl Simulation {
     /// ([`Description::goes_on_as`]).
     pub fn going_on(scene: Arc<Scene>, mut state: State, from: &Description) -> Result<Self, StateFault> {
         history::fit_outputs(&scene, &mut state, from);
+        // A communication step that was left on its way belongs to the other run.
+        state.underway = None;
         Self::resume(scene, state)
     }
 

@@ -19,6 +19,7 @@ use super::feet::Features;
 use super::{Shape, Surface};
 use crate::base::number::Vector;
 use crate::base::quantity::MaterialIndex;
+use crate::base::words::counted;
 use edge::Edge;
 use face::Faces;
 pub(crate) use keys::Keys;
@@ -164,7 +165,7 @@ impl Surface for Mesh {
     }
 
     fn words(&self) -> String {
-        format!("mesh of {} triangles", self.topology.triangles.len())
+        format!("mesh of {}", counted(self.topology.triangles.len(), "triangle"))
     }
 
     fn material(&self) -> Option<MaterialIndex> {

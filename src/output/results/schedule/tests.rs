@@ -170,3 +170,11 @@ fn a_schedule_passes_the_rows_where_it_once_stood_still() {
     }
     assert_eq!(time, schedule.point_of(128.0004).unwrap());
 }
+
+#[test]
+fn intervals_are_those_of_the_scene_and_not_what_rounding_leaves_of_times() {
+    for interval in [1e-3, 3.3e-4, 0.1] {
+        let all = points(&schedule(interval, None, 100.0 * interval), 0.0);
+        assert!(all.iter().all(|point| point.interval == interval), "{interval}: {all:?}");
+    }
+}

@@ -104,8 +104,28 @@ pub(super) fn places(scene: &SceneDraft) -> Vec<Finding> {
     surfaces(scene, &mut findings);
     overlaps(scene, &mut findings);
     findings.extend(idle(scene));
+    findings.extend(looks(scene));
     findings.extend(plane_objections(scene).into_iter().map(|(table, key, mistake)| Finding::at(table, key, mistake)));
     findings
+}
+
+/// Probes of what is not there, and sums that have no name of their own.
+fn looks(scene: &SceneDraft) -> Vec<Finding> {
+    let sets = scene.sets.len();
+    let probes = scene.probes.iter().filter_map(|probe| {
+        let (key, mistake) = probe.objection(&scene.particles, sets)?;
+        Some(Finding::at(format!("probe.{}", probe.name), key, mistake))
+    });
+    let derived =
+        scene.derived.iter().filter(|derived| derived.name == "time" || derived.sum.is_empty()).map(|derived| {
+            let (key, found, expected) = match derived.sum.is_empty() {
+                true => ("sum", "none", "names of outputs"),
+                false => ("", "that of the first column", "a name of its own"),
+            };
+            let mistake = Mistake::Unexpected { found: found.to_owned(), expected: expected.to_owned() };
+            Finding::at(format!("derived.{}", derived.name), key, mistake)
+        });
+    probes.chain(derived).collect()
 }
 
 /// Spacing of numbers at a particle over its radius, above which its place is too coarse to say what it touches.

@@ -25,7 +25,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Models, Output, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use finding::Finding;
 use raw_tables::RawTables;
 
@@ -42,7 +42,7 @@ pub(super) fn scene(
     let Some(written) = written else { return Err(SceneErrors { list: Vec::new() }) };
     let materials = contacts::materials(&written);
     let run = run(&written.run, &mut faults);
-    let output = output(&written.output, &mut faults);
+    check_output(&written.output, &mut faults);
     let pairs = contacts::pairs(&written, &materials, &mut faults);
     let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
@@ -55,6 +55,7 @@ pub(super) fn scene(
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
+    let (probes, derived) = looks(&written, &born.sets, &mut faults);
     let mut draft = SceneDraft {
         about: written.about,
         bonds,
@@ -74,7 +75,9 @@ pub(super) fn scene(
         insertions,
         outlets,
         meters,
-        output,
+        probes,
+        derived,
+        output: written.output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
     };
@@ -184,13 +187,23 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
 }
 
 /// `[output]`
-fn output(table: &Output, faults: &mut Faults) -> Output {
+fn check_output(table: &Output, faults: &mut Faults) {
     let with_frames = [(table.contacts, "contacts"), (table.boundaries, "boundaries")];
     if let Some((_, what)) = with_frames.iter().find(|(wanted, _)| *wanted && table.frame_interval.is_none()) {
         let expected = format!("{what} are written with the frames");
         faults.add("output", "frame_interval", Mistake::Missing { expected });
     }
-    *table
+}
+
+/// Probes and sums of outputs.
+fn looks(written: &RawTables, sets: &[String], faults: &mut Faults) -> (Vec<Probe>, Vec<Derived>) {
+    let mut probes = Vec::new();
+    for (name, keys) in &written.probes {
+        let table = format!("probe.{name}");
+        probes.extend(Probe::of(name, keys, sets, &mut |key, mistake| faults.add(&table, key, mistake)));
+    }
+    let derived = written.derived.iter().map(|(name, keys)| Derived { name: name.clone(), sum: keys.sum.clone() });
+    (probes, derived.collect())
 }
 
 /// All regions.

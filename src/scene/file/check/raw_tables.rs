@@ -15,7 +15,7 @@ use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
-use crate::scene::{About, AxisMotion, DRY, Models, Output, ROLLING_FREELY, SMOOTH};
+use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
 /// The whole text.
@@ -56,6 +56,10 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) domain: Option<DomainTable>,
     /// `[output]`
     pub(super) output: Output,
+    /// `[probe.<name>]`
+    pub(super) probes: Named<ProbeKeys>,
+    /// `[derived.<name>]`
+    pub(super) derived: Named<DerivedKeys>,
 }
 
 /// A contact law and its sub-models.
@@ -138,6 +142,8 @@ impl RawTables {
         let meters = all(document, "flow_meter", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
         let output = document.read("output", faults);
+        let probes = all(document, "probe", faults);
+        let derived = all(document, "derived", faults);
         if faults.count() > 0 {
             return None;
         }
@@ -162,6 +168,8 @@ impl RawTables {
             meters,
             domain,
             output,
+            probes,
+            derived,
         })
     }
 }

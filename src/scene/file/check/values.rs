@@ -109,7 +109,7 @@ impl Table<'_, '_, '_> {
 /// Names are names, and each is there once in its kind.
 fn names(draft: &SceneDraft, at: &mut Table) {
     let materials: Vec<&str> = draft.materials.iter().map(|it| &*it.name).collect();
-    let kinds: [(&str, Vec<&str>); 10] = [
+    let kinds: [(&str, Vec<&str>); 12] = [
         ("material", materials),
         ("contact", draft.contacts.iter().map(|it| &*it.name).collect()),
         ("bond", draft.bonds.iter().map(|it| &*it.name).collect()),
@@ -120,6 +120,8 @@ fn names(draft: &SceneDraft, at: &mut Table) {
         ("region", draft.regions.iter().map(|it| &*it.name).collect()),
         ("insertion", draft.insertions.iter().map(|it| &*it.name).collect()),
         ("outlet", draft.outlets.iter().map(|it| &*it.name).collect()),
+        ("probe", draft.probes.iter().map(|it| &*it.name).collect()),
+        ("derived", draft.derived.iter().map(|it| &*it.name).collect()),
     ];
     for (kind, names) in kinds {
         let mut known = BTreeSet::new();

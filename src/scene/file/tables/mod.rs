@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 17] = [
+pub(in crate::scene::file) const TABLES: [&str; 19] = [
     "about",
     "run",
     "gravity",
@@ -40,6 +40,8 @@ pub(in crate::scene::file) const TABLES: [&str; 17] = [
     "flow_meter",
     "domain",
     "output",
+    "probe",
+    "derived",
 ];
 
 /// `[run]`
