@@ -145,7 +145,7 @@ pub(crate) fn judge(seed: u64, intervals: usize, part: f64, lines: &str) -> (Str
     let scene = random(seed, 0);
     let name = format!("seed {seed}: {}", scene.name);
     let courses: Result<Vec<Course>, Outcome> =
-        [part, FINE[0], FINE[1]].iter().map(|part| run(&scene, *part, intervals, lines)).collect();
+        [part, FINE[0], FINE[1]].into_iter().map(|part| run(&scene, part, intervals, lines)).collect();
     let courses = match courses {
         Ok(courses) => courses,
         Err(outcome) => return (name, outcome),
