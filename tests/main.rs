@@ -2,6 +2,7 @@
 //!
 //! Tests that need a process of their own stand in programs of their own (`Cargo.toml`).
 
+mod bodies;
 mod bond_energies;
 mod bond_laws;
 mod bond_lists;

@@ -201,3 +201,97 @@ fn a_ball_on_a_belt_rolls_backwards_with_two_sevenths_of_its_speed() {
     assert_near(balls[2][0], BELT * parts[0], 1e-4);
     assert_near(-balls[4][1] * 0.005 * arm, BELT * parts[1], 1e-4);
 }
+
+/// A sphere that is held on a boundary of this shape and motion, with linear springs that never slide.
+fn held(scheme: &str, boundary: &str) -> String {
+    format!(
+        r#"
+[run]
+step = 1e-4
+scheme = "{scheme}"
+max_overlap = 0.2
+threads = 1
+[material.a]
+youngs_modulus = 1.0e7
+poissons_ratio = 0.3
+density = 2500.0
+[pair.a.a]
+friction = 1e4
+normal_stiffness = 1.0e3
+tangential_stiffness = 500.0
+normal_damping = 0.0
+tangential_damping = 0.0
+[contact.touch]
+tangential_damping = false
+[contact.touch.normal.hooke_stiffness]
+[contact.touch.tangential.history]
+[particles.one]
+material = "a"
+list = [{{ position = [0.1, 0.0, 0.0099], radius = 0.01 }}]
+[boundary.a_floor]
+material = "a"
+{boundary}
+[boundary.held]
+particles = {{ ids = [1] }}
+"#
+    )
+}
+
+#[test]
+fn a_tangential_spring_is_the_displacement_of_an_accelerated_boundary() {
+    let trapezoid = "{ trapezoid = { distance = 1e-3, speed = 0.01, acceleration = 10.0 } }";
+    let sine = "{ sine = { amplitude = 1e-3, frequency = 30.0, phase = 1.0 } }";
+    let table = "{ table = { file = \"way.csv\", time = \"t\", column = \"u\" } }";
+    let smooth = "{ table = { file = \"way.csv\", time = \"t\", column = \"u\", interpolation = \"smooth\" } }";
+    for scheme in ["engine", "predicted_normal", "midway", "predicted"] {
+        for (shape, motion) in
+            [PLANE, DISC].into_iter().flat_map(|shape| [trapezoid, sine, table, smooth, "0.03"].map(|it| (shape, it)))
+        {
+            let text = held(scheme, &format!("{shape}motion = {{ prescribed = {{ x = {motion} }} }}"));
+            let mut simulation =
+                start_beside(&text, &[("way.csv", "t,u\n0,0\n0.0031,1e-4\n0.0072,-2e-4\n0.02,3e-4\n")]);
+            for _ in 0..10 {
+                simulation.advance(1.05e-3).expect("it runs");
+                let moved = simulation.state().boundaries[0];
+                // The spring pulls the surface back.
+                let (way, spring) = (moved.displacement[0], -moved.force[0] / 500.0);
+                assert!((spring - way).abs() < 1e-12, "{scheme}, {motion}: {spring:e} m, not {way:e} m");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tangential_spring_is_the_way_of_a_boundary_that_turns_faster_and_faster() {
+    for scheme in ["engine", "predicted_normal", "midway", "predicted"] {
+        for motion in [
+            "prescribed = { rotation.z = { trapezoid = { distance = 1e-2, speed = 0.1, acceleration = 100.0 } } }",
+            "prescribed = { rotation.z = { sine = { amplitude = 1e-2, frequency = 30.0 } } }",
+            "prescribed = { rotation.z = 0.3 }",
+        ] {
+            let motion = motion.replace("rotation.z", "\"rotation.z\"");
+            let mut simulation = start(&held(scheme, &format!("{DISC}motion = {{ {motion} }}")));
+            simulation.advance(8.5e-3).expect("it runs");
+            let moved = simulation.state().boundaries[0];
+            // The point of contact stays at x = 0.1 m.
+            let (way, spring) = (0.1 * moved.rotation[2], -moved.force[1] / 500.0);
+            assert!(
+                way.abs() > 1e-5 && (spring - way).abs() < 1e-7 * way.abs(),
+                "{scheme}, {motion}: {spring:e} m, not {way:e} m"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_ramped_velocity_moves_the_spring_as_it_moves_the_boundary() {
+    let mut simulation = start(&held("midway", &format!("{PLANE}motion = {{ driven = [\"x\"], by = \"velocity\" }}")));
+    for number in 0..20 {
+        simulation.set_input(FIRST, 0, 0.01 * f64::from(number % 5) - 0.02);
+        simulation.set_input_rate(FIRST, 0, 15.0);
+        simulation.advance(6.7e-4).expect("it runs");
+        let moved = simulation.state().boundaries[0];
+        let (way, spring) = (moved.displacement[0], -moved.force[0] / 500.0);
+        assert!((spring - way).abs() < 1e-15, "{spring:e} m, not {way:e} m");
+    }
+}

@@ -209,7 +209,7 @@ fn an_impact_on_a_dense_bed_gives_no_more_than_the_impedance_times_the_speed_lim
         simulation.advance(0.02 * time).expect("it runs");
         most = most.max(force(&simulation));
     }
-    assert!(most > 10.0 * target, "they met: {most} N");
+    assert!(most > target, "they met: {most} N");
     assert!(most < 1.2 * impedance * speed, "{most} N, {} N by impedance and speed", impedance * speed);
 }
 
@@ -326,4 +326,77 @@ fn a_servo_follows_a_target_that_changes_and_goes_on_from_a_saved_state() {
         (moved.work - first.kinetic_energy() - first.elastic_energy()).abs() < 1e-3 * moved.work,
         "its work is in the block"
     );
+}
+
+/// A sphere on a floor, a gap below a plate with this servo.
+fn sphere(modulus: f64, gap: f64, plate_law: (f64, f64), restitution: f64) -> String {
+    let (target, speed) = plate_law;
+    format!(
+        r#"
+[run]
+step = "auto"
+max_overlap = 0.4
+threads = 1
+[material.a]
+youngs_modulus = {modulus:?}
+poissons_ratio = 0.3
+density = 2500.0
+[pair.a.a]
+restitution = {restitution:?}
+[contact.touch.normal.hertz]
+[particles.one]
+material = "a"
+list = [{{ position = [0.0, 0.0, 5.0e-3], radius = 5.0e-3 }}]
+[boundary.a_plate]
+material = "a"
+{}
+[boundary.floor]
+material = "a"
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+"#,
+        plate(0.01 + gap, target, speed)
+    )
+}
+
+#[test]
+fn a_servo_reaches_targets_over_six_decades_at_any_stiffness_and_speed() {
+    let mass = 4.0 / 3.0 * PI * 5e-3_f64.powi(3) * 2500.0;
+    for modulus in [1e5, 1e7, 1e9, 1e11] {
+        let effective = modulus / (2.0 * (1.0 - 0.3 * 0.3));
+        for (speed, target) in
+            [1e-3, 0.1, 10.0].into_iter().flat_map(|speed| [1e-4, 1e-2, 1.0, 100.0].map(|it| (speed, it)))
+        {
+            let overlap = (0.75 * target / (effective * 5e-3_f64.sqrt())).powf(2.0 / 3.0);
+            // Deeper than laws hold, or struck so hard that the sphere flies to and fro for long.
+            if overlap > 0.05 * 5e-3 || speed > 0.2 * (modulus / 2500.0).sqrt() {
+                continue;
+            }
+            // The gap and the way to the target, and ninety periods of the sphere there.
+            let gap = 1e-4;
+            let period = 2.0 * PI * (mass / (4.0 * effective * (5e-3 * overlap).sqrt())).sqrt();
+            let time = 2.0 * (gap + 2.0 * overlap) / speed + 90.0 * period + 20.0 * gap / speed.min(1.0);
+            let mut simulation = start(&sphere(modulus, gap, (target, speed), 0.5));
+            simulation.advance(time).unwrap_or_else(|error| panic!("{error}"));
+            simulation.advance(0.1 * time).unwrap_or_else(|error| panic!("{error}"));
+            let moved = &simulation.state().boundaries[0];
+            for found in [moved.force[2], moved.mean_force[2]] {
+                assert!(
+                    (found / target - 1.0).abs() < 0.01,
+                    "{found} N, not {target} N, with {modulus:e} Pa and {speed} m/s after {time:e} s"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_servo_that_has_not_reached_its_target_is_remarked() {
+    let mut simulation = start(&sphere(1e7, 1e-3, (1.0, 1e-3), 0.5));
+    let remarks = |simulation: &Simulation| cograin::run::remarks(simulation.scene(), simulation).join("\n");
+    assert!(!remarks(&simulation).contains("servo"), "{}", remarks(&simulation));
+    simulation.advance(1e-2).expect("it runs");
+    assert!(remarks(&simulation).contains("[boundary.a_plate] servo: "), "{}", remarks(&simulation));
+    simulation.advance(3.0).expect("it runs");
+    simulation.advance(1e-2).expect("it runs");
+    assert!(!remarks(&simulation).contains("servo"), "{}", remarks(&simulation));
 }

@@ -101,6 +101,38 @@ fn communication_steps_may_vary_and_whole_time_steps_give_the_same_bits() {
 }
 
 #[test]
+fn a_host_whose_steps_are_not_quite_whole_time_steps_is_followed() {
+    let unit = Unpacked::new();
+    for part in [-9e-7, 9e-7, -5e-7, 5e-7] {
+        let host = Host::started(&unit);
+        let length = 1.0e-5 * (1.0 + part);
+        for count in 0..3000 {
+            assert_eq!(host.step(f64::from(count) * length, length), Status::Ok, "{part}: {}", host.said());
+        }
+    }
+}
+
+#[test]
+fn a_step_left_out_or_made_twice_is_refused_at_any_start_time() {
+    let unit = Unpacked::new();
+    for start in [0.0, 86400.0, 3.0e7, 1.7e9] {
+        for (wrong, length) in [2.0, 4.0].into_iter().flat_map(|wrong| [(wrong, 1.0e-3), (wrong, 1.0e-5)]) {
+            let host = Host::instantiated(&unit);
+            assert_eq!(fmi2SetupExperiment(host.component, 0, 0.0, start, 0, 0.0), Status::Ok);
+            assert_eq!(fmi2EnterInitializationMode(host.component), Status::Ok);
+            assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok);
+            for count in 0..3 {
+                assert_eq!(host.step(start + f64::from(count) * length, length), Status::Ok, "{}", host.said());
+            }
+            host.refused(
+                host.step(start + wrong * length, length),
+                &["communication point: expected the present time"],
+            );
+        }
+    }
+}
+
+#[test]
 fn two_instances_in_turn_do_what_each_does_alone() {
     let unit = Unpacked::new();
     let text = source().text.replace("friction = 0.4", "friction = 0.1");

@@ -69,11 +69,10 @@ def arguments():
 
 def cell(side, problem, make, mass, step):
     """One run of the bed, as figures of BED_COLUMNS."""
-    control = StepControl(unconverged="accept", halvings=0)
     began, said = taken_by(side), ""
     coupling = None
     try:
-        coupling = Coupling(side, Oscillator(mass, problem.spring), make(), step, control=control)
+        coupling = Coupling(side, Oscillator(mass, problem.spring), make(), step)
         for row in coupling.steps(round(problem.end / step) * step):
             if not abs(row.displacement[0]) < 1000 * problem.sag:
                 said = "it grows without bound"

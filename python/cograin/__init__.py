@@ -1,10 +1,10 @@
 """Couples units of grains with structures and with other units.
 
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
-`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `UnitPartner`. An
-`Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit;
-`FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order. `couple`
-runs both sides and returns a `Record`.
+`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
+`UnitPartner`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are
+explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order.
+`couple` runs both sides and returns a `Record`.
 
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
 
@@ -38,6 +38,7 @@ from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
 from cograin.program import Program, ProgramError
 from cograin.quadratic import Quadratic
 from cograin.record import Record, Row
+from cograin.rigid_body import RigidBody
 from cograin.step import Force, Outcome, Step
 from cograin.structure import Modal, Oscillator, Structure
 from cograin.tolerance import Tolerance
@@ -68,6 +69,7 @@ __all__ = [
     "Quadratic",
     "QuasiNewton",
     "Record",
+    "RigidBody",
     "Row",
     "Secant",
     "Side",

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from cograin import interrupts
 from cograin.exchange import Exchange, Side
 from cograin.partner import Partner
 from cograin.progress import Progress
-from cograin.record import Record, Row
+from cograin.record import COLUMNS, Record, Row
 from cograin.step import Outcome, Step
 from cograin.unit import StepDiscarded, Unit
 from cograin.vector import Vector, vector
 
 #: What is recorded beside the columns of every record: names of a unit's variables, or names with what gives a value.
 Watch = Sequence[str] | Mapping[str, Callable[[], float]]
+
+
+#: A step whose sides differ by more than this part of the farthest move in a step is never kept unasked.
+KEPT = 0.1
 
 
 @dataclass(frozen=True)
@@ -27,7 +32,13 @@ class StepControl:
     A step that a unit discards is always halved. ``energy`` is the largest interface energy residual that a step may
     have \\[J\\]: the difference between the force and the one with which the exchange began, times the displacement. An
     explicit exchange creates or loses this energy in the step; a repeated exchange removes it.
-    ``unconverged`` says what happens to a step whose sides do not agree. ``halvings`` is how often a length is halved.
+    ``unconverged`` says what happens to a step whose sides do not agree: ``"shorten"``, ``"accept"`` it and note it, or
+    ``"stop"``. ``halvings`` is how often a length is halved.
+
+    ``"shorten"`` ends where a shorter step does not help: the length is halved as often as it may be, or the force of
+    the particles jumps, and the partner has no mass or damping and moves as far in a shorter step, or the step before
+    ended at a jump, too. The best trial is then kept and noted if the force jumps, or if its sides differ by less than
+    a tenth of the farthest move in a step; otherwise the run ends.
 
     Lengths are the given one over powers of two and stay on its grid: every multiple of the given length is met.
     """
@@ -36,12 +47,21 @@ class StepControl:
     unconverged: Literal["shorten", "accept", "stop"] = "shorten"
     halvings: int = 6
 
-    def objection(self, outcome: Outcome, defect: float, level: int) -> str:
-        """Why a step is not accepted; empty if it is accepted."""
+    def __post_init__(self) -> None:
+        if self.unconverged not in ("shorten", "accept", "stop"):
+            raise ValueError(f"unconverged: expected 'shorten', 'accept' or 'stop', found {self.unconverged!r}")
+        if self.energy is not None and not self.energy > 0.0:
+            raise ValueError(f"energy: expected a number above 0, found {self.energy}")
+        if self.halvings < 0:
+            raise ValueError(f"halvings: expected at least 0, found {self.halvings}")
+
+    def objection(self, outcome: Outcome, defect: float, last: bool) -> str:
+        """Why a step is not accepted; empty if it is accepted. ``last``: a shorter one is not to be had or no help."""
         if not outcome.converged and self.unconverged != "accept":
-            return outcome.reason
+            kept = last and self.unconverged == "shorten" and (outcome.jumps or outcome.spread < KEPT)
+            return "" if kept else outcome.reason
         # The shortest step is accepted as it is, and the record says so.
-        if self.energy is not None and abs(defect) > self.energy and level < self.halvings:
+        if self.energy is not None and abs(defect) > self.energy and not last:
             return f"the interface energy residual is {defect:.1e} J, {self.energy:g} J are allowed"
         return ""
 
@@ -62,6 +82,10 @@ class Coupling:
     """Units and partner, coupled by an exchange with this communication step \\[s\\].
 
     ``for row in coupling.steps(end)`` goes step by step, `run` to the end. ``record`` has every step.
+
+    Whatever ends a step early (an exception, Ctrl-C), both sides and the exchange are then where the step began, and
+    the run can go on from there with the same bits. An explicit exchange saves no states: Ctrl-C acts between its
+    steps, and after an exception of the partner, whose units are ahead, the run is not continued.
     """
 
     def __init__(
@@ -74,30 +98,44 @@ class Coupling:
         control: StepControl | None = None,
         watch: Watch = (),
     ) -> None:
-        if not step > 0.0:
-            raise ValueError(f"step: expected a step above 0, found {step}")
+        if not 0.0 < step < float("inf"):
+            raise ValueError(f"step: expected a finite number above 0, found {step}")
+        if not isinstance(exchange, Exchange):
+            raise ValueError(f"exchange: expected an exchange, such as Secant(), found {exchange!r}")
+        exchange.fresh()
         self.interface = interface
         self.partner = partner
         self.exchange = exchange
         self.step = step
         self.control = control or StepControl()
-        watched, self._read_watched = self._reading(watch)
-        names = interface.names
-        forces = [_force_name(name, exchange.force) for name in names]
-        self.record = Record(names, forces, watched)
+        columns = [*interface.names, *(_force_name(name, exchange.force) for name in interface.names)]
+        # What is a column anyway is not watched a second time.
+        watched, self._read_watched = self._reading(_without(watch, columns))
+        _different([*COLUMNS, *columns, *watched])
+        count = len(interface.names)
+        self.record = Record(columns[:count], columns[count:], watched)
         self._start = interface.time
         self._place = 0.0  # in steps since the start, exact
         self._level = 0  # how often the step is halved now
-        self._force = interface.force(exchange.force)
-        self._before = self._force
         self._lengths = (step, step)  # of the last two steps [s]
-        self._stood = vector(interface.displacement)  # where the books saw the interface last
-        self._worked = interface.work or 0.0
+        self._jumped = False  # whether the last step was kept at a jump of the force
+        self._broken = ""
+        if len(interface.names) == len(partner.displacement):
+            for place in partner.turning() if hasattr(partner, "turning") else ():
+                _turning(interface, place)
         self._together()
         can_save = exchange.repeats or self.control.energy is not None or not interface.keeps_itself
         if can_save and not interface.can_restore:
-            raise ValueError(f"{type(exchange).__name__}: needs units that save and restore their states")
+            without = ", ".join(unit.name for unit in getattr(interface, "units", []) if not unit.can_restore)
+            raise ValueError(
+                f"{type(exchange).__name__}: needs units that save and restore their states"
+                + (f"; {without} cannot (canGetAndSetFMUstate)" if without else "")
+            )
         self._saves = can_save
+        self._force = interface.force(exchange.force)
+        self._before = self._force
+        self._stood = vector(interface.displacement)  # where the books saw the interface last
+        self._worked = interface.work or 0.0
 
     @property
     def time(self) -> float:
@@ -114,34 +152,72 @@ class Coupling:
     def steps(self, end: float) -> Iterator[Row]:
         """The rows until a time, which is a multiple of the step, one after the other."""
         count = (end - self._start) / self.step
-        if abs(count - round(count)) > 1e-6:
+        if not abs(count) < 2.0**53 or abs(count - round(count)) > 1e-6:
             found = f"{count:.10g} up to {end:g} s"
             raise ValueError(f"end: expected a whole number of steps of {self.step:g} s, found {found}")
+        if round(count) < self._place:
+            raise ValueError(f"end: expected a time from {self.time:g} s on, found {end:g} s")
         while self._place < round(count):
             yield self.advance()
 
     def advance(self) -> Row:
         """Makes one step, of the length that the control permits."""
+        if self._broken:
+            raise CouplingStopped(self._broken, self.record)
+        with interrupts.held():
+            return self._advance()
+
+    def _advance(self) -> Row:
+        """One step; if it is left early, both sides go back to its beginning."""
+        own, exchange = dict(vars(self)), self.exchange.memory()
+        partner = self.partner.memory() if hasattr(self.partner, "memory") else None
+        begun = len(self.record)
+        if self._saves:
+            self.interface.save()
+        moved = False
+        try:
+            step, outcome, defect, evaluations, refusals = self._agreed()
+            moved = True
+            self._jumped = outcome.jumps
+            row = self._commit(step, outcome, evaluations, refusals)
+            self._place += 0.5**self._level
+            aligned = (self._place * 2.0 ** (self._level - 1)).is_integer()
+            if self._level > 0 and aligned and self.control.may_grow(defect):
+                self._level -= 1
+            return row
+        except BaseException as error:
+            if moved and not self._saves:
+                said = str(error) or type(error).__name__
+                self._broken = f"t = {step.end:g} s: the units have made the step, the partner has not: {said}"
+                raise
+            vars(self).update(own)
+            del self.record.rows[begun:]
+            self.exchange.recall(exchange)
+            self._take_back(partner)
+            raise
+
+    def _take_back(self, partner: Any) -> None:
+        """Takes both sides back to the beginning of the step."""
+        if self._saves:
+            self.interface.restore()
+        if hasattr(self.partner, "recall"):
+            self.partner.recall(partner)
+
+    def _agreed(self) -> tuple[Step, Outcome, float, int, int]:
+        """A step that is accepted, its interface energy residual, and how many evaluations and refusals it took."""
         refusals = evaluations = 0
+        begun = False
         while True:
             step = self._next()
-            if self._saves:
-                self.interface.save()
+            if self._saves and begun:
+                self.interface.restore()
+            begun = True
             outcome, defect, objection = self._attempt(step)
             evaluations += outcome.evaluations if outcome else 0
             if outcome is not None and not objection:
-                break
+                return step, outcome, defect, evaluations, refusals + outcome.refusals
             refusals += 1
-            if self._saves:
-                self.interface.restore()
             self._shorten(step, outcome, objection)
-        refusals += outcome.refusals
-        row = self._commit(step, outcome, evaluations, refusals)
-        self._place += 0.5**self._level
-        aligned = (self._place * 2.0 ** (self._level - 1)).is_integer()
-        if self._level > 0 and aligned and self.control.may_grow(defect):
-            self._level -= 1
-        return row
 
     def _next(self) -> Step:
         """The step to try."""
@@ -159,7 +235,17 @@ class Coupling:
             return None, 0.0, str(refusal)
         start = expected if self.exchange.repeats else outcome.partner_force
         defect = float((outcome.force - start) @ (outcome.displacement - begin))
-        return outcome, defect, self.control.objection(outcome, defect, self._level)
+        last = self._level >= self.control.halvings or (outcome.jumps and (self._jumped or not self._softens(step)))
+        return outcome, defect, self.control.objection(outcome, defect, last)
+
+    def _softens(self, step: Step) -> bool:
+        """Whether a force moves the partner by less in a shorter step."""
+        half = Step(step.begin, step.middle, 0.5 * step.length)
+        try:
+            long, short = (np.abs(self.partner.compliance(one)).max() for one in (step, half))
+        except ValueError:
+            return True
+        return bool(short < 0.75 * long)
 
     def _expected(self, length: float) -> Vector:
         """The force of the next step, extrapolated from the last two."""
@@ -170,8 +256,11 @@ class Coupling:
     def _shorten(self, step: Step, outcome: Outcome | None, objection: str) -> None:
         """Halves the step, or ends the run with the reason."""
         stop = outcome is not None and not outcome.converged and self.control.unconverged == "stop"
-        if stop or self._level >= self.control.halvings:
+        fixed = [unit.name for unit in getattr(self.interface, "units", []) if not unit.has_variable_steps]
+        if stop or fixed or self._level >= self.control.halvings:
             shortest = f", the shortest allowed ({self.step:g} s halved {self.control.halvings} times)"
+            if fixed:
+                shortest = f"; {', '.join(fixed)} takes no other (canHandleVariableCommunicationStepSize)"
             said = f"t = {step.begin:g} s, step of {step.length:g} s{'' if stop else shortest}: {objection}"
             raise CouplingStopped(said, self.record)
         self._level += 1
@@ -193,8 +282,7 @@ class Coupling:
             refusals,
             on_units + on_partner,
             abs(on_partner),
-            outcome.displacement,
-            outcome.force,
+            *self._told(outcome),
             tuple(self._read_watched()),
             outcome.reason,
         )
@@ -210,15 +298,27 @@ class Coupling:
         before, self._worked = self._worked, total
         return total - before
 
+    def _told(self, outcome: Outcome) -> tuple[Vector, Vector]:
+        """Displacement and force as the units call them."""
+        told = getattr(self.interface, "told", None)
+        if told is None:
+            return outcome.displacement, outcome.force
+        shown: tuple[Vector, Vector] = told(outcome.displacement, outcome.force, self.exchange.force)
+        return shown
+
     def _together(self) -> None:
-        """Refuses sides whose displacements differ."""
-        apart = np.abs(self.interface.displacement - self.partner.displacement)
-        if apart.shape != self._force.shape or len(self.interface.names) != len(self.partner.displacement):
-            there = len(self.partner.displacement)
-            raise ValueError(f"the interface has {len(self.interface.names)} directions, the partner {there}")
-        if apart.max() > 1e-9:
+        """Refuses sides that cannot stand at one place."""
+        here, there = vector(self.interface.displacement), vector(self.partner.displacement)
+        count = len(self.interface.names)
+        if count != len(there):
+            raise ValueError(f"the interface has {count} directions, the partner {len(there)}")
+        mine = getattr(self.partner, "unit", None)
+        if mine is not None and any(mine is unit for unit in getattr(self.interface, "units", [])):
+            raise ValueError(f"{mine.name}: expected another unit as the partner, found the same on both sides")
+        # What was computed in two ways differs by rounding.
+        if np.abs(here - there).max() > 1e-9 * max(np.abs(here).max(), np.abs(there).max()):
             raise ValueError(
-                f"the interface stands at {self.interface.displacement}, the partner at {self.partner.displacement}; "
+                f"the interface stands at {here}, the partner at {there}; "
                 "give the unit its inputs at the start, or place the partner"
             )
 
@@ -263,3 +363,26 @@ def _force_name(name: str, kind: str) -> str:
         if f".{given}." in name:
             return name.replace(f".{given}.", f".{'mean_' if kind == 'mean' else ''}{answer}.")
     return f"{name}.{kind}_force"
+
+
+def _without(watch: Watch, columns: Sequence[str]) -> Watch:
+    """What is watched, without names that are columns of the record; functions are kept."""
+    if isinstance(watch, Mapping):
+        return watch
+    names = (watch,) if isinstance(watch, str) else watch
+    return [name for name in names if name not in columns]
+
+
+def _different(names: Sequence[str]) -> None:
+    """Refuses columns of one name."""
+    twice = [name for place, name in enumerate(names) if name in names[:place]]
+    if twice:
+        raise ValueError(f"record: expected different names of its columns, found {twice[0]} twice")
+
+
+def _turning(interface: Side, place: int) -> None:
+    """Tells the interface that the partner counts the turns of this direction and the next two."""
+    turn = getattr(interface, "turn", None)
+    if turn is None:
+        raise ValueError(f"{type(interface).__name__}: expected a side that turns, for a partner that turns")
+    turn(place)

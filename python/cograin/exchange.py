@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Protocol
+from typing import Any, Protocol
 
 from cograin.step import Force, Outcome, Step
 from cograin.vector import Matrix, Vector
@@ -71,7 +71,7 @@ class Exchange(ABC):
     """One way to agree. `evaluate` steps the units and does not change the partner; `commit` then steps the partner.
 
     If `evaluate` raises, the partner is unchanged. ``force`` is the kind of force that is exchanged. An exchange stores
-    slopes from step to step, so use each instance for one run only.
+    slopes from step to step, so each run at the same time needs an instance of its own.
     """
 
     force: Force = "mean"
@@ -85,6 +85,22 @@ class Exchange(ABC):
     def commit(self, partner: Taker, step: Step, outcome: Outcome) -> None:
         """The partner takes the step."""
         partner.advance(outcome.partner_force, outcome.displacement, step)
+
+    def memory(self) -> Any:
+        """What it knows from earlier steps."""
+        return {name: list(value) if isinstance(value, list) else value for name, value in vars(self).items()}
+
+    def recall(self, memory: Any) -> None:
+        """Knows that again, and nothing of what came after."""
+        vars(self).update(memory)
+
+    def fresh(self) -> None:
+        """Begins a run, with what it was made with: nothing of an earlier run changes a bit."""
+        first = vars(self).get("_made")
+        if first is None:
+            vars(self)["_made"] = self.memory()
+        else:
+            self.recall(first)
 
 
 class GaussSeidel(Exchange):
@@ -117,8 +133,8 @@ class Jacobi(Exchange):
 
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
         begin = partner.displacement
-        found = side.advance(begin, step, self.force)
         moved = partner.predict(last, step) - begin
+        found = side.advance(begin, step, self.force)
         return Outcome(begin, found, last, float(abs(moved).max()))
 
     def commit(self, partner: Taker, step: Step, outcome: Outcome) -> None:

@@ -9,11 +9,21 @@ from typing import Literal
 
 import numpy as np
 
+from cograin import interrupts
 from cograin.exchange import Exchange, Side, Taker
 from cograin.step import Force, Outcome, Step
-from cograin.tolerance import Tolerance
+from cograin.tolerance import RELATIVE, Tolerance
 from cograin.unit import StepDiscarded
-from cograin.vector import Matrix, Vector, vector
+from cograin.vector import Matrix, Vector, root_of_inverse, vector
+
+#: Trials on both sides of the solution that are nearer than this part of what may be left are as good as one.
+CLOSED = 1e-6
+
+#: A compliance that is less symmetric is that of no work.
+SKEW = 0.1
+
+#: By which part of the farthest move in a step `Newton` displaces a direction.
+PERTURBATION = 1e-4
 
 
 @dataclass
@@ -23,11 +33,50 @@ class Trial:
     displacement: Vector  # that the units were given [m, rad]
     force: Vector  # that they found [N, N m]
     residual: Vector  # where the partner would go under it, less the displacement [m, rad]
+    size: float  # of the residual, each direction over its weight
+    place: Vector  # the displacement as the work that moves the partner measures it: a root of energy
+    way: Vector  # likewise the residual
 
-    @property
-    def size(self) -> float:
-        """Largest component of the residual \\[m, rad\\]."""
-        return float(np.abs(self.residual).max())
+
+class Measure:
+    """How directions compare: displacements in metres and in radians, of light and of heavy parts of the partner.
+
+    A direction weighs what a force of 1 moves it, so that squares of weighed displacements compare as energies do. A
+    partner that does not tell its compliance has equal weights.
+    """
+
+    def __init__(self, compliance: Matrix | None, directions: int) -> None:
+        #: Change of displacement per force \\[m/N\\], or ``None``.
+        self.compliance = compliance
+        sizes = np.zeros(directions) if compliance is None else np.sqrt(np.abs(np.diag(compliance)))
+        #: Weights of the directions. What no force moves weighs as the least of the others.
+        self.weights = np.where(sizes > 0.0, sizes, sizes[sizes > 0.0].min(initial=np.inf))
+        if not np.isfinite(self.weights).all():
+            self.weights = np.ones(directions)
+        #: By which part of itself the compliance is not symmetric.
+        self.skew = 0.0
+        if compliance is not None:
+            scaled = compliance / np.outer(self.weights, self.weights)
+            self.skew = float(np.abs(scaled - scaled.T).max() / np.abs(scaled).max()) if scaled.any() else 0.0
+        self._root: Matrix | None = None
+
+    def size(self, displacement: Vector) -> float:
+        """Largest of the weighed displacements."""
+        return float((np.abs(displacement) / self.weights).max())
+
+    def moved(self, force: Vector) -> Vector:
+        """How far forces of these sizes move each direction, whatever their signs \\[m, rad\\]."""
+        if self.compliance is None:
+            return np.zeros(len(force))
+        found: Vector = np.abs(self.compliance) @ np.abs(force)
+        return found
+
+    def root(self) -> Matrix:
+        """R for which \\|R u\\|² is the work that moves the partner by u, but for a factor."""
+        if self._root is None:
+            known = self.compliance
+            self._root = np.eye(len(self.weights)) if known is None else root_of_inverse(known)
+        return self._root
 
 
 @dataclass
@@ -38,6 +87,7 @@ class Search:
     partner: Taker
     step: Step
     force: Force
+    measure: Measure
     trials: list[Trial] = field(default_factory=list)
     evaluations: int = 0
     refusals: int = 0
@@ -54,6 +104,7 @@ class Search:
 
     def units(self, displacement: Vector) -> Vector:
         """Force that the units find at this displacement, from the saved state \\[N, N m\\]."""
+        interrupts.check()
         if self.evaluations or self.refusals:
             self.side.restore()
         try:
@@ -68,8 +119,75 @@ class Search:
         """One more trial."""
         force = self.units(displacement)
         residual = self.partner.predict(force, self.step) - displacement
-        self.trials.append(Trial(displacement, force, residual))
+        root = self.measure.root()
+        size = self.measure.size(residual)
+        self.trials.append(Trial(displacement, force, residual, size, root @ displacement, root @ residual))
         return self.last
+
+    def reach(self) -> float:
+        """How far the partner goes in this step by the last trial, or by its force alone: the larger, weighed."""
+        trial = self.last
+        move = np.abs(trial.displacement - self.partner.displacement)
+        return self.measure.size(np.maximum(move, self.measure.moved(trial.force)))
+
+    def within(self, target: Vector) -> Vector:
+        """The displacement to try in place of a target that cannot be right.
+
+        Particles resist, so the residual r falls along every way by at least as much as the displacement u grows. The
+        solution is then nearer to the middle of u and u + r than half of r, measured by the partner's work: in one
+        direction each trial bounds it on both sides. A target that is farther from one of the trials gives way to the
+        middle between the best trial and the nearest one that says the opposite, or to the middle of u and u + r.
+        """
+        best, place = self.best, self.measure.root() @ target
+        bound = 2.0 * float(np.linalg.norm(best.way))
+        if self.measure.skew > SKEW or bound == 0.0:
+            # No work measures such a partner, or such a residual.
+            return target
+        far = float(np.linalg.norm(place - best.place)) / bound
+        slow = len(self.trials) > 3 and best.size > 0.5 * min(trial.size for trial in self.trials[:-3])
+        if self.gives_way() or len(target) > 1:
+            # In several directions a bound on one of them cuts off too much of the others; only what strays is held.
+            if slow and len(self.trials) % 2 == 0:
+                return self.middle()
+            return target if far <= 1.0 else best.displacement + (target - best.displacement) / far
+        halves = [(trial.place + 0.5 * trial.way, 0.5 * float(np.linalg.norm(trial.way))) for trial in self.trials]
+        outside = any(float(np.linalg.norm(place - middle)) > half * (1.0 + 1e-6) for middle, half in halves)
+        return self.middle() if outside or slow else target
+
+    def gives_way(self) -> bool:
+        """Whether the force of the particles falls as they are pushed, by the last two trials."""
+        if len(self.trials) < 2:
+            return False
+        before, now = self.trials[-2:]
+        moved = now.place - before.place
+        return float(moved @ (now.way - before.way)) > -(1.0 - 1e-6) * float(moved @ moved)
+
+    def middle(self) -> Vector:
+        """Half-way between the two nearest trials that point at each other; without such, of the best residual."""
+        pair = self.pair()
+        if pair is None:
+            return self.best.displacement + 0.5 * self.best.residual
+        return 0.5 * (pair[0].displacement + pair[1].displacement)
+
+    def pair(self) -> tuple[Trial, Trial] | None:
+        """The two nearest trials whose residuals point at each other: a solution, or a jump, is between them."""
+        places = np.array([trial.place for trial in self.trials])
+        ways = np.array([trial.way for trial in self.trials])
+        between = places[None, :, :] - places[:, None, :]
+        there = np.einsum("ijk,ik->ij", between, ways) > 0.0
+        back = np.einsum("ijk,jk->ij", between, ways) < 0.0
+        distances = np.where(there & back, np.linalg.norm(between, axis=2), np.inf)
+        one, other = np.unravel_index(int(np.argmin(distances)), distances.shape)
+        return (self.trials[one], self.trials[other]) if np.isfinite(distances[one, other]) else None
+
+    def jumps(self, allowed: Vector) -> bool:
+        """Whether two trials that are as good as one disagree: the force of the particles jumps between them."""
+        pair = self.pair() if len(self.trials) > 2 else None
+        if pair is None:
+            return False
+        apart = np.abs(pair[0].displacement - pair[1].displacement)
+        rounding = 4.0 * np.finfo(float).eps * np.abs(pair[0].displacement)
+        return bool((apart <= np.maximum(CLOSED * allowed, rounding)).all())
 
 
 class Implicit(Exchange):
@@ -87,13 +205,14 @@ class Implicit(Exchange):
         self.tolerance = tolerance or Tolerance()
         self.force = force
         self.limit = limit
-        self._paces: list[
-            tuple[Vector, float]
-        ] = []  # mean velocity [m/s] and length [s] of the last two steps, newest first
+        # Mean velocity [m/s] and length [s] of the last two steps, newest first.
+        self._paces: list[tuple[Vector, float]] = []
+        self._reach = 0.0  # farthest that the partner went in a step, weighed
+        self._measure: Measure | None = None
 
     @abstractmethod
-    def correct(self, search: Search) -> Vector | None:
-        """The displacement to try next; ``None`` if no better one exists, with the reason in `why`."""
+    def correct(self, search: Search) -> Vector:
+        """The displacement to try next."""
 
     def begin(self, search: Search) -> None:
         """Called before the first trial of a step."""
@@ -131,26 +250,47 @@ class Implicit(Exchange):
         closing = self.answer(search, told - place)
         return told if closing is None else place + closing
 
-    #: Why `correct` gave up.
-    why = ""
+    def _measured(self, partner: Taker, step: Step) -> Measure:
+        """How the directions of this partner compare in a step."""
+        try:
+            compliance = partner.compliance(step)
+        except ValueError:
+            compliance = None
+        if self._measure is None or self._measure.compliance is not compliance:
+            self._measure = Measure(compliance, len(partner.displacement))
+        return self._measure
 
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
-        search = Search(side, partner, step, self.force)
+        search = Search(side, partner, step, self.force, self._measured(partner, step))
         self.begin(search)
-        displacement: Vector | None = self._first(search, expected)
-        left = ""
-        while displacement is not None:
+        displacement = self._first(search, expected)
+        while True:
             trial = self._try(search, displacement)
-            left = self.tolerance.open(trial.residual, trial.force, lambda: partner.compliance(step))
-            if not left:
-                break
-            if search.evaluations >= self.limit:
-                left = f"{self.limit} evaluations: {left}"
+            reach = self.reach(search)
+            left = self.tolerance.open(trial.residual, trial.force, lambda: partner.compliance(step), reach)
+            jumps = bool(left) and search.jumps(self.allowed(reach))
+            if not left or jumps or search.evaluations >= self.limit:
                 break
             displacement = self.correct(search)
-        if displacement is None:
-            left = f"{self.why}: {left}"
-        return self._kept(search, left)
+        if left:
+            why = "the particles' force jumps, and no displacement has the force between; " if jumps else ""
+            left = f"{search.evaluations} evaluations: {why}{left}"
+        else:
+            self._reach = max(self._reach, search.reach())
+        return self._kept(search, left, jumps)
+
+    def reach(self, search: Search) -> Vector:
+        """Farthest that each direction went in a step so far, by its weight \\[m, rad\\]; rounding included."""
+        farthest = max(self._reach, search.reach()) * search.measure.weights
+        relative = self.tolerance.relative or RELATIVE
+        rounding = 4.0 * np.finfo(float).eps * np.abs(search.last.displacement)
+        return np.maximum(farthest, rounding / relative)
+
+    def allowed(self, reach: Vector) -> Vector:
+        """What may be left in each direction \\[m, rad\\], by the limit that says it at once."""
+        if self.tolerance.displacement is not None:
+            return np.full(len(reach), self.tolerance.displacement)
+        return (self.tolerance.relative or RELATIVE) * reach
 
     def _try(self, search: Search, displacement: Vector) -> Trial:
         """A trial; if a unit discards it, the next is nearer to the best one or to the present displacement."""
@@ -162,24 +302,24 @@ class Implicit(Exchange):
                 displacement = anchor + 0.25 * (displacement - anchor)
         return search.evaluate(displacement)
 
-    def _kept(self, search: Search, left: str) -> Outcome:
+    def _kept(self, search: Search, left: str, jumps: bool) -> Outcome:
         """The trial that is kept; the units end in its state."""
         kept = search.last
         if left and search.best is not kept:
             kept = search.best
             search.units(kept.displacement)
         self.accepted(search)
-        if left and "evaluations" not in left and not self.why:
-            left = f"{search.evaluations} evaluations: {left}"
         return Outcome(
             kept.displacement,
             kept.force,
             kept.force,
-            kept.size,
+            float(np.abs(kept.residual).max()),
             search.evaluations,
             not left,
             left,
             search.refusals,
+            jumps=jumps,
+            spread=kept.size / max(self._reach, search.reach()) if left else 0.0,
         )
 
 
@@ -211,6 +351,16 @@ class Aitken(FixedPoint):
     One factor for all directions: in one direction it is the secant, in several it is slower than `QuasiNewton`.
     """
 
+    def __init__(
+        self,
+        relaxation: float = 1.0,
+        *,
+        tolerance: Tolerance | None = None,
+        force: Force = "mean",
+        limit: int = 60,
+    ) -> None:
+        super().__init__(relaxation, tolerance=tolerance, force=force, limit=limit)
+
     def correct(self, search: Search) -> Vector:
         if len(search.trials) > 1:
             before, now = search.trials[-2:]
@@ -219,7 +369,7 @@ class Aitken(FixedPoint):
             if square > 0.0:
                 # Exact for a linear answer in one direction, also after a trial that was taken nearer.
                 self.relaxation = -float(change @ (now.displacement - before.displacement)) / square
-        return search.last.displacement + self.relaxation * search.last.residual
+        return search.within(search.last.displacement + self.relaxation * search.last.residual)
 
     def answer(self, search: Search, residual: Vector) -> Vector:
         return self.relaxation * residual
@@ -247,9 +397,6 @@ class Secant(Implicit):
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         self._slope: float | None = None  # of the residual over the displacement; at most −1 for what resists
         self._stiffness = stiffness
-        self._low: Trial | None = None
-        self._high: Trial | None = None
-        self._widths: list[float] = []
 
     def begin(self, search: Search) -> None:
         if len(search.partner.displacement) != 1:
@@ -260,57 +407,19 @@ class Secant(Implicit):
         if self._slope is None:
             stiff = self._stiffness
             self._slope = -1.0 - (float(search.partner.compliance(search.step)[0, 0]) * stiff if stiff else 0.0)
-        self._low = self._high = None
-        self._widths = []
-        self.why = ""
 
-    def correct(self, search: Search) -> Vector | None:
-        now = search.last
-        self._narrow(now)
-        slope = self._secant(search)
-        place, residual = float(now.displacement[0]), float(now.residual[0])
-        target = place - residual / slope
-        if self._low is None or self._high is None:
-            # Not bracketed from both sides yet: the solution is no farther than the residual for what resists.
-            return np.array([target])
-        low, high = float(self._low.displacement[0]), float(self._high.displacement[0])
-        middle = 0.5 * (low + high)
-        # Much narrower than what is asked for, and still apart: the answer is not continuous here.
-        closed = max(1e-3 * (self.tolerance.displacement or 0.0), 4.0 * np.finfo(float).eps * abs(middle))
-        if abs(high - low) <= closed:
-            self.why = f"the particles' force jumps at a displacement of {middle:.9g} m, which has no force between"
-            return None
-        self._widths.append(abs(high - low))
-        slow = len(self._widths) > 2 and self._widths[-1] > 0.5 * self._widths[-3]
-        if slow or not low < target < high:
-            target = middle
-        return np.array([target])
+    def correct(self, search: Search) -> Vector:
+        return search.within(search.last.displacement - search.last.residual / self._secant(search))
 
     def answer(self, search: Search, residual: Vector) -> Vector | None:
         return None if self._slope is None else -residual / self._slope
-
-    def _narrow(self, trial: Trial) -> None:
-        """Keeps the nearest trials on both sides of the solution."""
-        place = trial.displacement[0]
-        if trial.residual[0] > 0.0:
-            if self._low is None or place > self._low.displacement[0]:
-                self._low = trial
-        elif self._high is None or place < self._high.displacement[0]:
-            self._high = trial
-        if self._low and self._high and self._low.displacement[0] > self._high.displacement[0]:
-            # The particles give way here: what was found last counts.
-            if trial is self._low:
-                self._high = None
-            else:
-                self._low = None
 
     def _secant(self, search: Search) -> float:
         """Slope of the residual by the last two trials; if they are too close together, the slope before."""
         if len(search.trials) > 1:
             before, now = search.trials[-2:]
             moved = float(now.displacement[0] - before.displacement[0])
-            scale = 1e-14 * max(abs(float(now.displacement[0])), 1e-6)
-            if abs(moved) > scale:
+            if abs(moved) > 1e-14 * abs(float(now.displacement[0])):
                 self._slope = min(float(now.residual[0] - before.residual[0]) / moved, -1.0)
         assert self._slope is not None
         return self._slope
@@ -340,7 +449,7 @@ class QuasiNewton(Implicit):
     def correct(self, search: Search) -> Vector:
         now = search.last
         columns = self._differences(search) + [pair for step in self._past for pair in step]
-        return now.displacement + self._closing(columns, now.residual)
+        return search.within(now.displacement + self._closing(columns, now.residual))
 
     def answer(self, search: Search, residual: Vector) -> Vector | None:
         columns = [pair for step in self._past for pair in step]
@@ -393,9 +502,10 @@ class Newton(Implicit):
 
     ``derivative="unit"`` takes the directional derivatives of the units and refuses units that have none.
     ``"differences"`` moves each direction by ``perturbation`` \\[m, rad\\] and restores the state, which is one more
-    evaluation for each direction. A derivative of the units is computed again for every correction, unless ``keep`` is
-    set. A kept derivative, as one by differences, serves over steps too, until a correction leaves more than a tenth of
-    the residual. ``derivatives`` counts how often the units were asked for theirs.
+    evaluation for each direction; if it is not given, by a ten thousandth of the farthest move in a step. A derivative
+    of the units is computed again for every correction, unless ``keep`` is set. A kept derivative, as one by
+    differences, serves over steps too, until a correction leaves more than a tenth of the residual. ``derivatives``
+    counts how often the units were asked for theirs.
     """
 
     def __init__(
@@ -403,10 +513,10 @@ class Newton(Implicit):
         derivative: Literal["unit", "differences"] = "unit",
         *,
         keep: bool = False,
-        perturbation: float = 1e-8,
+        perturbation: float | None = None,
         tolerance: Tolerance | None = None,
         force: Force = "mean",
-        limit: int = 30,
+        limit: int = 60,
     ) -> None:
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         if derivative not in ("unit", "differences"):
@@ -423,13 +533,17 @@ class Newton(Implicit):
                 "the units give no directional derivatives; Newton('differences') takes them from restored states, at "
                 "one evaluation more for each direction"
             )
+        # A partner that does not know its compliance says so before anything moves.
+        search.partner.compliance(search.step)
 
     def correct(self, search: Search) -> Vector:
         now = search.last
         slow = len(search.trials) > 1 and now.size > 0.1 * search.trials[-2].size
+        # A force that jumps has no derivative: what costs evaluations of its own is not asked for time and again.
+        slow = slow and (self.derivative == "unit" or len(search.trials) <= 4)
         if self._known is None or slow or not self.keep:
             self._known = self._change(search, now)
-        return now.displacement + self._closing(search, now.residual, self._known)
+        return search.within(now.displacement + self._closing(search, now.residual, self._known))
 
     def answer(self, search: Search, residual: Vector) -> Vector | None:
         return None if self._known is None else self._closing(search, residual, self._known)
@@ -450,8 +564,9 @@ class Newton(Implicit):
     def _by_differences(self, search: Search, now: Trial) -> Matrix:
         """Change of the force per change of displacement about a trial \\[N/m\\]."""
         columns = []
-        for direction in range(len(now.displacement)):
+        for direction, farthest in enumerate(self.reach(search)):
+            perturbation = self.perturbation or PERTURBATION * float(farthest)
             moved = now.displacement.copy()
-            moved[direction] += self.perturbation
-            columns.append((search.units(moved) - now.force) / self.perturbation)
+            moved[direction] += perturbation
+            columns.append((search.units(moved) - now.force) / perturbation)
         return np.array(columns).T

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
+from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
 from cograin.step import Force, Step
 from cograin.unit import State, Unit
 from cograin.vector import Matrix, Vector, vector
@@ -16,6 +17,66 @@ _ANSWERS = {
     "displacement": ("force", "mean_force"),
     "rotation": ("moment", "mean_moment"),
 }
+
+
+#: What `_answer` counts.
+_KINDS: tuple[Force, Force] = ("end", "mean")
+
+
+class _Turn:
+    """Rotations of one boundary about two or three axes, which do not add up.
+
+    What the directions mean is chosen by the partner. As *rotation vector* (of a structure) they are what the unit is
+    given; the moment is the one that does the same work along the vector as the moments about the axes along the turn.
+    As *turns* (of a rigid body) their changes are the rotation vectors of the turns in each step, and moments are those
+    of the unit.
+    """
+
+    def __init__(self, places: list[int], axes: list[int], names: dict[Force, tuple[str, ...]]) -> None:
+        self.places = places  # of its directions among those of the part
+        self.axes = axes  # of these directions
+        self.names = names  # of the moments about x, y, z
+        self.moments = slice(0, 0)  # their places in what is read
+        self.turns = False
+        self.given: Vector = np.zeros(3)  # rotation vector [rad]
+        self.before = np.zeros(3)  # that of the step before
+        self.counted = np.zeros(3)  # the directions as the partner has them
+
+    def memory(self) -> tuple[Vector, Vector, Vector]:
+        """What changes."""
+        return self.given, self.before, self.counted
+
+    def begin(self, given: Vector) -> None:
+        """Stands at this rotation vector, of which the directions are a part."""
+        self.given[self.axes] = given
+        self.before, self.counted = self.given, self.given
+
+    def move(self, displacement: Vector) -> Vector:
+        """The directions as the unit is given them."""
+        if not self.turns:
+            moved = self.given.copy()
+            moved[self.axes] = displacement
+        else:
+            now = after(quaternion(displacement - self.counted), quaternion(self.given))
+            moved = rotation_vector(now, near=self.given)
+        self.before, self.given = self.given, moved
+        self.counted = displacement if self.turns else moved
+        return moved[self.axes]
+
+    def rows(self, kind: Force) -> Matrix:
+        """What the moments about x, y, z come to in the directions."""
+        if self.turns:
+            return np.eye(3)
+        change = secant(self.before, self.given) if kind == "mean" else tangent(self.given)
+        found: Matrix = change.T[self.axes]
+        return found
+
+    def columns(self) -> Matrix:
+        """Change of what the unit is given, by change of the directions."""
+        if not self.turns:
+            return np.eye(len(self.axes))
+        found: Matrix = np.linalg.inv(tangent(self.given)) @ tangent(turn(self.before, self.given))
+        return found
 
 
 class _Part:
@@ -30,6 +91,9 @@ class _Part:
         self.forces: dict[Force, tuple[str, ...]] = {"end": ends, "mean": means}
         for name in (*displacements, *ends, *means):
             unit.variable(name)
+        for name in displacements:
+            if unit.variable(name).causality not in ("input", "parameter"):
+                raise ValueError(f"{unit.name}: {name} is an {unit.variable(name).causality}; an input is needed")
         boundaries = dict.fromkeys(name.split(".")[0] for name in displacements)
         works = tuple(f"{boundary}.work" for boundary in boundaries)
         self.works = works if all(name in unit.variables for name in works) else ()
@@ -38,6 +102,17 @@ class _Part:
         self.begin = unit.get(displacements)
         #: How many directions of the partner it has.
         self.size = len(displacements) if through is None else through.shape[1]
+        self.turns = list(_turns_of(displacements, ends, means))
+        # Everything that is read for the forces: the forces, then all moments of each turn.
+        self.read = dict(self.forces)
+        for one in self.turns:
+            one.moments = slice(len(self.read["end"]), len(self.read["end"]) + 3)
+            for kind, names in one.names.items():
+                for name in names:
+                    unit.variable(name)
+                self.read[kind] = (*self.read[kind], *names)
+            one.begin(self.begin[one.places])
+        self._turns_saved = [one.memory() for one in self.turns]
 
     def names(self) -> tuple[str, ...]:
         """Names of its directions."""
@@ -54,6 +129,10 @@ class _Part:
     def move(self, displacement: Vector) -> None:
         """Gives the unit where it is to be."""
         given = displacement if self.through is None else self.begin + self.through @ displacement
+        if self.turns:
+            given = given.copy()
+            for one in self.turns:
+                given[one.places] = one.move(given[one.places])
         self.unit.set(self.displacements, given)
 
     def bend(self, acceleration: Vector, displacement: Vector, length: float) -> None:
@@ -74,8 +153,61 @@ class _Part:
 
     def force(self, kind: Force) -> Vector:
         """Forces of the particles \\[N, N m\\]."""
-        found = self.unit.get(self.forces[kind])
+        found = self._reduced(self.unit.get(self.read[kind]), kind) if self.turns else self.unit.get(self.read[kind])
         return found if self.through is None else vector(self.through.T @ found)
+
+    def _reduced(self, read: Any, kind: Force) -> Any:
+        """Forces in the directions, from all that is read; of a matrix, each column."""
+        found = read[: len(self.displacements)].copy()
+        for one in self.turns:
+            found[one.places] = one.rows(kind) @ read[one.moments]
+        return found
+
+    def derivative(self, other: _Part, kind: Force) -> Matrix:
+        """Change of its forces per change of the directions of a part of the same unit."""
+        found = self._reduced(self.unit.derivative(self.read[kind], other.displacements), kind)
+        for one in other.turns:
+            found[:, one.places] = found[:, one.places] @ one.columns()
+        found = found if self.through is None else self.through.T @ found
+        whole: Matrix = found if other.through is None else found @ other.through
+        return whole
+
+    def told(self, displacement: Vector, force: Vector, kind: Force) -> tuple[Vector, Vector]:
+        """Displacement and force as the unit calls them."""
+        if not self.turns or self.through is not None:
+            return displacement, force
+        shown, moments = displacement.copy(), force.copy()
+        for one in self.turns:
+            shown[one.places] = one.given[one.axes]
+            # Moments about the axes from those along the vector; about turns they are the same.
+            if not one.turns:
+                moments[one.places] = self.unit.get(one.names[kind])[one.axes]
+        return shown, moments
+
+    def save(self) -> None:
+        """Keeps what changes beside the unit."""
+        self._turns_saved = [one.memory() for one in self.turns]
+
+    def restore(self) -> None:
+        """Has that again."""
+        for one, saved in zip(self.turns, self._turns_saved, strict=True):
+            one.given, one.before, one.counted = saved
+
+
+def _turns_of(displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...]) -> Iterator[_Turn]:
+    """The boundaries that turn about several axes, where forces have the names that follow from those of the inputs."""
+    found: dict[str, list[tuple[int, int]]] = {}
+    for place, name in enumerate(displacements):
+        stem, _, axis = name.rpartition(".")
+        usual = stem.endswith(".rotation") and axis in ("x", "y", "z")
+        if usual and (ends[place], means[place]) == (_answer(name, 0), _answer(name, 1)):
+            found.setdefault(stem, []).append((place, "xyz".index(axis)))
+    for stem, several in found.items():
+        if len(several) > 1:
+            names: dict[Force, tuple[str, ...]] = {
+                kind: tuple(_answer(f"{stem}.{axis}", number) for axis in "xyz") for number, kind in enumerate(_KINDS)
+            }
+            yield _Turn([place for place, _ in several], [axis for _, axis in several], names)
 
 
 class Interface:
@@ -133,10 +265,21 @@ class Interface:
 
     def _refresh(self) -> None:
         """Reads the present displacements of the units."""
+        inputs = [(id(part.unit), name) for part in self._parts for name in part.displacements]
+        for place, (_, name) in enumerate(inputs):
+            if inputs[place] in inputs[:place]:
+                raise ValueError(f"interface: expected each displacement once, found {name} twice")
         self.displacement = np.concatenate([part.displacement for part in self._parts])
         self._saved = self.displacement
         #: Every unit, once.
         self.units = list({id(part.unit): part.unit for part in self._parts}.values())
+        names = [unit.name for unit in self.units]
+        for place, name in enumerate(names):
+            if name in names[:place]:
+                raise ValueError(
+                    f"interface: expected units of different names, found {name} twice; "
+                    "Unit(path, name=...) gives one of its own"
+                )
         # Names of the works of each unit; two parts may speak of one boundary. Nothing where one keeps no account.
         works = [[name for part in self._parts if part.unit is unit for name in part.works] for unit in self.units]
         whole = all(part.works for part in self._parts)
@@ -168,6 +311,35 @@ class Interface:
     def has_derivatives(self) -> bool:
         """Whether every unit gives directional derivatives."""
         return self.substeps == 1 and all(unit.has_derivatives for unit in self.units)
+
+    def turn(self, place: int) -> None:
+        """Counts this direction and the next two, the rotations of one boundary, as turns; from its rotation vector."""
+        first = 0
+        for part in self._parts:
+            for one in part.turns:
+                if part.through is None and [first + each for each in one.places] == [place, place + 1, place + 2]:
+                    if one.axes != [0, 1, 2]:
+                        break
+                    one.turns = True
+                    principal = rotation_vector(quaternion(one.given))
+                    one.counted = principal
+                    self.displacement = self.displacement.copy()
+                    self.displacement[place : place + 3] = principal
+                    return
+            first += part.size
+        names = ", ".join(self.names[place : place + 3])
+        raise ValueError(f"a rigid body turns: expected rotation.x, .y and .z of a boundary here, found {names}")
+
+    def told(self, displacement: Vector, force: Vector, kind: Force) -> tuple[Vector, Vector]:
+        """Displacement and force of the last step as the units call them."""
+        if not any(part.turns for part in self._parts):
+            return displacement, force
+        first, found = 0, []
+        for part in self._parts:
+            places = slice(first, first + part.size)
+            found.append(part.told(displacement[places], force[places], kind))
+            first += part.size
+        return _joined(found)
 
     def force(self, kind: Force) -> Vector:
         """Force of the particles on the interface: mean of the last step or at its end \\[N, N m\\]."""
@@ -228,6 +400,8 @@ class Interface:
         """Saves the state of every unit, in place of the one saved before."""
         for part in {id(part.unit): part for part in self._parts}.values():
             part.state = part.unit.save(part.state)
+        for part in self._parts:
+            part.save()
         self._saved = self.displacement
 
     def restore(self) -> None:
@@ -235,6 +409,8 @@ class Interface:
         for part in {id(part.unit): part for part in self._parts}.values():
             if part.state is not None:
                 part.unit.restore(part.state)
+        for part in self._parts:
+            part.restore()
         self.displacement = self._saved
 
     def derivative(self, kind: Force) -> Matrix:
@@ -245,9 +421,7 @@ class Interface:
         for one, rows in zip(self._parts, places, strict=True):
             for other, columns in zip(self._parts, places, strict=True):
                 if one.unit is other.unit:
-                    block = one.unit.derivative(one.forces[kind], other.displacements)
-                    block = block if one.through is None else one.through.T @ block
-                    blocks[rows, columns] = block if other.through is None else block @ other.through
+                    blocks[rows, columns] = one.derivative(other, kind)
         return blocks
 
 
@@ -272,21 +446,32 @@ def _answer(name: str, kind: int) -> str:
     return ".".join([*parts[:-2], _ANSWERS[parts[-2]][kind], parts[-1]])
 
 
-def stiffness(interface: Interface, length: float, displacement: float = 1e-6) -> Vector:
+def stiffness(interface: Interface, length: float, displacement: float | None = None) -> Vector:
     """Change of the mean force with which each direction resists a ramp of one step, from the present state \\[N/m\\].
 
-    Moves each direction separately by ``displacement`` \\[m, rad\\], and restores the state afterwards.
+    By the derivatives of the units, or by moving each direction separately by ``displacement`` \\[m, rad\\], where one
+    is given. The state is restored afterwards.
     """
-    begin = interface.units[0].time
+    if not interface.can_restore:
+        raise ValueError("stiffness: needs units that save and restore their states")
+    if displacement is None and not interface.has_derivatives:
+        raise ValueError(
+            "stiffness: the units give no derivatives; expected a displacement to move them by, found none"
+        )
+    begin = interface.time
     step = Step(begin, begin + length, length)
     interface.save()
-    place = vector(interface.displacement)
-    at_rest = interface.advance(place, step, "mean")
-    found = np.empty(len(place))
-    for direction in range(len(place)):
+    try:
+        place = vector(interface.displacement)
+        at_rest = interface.advance(place, step, "mean")
+        if displacement is None:
+            return vector(-np.diag(interface.derivative("mean")))
+        found = np.empty(len(place))
+        for direction in range(len(place)):
+            interface.restore()
+            moved = place.copy()
+            moved[direction] += displacement
+            found[direction] = (at_rest - interface.advance(moved, step, "mean"))[direction] / displacement
+        return found
+    finally:
         interface.restore()
-        moved = place.copy()
-        moved[direction] += displacement
-        found[direction] = (at_rest - interface.advance(moved, step, "mean"))[direction] / displacement
-    interface.restore()
-    return found

@@ -45,7 +45,8 @@ class UnitPartner:
 
     It has to restore states unless the exchange is explicit. Its compliance is needed by Newton's exchange and by a
     tolerance of the force alone: ``compliance="differences"`` measures it from two predictions a direction, once for
-    each length of the step; the unit is then assumed to be linear.
+    each length of the step; the unit is then assumed to be linear. ``perturbation`` is the force for it \\[N, N m\\],
+    the largest one so far if none is given.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class UnitPartner:
         force: str | Sequence[str],
         displacement: str | Sequence[str],
         compliance: Literal["differences"] | None = None,
-        perturbation: float = 1.0,
+        perturbation: float | None = None,
     ) -> None:
         self.unit = unit
         self.forces = (force,) if isinstance(force, str) else tuple(force)
@@ -64,6 +65,7 @@ class UnitPartner:
             raise ValueError(f"{len(self.forces)} forces and {len(self.displacements)} displacements: one each")
         self._by_differences = compliance == "differences"
         self._perturbation = perturbation  # [N]
+        self._largest = 0.0  # force so far [N, N m]
         self._compliances: dict[float, Matrix] = {}
         self._here = unit.get(self.displacements)
         self._saved: State | None = None
@@ -86,6 +88,7 @@ class UnitPartner:
         elif self.unit.can_restore:
             self._saved = self.unit.save(self._saved)
         self.unit.set(self.forces, force)
+        self._largest = max(self._largest, float(np.abs(force).max()))
         self.unit.step(step.length, until=step.end)
         found = self.unit.get(self.displacements)
         self._tried = (step, vector(force), found)
@@ -97,14 +100,26 @@ class UnitPartner:
             raise ValueError(f"{self.unit.name}: its compliance is not known; compliance='differences' measures it")
         if step.length not in self._compliances:
             size = len(self.forces)
+            force = self._perturbation or self._largest or 1.0
             none = self.predict(np.zeros(size), step)
-            columns = [self.predict(row, step) - none for row in self._perturbation * np.eye(size)]
-            self._compliances[step.length] = np.array(columns).T / self._perturbation
+            columns = [self.predict(row, step) - none for row in force * np.eye(size)]
+            self._compliances[step.length] = np.array(columns).T / force
         return self._compliances[step.length]
 
     def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
         """Keeps the trial with this force; the unit is then at the displacement, to the tolerance."""
         self._here = self.predict(force, step)
+        self._tried = None
+
+    def memory(self) -> Any:
+        """Where it is."""
+        return self._here, self.unit.time
+
+    def recall(self, memory: Any) -> None:
+        """Is there again, at the beginning of a step."""
+        self._here, time = memory
+        if (self._tried is not None or self.unit.time != time) and self._saved is not None:
+            self.unit.restore(self._saved)
         self._tried = None
 
 
@@ -142,3 +157,18 @@ class Partners:
         """Makes the step with all."""
         for partner, place in self._each():
             partner.advance(force[place], displacement[place], step)
+
+    def turning(self) -> tuple[int, ...]:
+        """Where the directions begin that count turns."""
+        turning = [(one, place.start) for one, place in self._each() if hasattr(one, "turning")]
+        return tuple(first + each for one, first in turning for each in one.turning())
+
+    def memory(self) -> Any:
+        """What changes in each that says it."""
+        return [one.memory() if hasattr(one, "memory") else None for one in self.partners]
+
+    def recall(self, memory: Any) -> None:
+        """Has that again."""
+        for one, kept in zip(self.partners, memory, strict=True):
+            if hasattr(one, "recall"):
+                one.recall(kept)

@@ -62,14 +62,16 @@ def _interesting(table: Table) -> dict[str, list[str]]:
         if name == "time" or name.startswith("time_step") or (".moment." in name and not turns) or not finite.size:
             continue
         spread = float(finite.max() - finite.min())
-        if spread > 0.0 and ".mean_" not in name and not name.endswith((".residual", ".physical_residual")):
+        is_mean = ".mean_" in name and name.replace(".mean_", ".") in table
+        if spread > 0.0 and not is_mean and not name.endswith((".residual", ".physical_residual")):
             key = unit_of(name) if unit_of(name) != "1" else name
             groups.setdefault(key, []).append((spread, name))
     chosen = {}
     for key, columns in groups.items():
         columns.sort(reverse=True)
         chosen[key] = [name for spread, name in columns if spread > 0.01 * columns[0][0]][:MOST_LINES]
-    return chosen
+    # What has a unit comes before counts and ratios.
+    return dict(sorted(chosen.items(), key=lambda group: unit_of(group[1][0]) == "1"))
 
 
 def history(table: Table, columns: Sequence[str] | None = None) -> Any:
@@ -102,7 +104,9 @@ def energy(table: Table) -> Any:
     """The energy balance: what the boundaries gave, and where it is."""
     works = [name for name in table if name.endswith(".work")]
     parts = [name for name in ("energy.kinetic", "energy.elastic", "energy.dissipated") if name in table]
-    losses = [name for name in table if name.startswith("energy.lost.") and np.ptp(table[name]) > 0.0]
+    lost = {name: float(np.ptp(table[name])) for name in table if name.startswith("energy.lost.")}
+    # What is a hundredth of the largest is no line that could be seen.
+    losses = [name for name, spread in lost.items() if spread > 0.01 * max(lost.values())]
     if not parts:
         raise ResultError("expected columns energy.kinetic, energy.elastic, energy.dissipated, found none")
     work = np.sum([table[name] for name in works], axis=0) if works else np.zeros(table.rows)
@@ -114,7 +118,8 @@ def energy(table: Table) -> Any:
     for place, (name, values) in enumerate(shown.items()):
         colour = "#000000" if place == 0 else COLOURS[(place - 1) % (len(COLOURS) - 1)]
         line = LINES[place % len(LINES)]
-        panel.plot(long * table["time"], factor * values, label=name, color=colour, linestyle=line, linewidth=1.5)
+        width = 1.0 if name.startswith("lost.") else 1.8
+        panel.plot(long * table["time"], factor * values, label=name, color=colour, linestyle=line, linewidth=width)
     panel.set_xlabel(f"time [{second}]")
     panel.set_ylabel(f"energy [{unit}]")
     panel.legend(fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -268,9 +273,9 @@ def cracks(run: Run, view: str = "y") -> Any:
         colour, mark = COLOURS[place % len(COLOURS)], "o^sDv"[place % 5]
         where.scatter(points[chosen, across], points[chosen, up], s=9, color=colour, marker=mark, label=cause, zorder=3)
         moments = np.sort(times[chosen])
-        when.step(long * moments, np.arange(1, len(moments) + 1), where="post", color=colour, label=cause)
-    where.legend(frameon=False, fontsize=8)
-    when.legend(frameon=False, fontsize=8)
+        line = LINES[place % len(LINES)]
+        when.step(long * moments, np.arange(1, len(moments) + 1), where="post", color=colour, linestyle=line)
+    figure.legend(loc="outside lower center", ncols=len(causes), frameon=False, markerscale=2.0)
     when.set_xlabel(f"time [{second}]")
     when.set_ylabel("broken bonds")
     when.grid(color="#dddddd", linewidth=0.6)

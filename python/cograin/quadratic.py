@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 
@@ -74,8 +74,18 @@ class Quadratic(Exchange):
             found.converged,
             found.reason,
             found.refusals,
+            found.jumps,
+            found.spread,
             4.0 / 3.0 * float(load[1] @ motion[1]),
         )
+
+    def memory(self) -> Any:
+        return super().memory(), self.exchange.memory()
+
+    def recall(self, memory: Any) -> None:
+        own, agreeing = memory
+        super().recall(own)
+        self.exchange.recall(agreeing)
 
     def commit(self, partner: Taker, step: Step, outcome: Outcome) -> None:
         assert self._agreed is not None

@@ -37,4 +37,6 @@ class Outcome:
     converged: bool = True
     reason: str = ""  # why it is not converged
     refusals: int = 0  # trials that a unit discarded
+    jumps: bool = False  # whether the force jumps, so that no displacement makes both sides agree
+    spread: float = 0.0  # of a step that is not converged: the residual over the farthest move in a step
     further_work: float = 0.0  # on the partner, beside that of its mean force along the displacement [J]

@@ -12,7 +12,10 @@ from scipy.sparse.linalg import splu
 
 from cograin.quadratic_step import QuadraticStep
 from cograin.step import Step
-from cograin.vector import Matrix, Vector, is_sparse, solver, vector
+from cograin.vector import Matrix, Vector, closing, is_sparse, solver, vector
+
+#: What the steps of a structure change.
+_CHANGING = ("position", "velocity", "displacement", "work", "load_work", "loss", "correction", "_apart")
 
 #: External forces on the degrees of freedom at a time [s] [N].
 Load = Callable[[float], ArrayLike]
@@ -71,8 +74,11 @@ class Structure:
         self.load_work = 0.0  # of the load [J]
         self.loss = 0.0  # in the dashpots, and in the jumps of a static structure [J]
         self.correction = 0.0  # left by displacements that did not agree to rounding [J]
+        # Where the units stand, less the interface of these positions, if one is not to be had with the other [m].
+        self._apart: Vector | None = None
         self._solvers: dict[float, Any] = {}
         self._responses: dict[float, tuple[Matrix, Matrix]] = {}
+        self._closings: dict[float, Callable[[Vector], Vector]] = {}
         self._unforced: tuple[Step, Vector] | None = None
         self._kicked: tuple[Step, Vector, Vector] | None = None  # step, force and what they come to
         self._mass_solver: Any = None
@@ -105,7 +111,7 @@ class Structure:
         if velocity is not None:
             self.velocity = np.broadcast_to(vector(velocity), self.velocity.shape).copy()
         self.displacement = self._at_interface(self.position)
-        self._unforced = None
+        self._unforced = self._apart = None
 
     # The partner of an exchange
 
@@ -134,6 +140,15 @@ class Structure:
         self._stand(displacement, force, step)
         self.work += float(force @ (displacement - begin))
 
+    def memory(self) -> Any:
+        """What changes."""
+        return {name: vars(self)[name] for name in _CHANGING}
+
+    def recall(self, memory: Any) -> None:
+        """Has that again."""
+        vars(self).update(memory)
+        self._unforced = self._kicked = None
+
     def _take(self, end: Vector, middle: float, length: float) -> None:
         """Moves to these positions in a substep, and books the energy for it."""
         moved = end - self.position
@@ -152,12 +167,21 @@ class Structure:
         """Moves the interface to the displacement of the units; books the energy that this creates or takes."""
         off = displacement - self._at_interface(self.position)
         self.displacement = displacement
+        if self._apart is not None:
+            self.correction += float(force @ self._apart)
+            self._apart = None
         if not off.any():
             return
         reached, compliance = self._response(step.length)
+        if step.length not in self._closings:
+            self._closings[step.length] = closing(compliance)
         before = self.energy
-        self.position = self.position + reached @ np.linalg.solve(compliance, off)
+        # Where two directions are one degree of freedom, units that differ are met in between.
+        self.position = self.position + reached @ self._closings[step.length](off)
         self.correction += self.energy - before - float(force @ off)
+        left = displacement - self._at_interface(self.position)
+        if np.abs(left).max() > 1e-6 * np.abs(off).max():
+            self._apart = left
 
     # Along a parabola
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import logging
 import tempfile
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -15,12 +16,18 @@ import fmpy.fmi2
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
+from cograin import interrupts
 from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
 
 _log = logging.getLogger("cograin")
 _WARNING = 1  # status of a call that was done but for something beside it
 _DISCARD = 2  # status of a step that was not made
+
+_PENDING = 5  # status of a step that is still being made
+
+#: GUIDs of the units that are open.
+_unique: set[str] = set()
 
 Value = float | int | bool | str
 
@@ -69,14 +76,24 @@ class Unit:
         inputs: Mapping[str, Value] | None = None,
         start: float = 0.0,
     ) -> None:
+        self._open = False
         self.path = Path(path)
         self.name = name or self.path.stem
-        self.description = fmpy.read_model_description(str(path), validate=False)
+        try:
+            self.description = fmpy.read_model_description(str(path), validate=False)
+        except FileNotFoundError:
+            raise UnitError(f"{self.path}: expected a unit, found no such file") from None
+        except Exception as error:
+            raise UnitError(f"{self.path}: expected a unit, found a file that cannot be read as one: {error}") from None
+        if self.description.fmiVersion != "2.0":
+            raise UnitError(f"{self.path}: expected a unit of FMI 2.0, found FMI {self.description.fmiVersion}")
         if self.description.coSimulation is None:
             raise UnitError(f"{self.path}: offers no co-simulation; a unit for co-simulation is needed")
+        self._alone()
         self.variables: dict[str, Any] = {variable.name: variable for variable in self.description.modelVariables}
         self._groups: dict[tuple[str, ...], tuple[Any, Any, int, Vector]] = {}
         self._messages: list[str] = []
+        self._states = 0  # saved ones that it may return to
         self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
         #: Where it is unpacked.
         self.folder = Path(self._folder.name)
@@ -94,11 +111,20 @@ class Unit:
             reason = "; ".join(self._messages) or "it gives no reason"
             raise UnitError(f"{self.name}: could not be instantiated: {reason}") from None
         self._open = True
+        _unique.add(self.description.guid)
         try:
             self._initialise(parameters or {}, inputs or {}, start)
-        except UnitError:
+        except BaseException:
             self.close()
             raise
+
+    def _alone(self) -> None:
+        """Refuses a second instance of a unit that can be instantiated only once in a process."""
+        once = bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
+        if once and self.description.guid in _unique:
+            raise UnitError(
+                f"{self.path}: can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess), and is"
+            )
 
     def _listening(self) -> Any:
         """Callbacks that keep the messages of the unit until they are read."""
@@ -132,12 +158,18 @@ class Unit:
 
     def _call(self, function: Any, *arguments: Any, **named: Any) -> Any:
         """Calls the unit; its refusal becomes an exception with its own words."""
-        self._messages.clear()
+        self._ready()
         try:
             return function(*arguments, **named)
         except FMICallException as refusal:
             reason = "; ".join(self._messages) or "it gives no reason"
             raise UnitError(f"{self.name}: {refusal.function}: {reason}") from None
+
+    def _ready(self) -> None:
+        """Before a call: it is open, and messages of earlier calls are gone."""
+        if not self._open:
+            raise UnitError(f"{self.name}: the unit is closed")
+        self._messages.clear()
 
     # What it is made of
 
@@ -149,6 +181,11 @@ class Unit:
     def can_restore(self) -> bool:
         """Whether its states can be saved and restored."""
         return bool(self.description.coSimulation.canGetAndSetFMUstate)
+
+    @property
+    def has_variable_steps(self) -> bool:
+        """Whether it takes communication steps of any length."""
+        return bool(self.description.coSimulation.canHandleVariableCommunicationStepSize)
 
     @property
     def has_derivatives(self) -> bool:
@@ -189,15 +226,25 @@ class Unit:
     def set(self, names: Sequence[str], values: Iterable[float]) -> None:
         """Sets real variables: all of them or none."""
         references, room, count, _ = self._group(tuple(names))
-        room[:] = list(values)
+        room[:] = self._several(names, values)
         self._call(self.slave.fmi2SetReal, self.slave.component, references, count, room)
 
     def set_rates(self, names: Sequence[str], rates: Iterable[float], *, order: int = 1) -> None:
         """Sets derivatives of real inputs in time for the next step: all of them or none. Set their values first."""
+        most = int(self.description.coSimulation.canInterpolateInputs)
+        if not most:
+            raise UnitError(f"{self.name}: takes no derivatives of inputs in time (canInterpolateInputs)")
         references, room, count, _ = self._group(tuple(names))
-        room[:] = list(rates)
+        room[:] = self._several(names, rates)
         orders = (ctypes.c_int * count)(*[order] * count)
         self._call(self.slave.fmi2SetRealInputDerivatives, self.slave.component, references, count, orders, room)
+
+    def _several(self, names: Sequence[str], values: Iterable[float]) -> list[float]:
+        """As many values as names."""
+        given = [float(value) for value in values]
+        if len(given) != len(names):
+            raise ValueError(f"{self.name}: expected {len(names)} values, one for each name, found {len(given)}")
+        return given
 
     def __getitem__(self, name: str) -> Value:
         variable = self.variable(name)
@@ -233,19 +280,29 @@ class Unit:
         Steps of one length end at exact multiples of it, not at a sum. ``until`` names the end where the caller
         counts himself. Raises `StepDiscarded` where the unit cannot make the step.
         """
-        self._messages.clear()
-        try:
-            self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
-        except FMICallException as refusal:
-            raise self._refused(refusal.status, length) from None
-        if until is not None:
-            self._origin, self._length, self._count = until, 0.0, 0
-            self.time = until
-            return
-        if length != self._length:
-            self._origin, self._length, self._count = self.time, length, 0
-        self._count += 1
-        self.time = self._origin + self._count * length
+        self._ready()
+        # Where a saved state is kept, it may come back to a time before this one.
+        final = fmpy.fmi2.fmi2False if self._states else fmpy.fmi2.fmi2True
+        with interrupts.held():
+            try:
+                self.slave.doStep(self.time, length, final)
+            except FMICallException as refusal:
+                if refusal.status != _PENDING or not self._waited():
+                    raise self._refused(refusal.status, length) from None
+            if until is not None:
+                self._origin, self._length, self._count = until, 0.0, 0
+                self.time = until
+                return
+            if length != self._length:
+                self._origin, self._length, self._count = self.time, length, 0
+            self._count += 1
+            self.time = self._origin + self._count * length
+
+    def _waited(self) -> bool:
+        """Waits for a step that the unit makes on its own; whether it was made."""
+        while (status := self.slave.getStatus(fmpy.fmi2.fmi2DoStepStatus)) == _PENDING:
+            time.sleep(1e-4)
+        return bool(status <= _WARNING)
 
     def _refused(self, status: int, length: float) -> UnitError:
         """The exception for a step that was not made."""
@@ -253,7 +310,11 @@ class Unit:
         text = f"{self.name}: the step from {self.time:g} s of {length:g} s was not made: {reason}"
         if status != _DISCARD:
             return UnitError(text)
-        last = float(self.slave.getRealStatus(fmpy.fmi2.fmi2LastSuccessfulTime))
+        try:
+            last = float(self.slave.getRealStatus(fmpy.fmi2.fmi2LastSuccessfulTime))
+        except FMICallException:
+            # Not every tool tells it; only a unit that saves states can then go on.
+            last = float("nan")
         return StepDiscarded(f"{text} (last successful time {last:g} s)", reason, last)
 
     def reset(
@@ -265,34 +326,55 @@ class Unit:
     ) -> None:
         """Resets the unit; all its saved states are lost."""
         self._call(self.slave.reset)
+        self._states = 0
         self._initialise(parameters or {}, inputs or {}, start)
 
     # States
 
     def save(self, into: State | None = None) -> State:
         """Saves everything that changes; into an earlier saved state if one is given."""
+        if not self.can_restore:
+            raise UnitError(f"{self.name}: cannot save its state (canGetAndSetFMUstate)")
         state = into or State(ctypes.c_void_p(), self.time)
+        new = not state.handle
         self._call(self.slave.fmi2GetFMUstate, self.slave.component, ctypes.byref(state.handle))
+        self._states += new
         state.time = self.time
         return state
 
     def restore(self, state: State) -> None:
         """Restores a saved state. The unit continues from it bit for bit, and the state can be restored again."""
-        self._call(self.slave.fmi2SetFMUstate, self.slave.component, state.handle)
-        self.time = state.time
-        self._origin, self._length, self._count = state.time, 0.0, 0
+        if not state.handle:
+            raise UnitError(f"{self.name}: expected a saved state, found one that was freed")
+        with interrupts.held():
+            self._call(self.slave.fmi2SetFMUstate, self.slave.component, state.handle)
+            self.time = state.time
+            self._origin, self._length, self._count = state.time, 0.0, 0
 
     def free(self, state: State) -> None:
         """Frees the memory of a state."""
+        kept = bool(state.handle)
         self._call(self.slave.fmi2FreeFMUstate, self.slave.component, ctypes.byref(state.handle))
+        self._states -= kept
 
     def serialise(self, state: State) -> bytes:
         """A state as bytes, for another process."""
+        self._serialises()
+        # The bytes can come back at any time.
+        self._states += 1
         return bytes(self._call(self.slave.serializeFMUstate, state.handle))
 
     def deserialise(self, data: bytes, time: float) -> State:
         """The state that these bytes hold, of this time \\[s\\]."""
-        return State(self._call(self.slave.deSerializeFMUstate, data), time)
+        self._serialises()
+        state = State(self._call(self.slave.deSerializeFMUstate, data), time)
+        self._states += 1
+        return state
+
+    def _serialises(self) -> None:
+        """Refuses what a unit without serialised states cannot do."""
+        if not self.description.coSimulation.canSerializeFMUstate:
+            raise UnitError(f"{self.name}: its states cannot be written as bytes (canSerializeFMUstate)")
 
     def derivative(self, outputs: Sequence[str], inputs: Sequence[str]) -> Matrix:
         """Change of outputs (rows) at the end of the last step per unit change of inputs (columns) at that end.
@@ -313,6 +395,7 @@ class Unit:
         if not self._open:
             return
         self._open = False
+        _unique.discard(self.description.guid)
         try:
             self.slave.terminate()
         except FMICallException:

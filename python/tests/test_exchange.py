@@ -296,8 +296,8 @@ def test_tolerances_of_force_and_energy_are_said_in_words():
         said == "forces differ by 1.0e-02 N, 0.001 N is allowed; 2.0e-05 J are between both sides, 1e-06 J are allowed"
     )
     assert not tolerance.open(np.array([1e-9]), np.array([2.0]), lambda: np.array([[1e-3]]))
-    with pytest.raises(ValueError, match="above 0 is needed"):
-        Tolerance(displacement=None)
+    with pytest.raises(ValueError, match="expected numbers above 0, found 0"):
+        Tolerance(displacement=0.0)
 
 
 def test_a_secant_refuses_several_directions(chain):

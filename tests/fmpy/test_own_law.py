@@ -72,7 +72,7 @@ def driven(unit, boundary):
     def force(displacement):
         unit[f"{boundary}.displacement.x"] = displacement
         unit.step(2e-4)
-        unit.step(1e-6)
+        unit.step(1e-5)
         return unit[f"{boundary}.force.x"]
 
     return force

@@ -1,4 +1,4 @@
-//! The program with liquid bridges: `wet run scene.toml`, `wet export scene.toml -o wet.fmu`.
+//! The program with what this crate adds: `wet run scene.toml`, `wet export scene.toml -o wet.fmu`.
 
 use std::process::ExitCode;
 

@@ -378,9 +378,11 @@ impl Instance {
             let expected = "a finite number above 0, large enough to change the time";
             return Err(Refusal::Time { argument: "communicationStepSize", value: length, expected });
         }
-        // hosts count in nanoseconds or sum up; a step that was left out or done twice differs by far more
-        let tolerance = 1e-3 * length + 1e-9 * present.abs();
-        if (point - present).abs() > tolerance {
+        // Hosts count in nanoseconds or sum up; a step that was left out or done twice differs by all of it.
+        let rounding = f64::EPSILON * present.abs();
+        let tolerance = (1e-3 * length + 64.0 * rounding).min(0.5 * length);
+        let behind = point - present;
+        if behind.abs() > tolerance {
             return Err(Refusal::Point { given: point, present });
         }
         if let Some(stop) = self.course.stop.filter(|stop| present + length > stop + tolerance) {
@@ -391,10 +393,14 @@ impl Instance {
         if length / step > most {
             return Err(Refusal::TooMany { length, count: length / step, step, most });
         }
+        // Where a host's steps are not quite whole time steps, whole ones are made until the difference shows; then the unit
+        // goes to where the host will be.
+        let apart = behind.abs() > (1e-6 * step).min(1e-4 * length) + 16.0 * rounding;
+        let interval = if apart { length + behind } else { length };
         self.stop.store(false, Ordering::Relaxed);
         self.changed();
         self.frames.pass(&self.simulation, Some(point));
-        match self.simulation.advance_or_roll_back(length) {
+        match self.simulation.advance_or_roll_back(interval) {
             Ok(()) => {
                 self.frames.come_to(point + length);
                 (self.course.phase, self.course.last_step) = (Phase::Ready, Status::Ok);

@@ -8,6 +8,7 @@ use crate::base::lanes::Shared;
 use crate::base::number::{Vector, add};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::BondRecord;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::{Kind, Link, SearchLimits};
@@ -44,6 +45,8 @@ pub(crate) struct WallBondPass {
     normal: Vector,
     /// Point about which the moment is taken, at time 0 \[m\].
     pub(super) reference: Vector,
+    /// Mass of the plane, where forces move it along its normal \[kg\].
+    mass: f64,
     /// Working space for the results of each piece of the list.
     pieces: Mutex<Vec<Piece>>,
 }
@@ -70,6 +73,8 @@ impl WallBondPass {
         let (bond, law) = (&scene.bonds[index], scene.bond_law(index));
         let Boundary { reference, .. } = &scene.boundaries[boundary.index()];
         let plane = scene.boundaries[boundary.index()].shifting_plane()?;
+        let body = RigidBody::of(scene, &scene.boundaries[boundary.index()]);
+        let mobility = body.map_or(0.0, |body| body.yields_along(plane.normal.into()));
         Some(Self {
             index,
             one_bond: law.one_bond(),
@@ -82,6 +87,7 @@ impl WallBondPass {
             point: plane.point.into(),
             normal: plane.normal.into(),
             reference: (*reference).into(),
+            mass: 1.0 / mobility,
             pieces: Mutex::default(),
         })
     }
@@ -94,7 +100,7 @@ impl WallBondPass {
             spin: Vector::zero(),
             orientation: Quaternion::identity(),
             radius: 0.0,
-            mass: f64::INFINITY,
+            mass: self.mass,
             inertia: f64::INFINITY,
         }
     }

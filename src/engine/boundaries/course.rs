@@ -6,7 +6,7 @@ use crate::engine::boundaries::{RigidBody, Turning};
 use crate::engine::run_error::RunError;
 use crate::engine::state::boundaries::Inertial;
 use crate::engine::state::{BoundaryState, Orientation, State};
-use crate::laws::motion::{self, AxisMotion, InputCourse, Progress};
+use crate::laws::motion::{self, AxisMotion, Felt, InputCourse, Progress};
 use crate::scene::{Boundary, Scene};
 
 /// Half a turn, less what rounding may hide \[rad\].
@@ -154,11 +154,13 @@ impl BoundaryTravel {
 }
 
 /// Largest speed that each boundary has, or gets in the communication step that has begun, of the particles that it
-/// carries or, where it is a surface that turns, may meet \[m/s\].
+/// carries or, where it is a surface that turns, may meet; what forces move gains speed by its load in a time step of this length
+/// \[s\] \[m/s\].
 pub(crate) fn speeds<'a>(
     scene: &'a Scene,
     bodies: &'a [Option<RigidBody>],
     state: &'a State,
+    step: f64,
 ) -> impl Iterator<Item = f64> + 'a {
     let time = state.clock.time;
     let extents = state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
@@ -172,7 +174,10 @@ pub(crate) fn speeds<'a>(
         let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
         let about = Vector::from([0, 1, 2].map(|axis| speed(3 + axis, moved.angular_velocity[axis]))).length();
         let bent = state.nodes_of(place).map_or(0.0, |nodes| nodes.fastest);
-        along + body.as_ref().map_or(0.0, |body| about * body.farthest.max(extent)) + bent
+        let Some(body) = body else { return along + bent };
+        let extent = body.farthest.max(extent);
+        let gained = if body.is_free() && body.is_surface() { step * body.acceleration(moved, extent) } else { 0.0 };
+        along + about * extent + gained + bent
     })
 }
 
@@ -233,8 +238,13 @@ fn input_at(moved: &BoundaryState, axis: usize, share: f64) -> f64 {
 /// Moves an axis towards the force that is given, and returns its way \[m\].
 fn serve(boundary: &Boundary, moved: &mut BoundaryState, axis: usize, progress: &Progress) -> Option<f64> {
     let servo = boundary.axes[axis].servo()?;
-    let missing = input_at(moved, axis, progress.share(InputCourse::Ramp)) - moved.force[axis];
-    moved.velocity[axis] = servo.velocity(missing, moved.impedance[axis]);
+    let target = input_at(moved, axis, progress.share(InputCourse::Ramp));
+    let pressed = &mut moved.pressed[axis];
+    let felt = Felt { impedance: pressed.impedance, stiffness: pressed.stiffness, way: pressed.way };
+    moved.velocity[axis] = servo.velocity([moved.force[axis], target], &felt, progress.step);
+    if pressed.stiffness == 0.0 {
+        pressed.way = servo.further(pressed.way, progress.step);
+    }
     let way = progress.step * moved.velocity[axis];
     moved.displacement[axis] += way;
     Some(way)
@@ -255,12 +265,22 @@ fn turn(boundary: &Boundary, body: &RigidBody, moved: &mut BoundaryState, progre
         Turning::About(_) | Turning::Freely => body.drift(moved, progress.step),
         Turning::Led => match prescribed_turn(boundary, &moved.target, progress.time) {
             Some([rotation, spin]) => {
-                let before = Vector::from(moved.rotation);
-                moved.angular_velocity = spin.to_array();
+                let (before, from) = (Vector::from(moved.rotation), Quaternion::from(moved.orientation));
+                let orientation = rotation::orientation(rotation);
                 moved.rotation = rotation.to_array();
-                moved.orientation = Orientation::from(rotation::orientation(rotation));
-                let steady = boundary.axes[3..].iter().all(AxisMotion::is_steady);
-                if steady { spin * progress.step } else { rotation - before }
+                moved.orientation = Orientation::from(orientation);
+                let turns = &boundary.axes[3..];
+                let (turn, velocity) = match turns.iter().filter(|motion| !motion.is_fixed()).count() {
+                    _ if turns.iter().all(AxisMotion::is_steady) => (spin * progress.step, spin),
+                    1 => (rotation - before, (rotation - before) * (1.0 / progress.step)),
+                    // About several axes, the way is no difference of rotation vectors.
+                    _ => {
+                        let way = rotation::between(from, orientation);
+                        (way, way * (1.0 / progress.step))
+                    }
+                };
+                moved.angular_velocity = velocity.to_array();
+                turn
             }
             None => drive_turn(moved, boundary.input, progress),
         },

@@ -1,7 +1,6 @@
 //! Boundaries during a time step: their motion, prescribed or as rigid bodies that forces move; and the loads on them.
 
 pub(crate) mod course;
-pub(crate) mod implicit;
 mod inertia;
 pub(crate) mod loads;
 pub(crate) mod nodes;

@@ -38,7 +38,7 @@ pub(super) fn work(
     fields: &Fields,
     step: f64,
 ) -> [f64; Source::COUNT] {
-    let ([drift, turn], added_work) = body.mean_motion(moved, step);
+    let ([drift, turn], following) = body.mean_motion(moved, step);
     let power = |force: Vector, moment: Vector| 0.5 * step * (force.dot(drift) + moment.dot(turn));
     let of_six = |[x, y, z, a, b, c]: [f64; 6]| power(Vector::new(x, y, z), Vector::new(a, b, c));
     let mut sum = [0.0; Source::COUNT];
@@ -54,8 +54,7 @@ pub(super) fn work(
         sum[Source::Walls as usize] = power(moved.force.into(), moved.moment.into());
     }
     let [weight, applied] = fields.on_body(body, moved, particles);
-    sum[Source::Support as usize] = of_six(moved.inertial.support);
-    sum[Source::AddedInertia as usize] = added_work;
+    sum[Source::Support as usize] = of_six(moved.inertial.support) + following;
     sum[Source::Damping as usize] = power(moved.inertial.braking_force.into(), moved.inertial.braking_moment.into());
     sum[Source::Gravity as usize] = power(weight[0], weight[1]);
     sum[Source::Applied as usize] = power(applied[0], applied[1]);

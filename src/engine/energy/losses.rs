@@ -35,7 +35,7 @@ pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<R
         let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
         let work = bodies::work((number, body), moved, &state.particles, &nothing, fields, step);
         let of = |source: Source| work[source as usize];
-        let given = [Source::Gravity, Source::Applied, Source::Support, Source::AddedInertia];
+        let given = [Source::Gravity, Source::Applied, Source::Support];
         losses.given_to_bodies += given.into_iter().map(of).sum::<f64>();
         losses.add(Loss::GlobalDamping, -of(Source::Damping));
     }

@@ -70,9 +70,10 @@ impl Fields {
         [1.0 + damped.linear, 1.0 + damped.angular]
     }
 
-    /// The larger of these factors of a surface that forces move.
-    pub(crate) fn amplification_of_surfaces(&self) -> f64 {
-        1.0 + self.surfaces.linear.max(self.surfaces.angular)
+    /// These factors of a body that forces move.
+    pub(crate) fn amplification_of(&self, body: &RigidBody) -> [f64; 2] {
+        let damped = self.of_body(body);
+        [1.0 + damped.linear, 1.0 + damped.angular]
     }
 
     /// Damping of a body: the spheres of a group are damped alike.

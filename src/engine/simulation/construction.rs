@@ -98,7 +98,7 @@ impl Simulation {
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();
         self.first_step(&context)?;
-        self.find_impedances();
+        self.look_at_pressed();
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);

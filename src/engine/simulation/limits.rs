@@ -3,12 +3,12 @@
 use super::sight::{Horizon, LookAhead};
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
-use crate::engine::boundaries::{RigidBody, course};
+use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
-use crate::engine::state::State;
+use crate::engine::state::{BoundaryState, State};
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::Step;
+use crate::scene::{Boundary, Step};
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
@@ -17,7 +17,7 @@ const FAR_BELOW: f64 = 1.5;
 const MOST_FORESEEN: f64 = 10.0;
 
 /// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
-const STEPS_BETWEEN_IMPEDANCES: u64 = 8;
+const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
 
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
@@ -102,10 +102,10 @@ impl Simulation {
     }
 
     /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
-    /// more is foreseen, and the fewer looks a bed takes that begins to move; not so where that would add to inertia.
+    /// more is foreseen, and the fewer looks a bed takes that begins to move.
     fn horizon(&self, step: f64) -> Horizon {
         let (stable, looks) = (self.state.clock.stable, self.state.foresight.looks);
-        let is_far = looks > 0 && stable > FAR_BELOW * step && !self.has_implicit();
+        let is_far = looks > 0 && stable > FAR_BELOW * step;
         match self.scene.run.step {
             _ if !is_far => Horizon::NEAR,
             Step::Given(step) => Horizon { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
@@ -139,8 +139,6 @@ impl Simulation {
             to: window.map_or(0.0, |window| window.to),
         };
         self.state.clock.stable = found.safe();
-        let blocks = self.system().blocks(&sight.ahead);
-        stability::put_blocks(&mut self.state, blocks);
         if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
             let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
             let by = by.map_or_else(String::new, |by| self.words(&by));
@@ -149,27 +147,29 @@ impl Simulation {
         self.check_contacts()
     }
 
-    /// Finds anew what contacts offer to surfaces that forces move, where one has come to more contacts than it had, and now and
-    /// then the impedance of what servos press on.
-    pub(super) fn follow_contacts(&mut self, step: f64) {
-        let light = |index: &usize| self.bodies[*index].as_ref().is_some_and(RigidBody::is_implicit);
-        let mut light = (0..self.bodies.len()).filter(light);
-        if light.any(|index| stability::has_more_contacts(&self.state, index)) {
-            let sight = self.sight(step, Horizon::NEAR, 0.0);
-            let blocks = self.system().blocks(&sight.ahead);
-            stability::put_blocks(&mut self.state, blocks);
-        }
-        if self.serves && self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_IMPEDANCES) {
-            self.find_impedances();
+    /// Looks at what servos press on, where it has changed, and now and then.
+    pub(super) fn follow_contacts(&mut self) {
+        let has_changed = |(boundary, moved): (&Boundary, &BoundaryState)| {
+            let served = |axis: &usize| boundary.axes[*axis].servo().is_some();
+            (0..3).filter(served).any(|axis| moved.pressed[axis].has_changed(moved.force[axis]))
+        };
+        let is_due =
+            |simulation: &Self| simulation.scene.boundaries.iter().zip(&simulation.state.boundaries).any(has_changed);
+        if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
+            self.look_at_pressed();
         }
     }
 
-    /// Finds the impedance of what servos press on.
-    pub(super) fn find_impedances(&mut self) {
-        if self.serves {
-            let impedances = self.system().impedances();
-            for (moved, impedance) in self.state.boundaries.iter_mut().zip(impedances) {
-                moved.impedance = impedance;
+    /// Looks at what servos press on.
+    pub(super) fn look_at_pressed(&mut self) {
+        if !self.serves {
+            return;
+        }
+        let resistances = self.system().resistances();
+        for (moved, [stiffness, impedance]) in self.state.boundaries.iter_mut().zip(resistances) {
+            for axis in 0..3 {
+                let found = [stiffness[axis], impedance[axis], moved.force[axis]];
+                moved.pressed[axis].take(found, moved.target[axis]);
             }
         }
     }
@@ -208,7 +208,7 @@ impl Simulation {
 
     /// Largest speed of a boundary, as it is about to move \[m/s\].
     pub(super) fn boundary_speed(&self) -> f64 {
-        course::speeds(&self.scene, &self.bodies, &self.state).fold(0.0, f64::max)
+        course::speeds(&self.scene, &self.bodies, &self.state, self.state.clock.step).fold(0.0, f64::max)
     }
 
     /// Whether the scene moves a boundary, at a speed that is not that of the communication step's beginning.

@@ -1,7 +1,7 @@
 //! How far speeds, contacts and bonds may change until the stable time step is computed again.
 
 use super::Simulation;
-use crate::engine::boundaries::{RigidBody, course};
+use crate::engine::boundaries::course;
 use crate::engine::contacts::{FASTER, SearchLimits};
 use crate::engine::stability;
 use crate::laws::bond::creation::Window;
@@ -68,7 +68,7 @@ impl Simulation {
     /// (0 if there was none).
     pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> LookAhead {
         let fastest = self.system().fastest();
-        let boundaries = course::speeds(&self.scene, &self.bodies, &self.state).collect::<Vec<_>>();
+        let boundaries = course::speeds(&self.scene, &self.bodies, &self.state, step).collect::<Vec<_>>();
         let driven = boundaries.iter().copied().fold(0.0, f64::max);
         let acceleration = self.fields.acceleration(&self.state.particles);
         let least = self.search.smallest_radius().min(f64::MAX);
@@ -92,10 +92,5 @@ impl Simulation {
         let window = (!self.scene.bonds.is_empty()).then_some(window);
         let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, window };
         LookAhead { ahead, speed, fastest, is_dense }
-    }
-
-    /// Whether any surface takes on the stiffness that is foreseen of what it touches: what is foreseen further adds to its inertia.
-    pub(super) fn has_implicit(&self) -> bool {
-        self.bodies.iter().flatten().any(RigidBody::is_implicit)
     }
 }

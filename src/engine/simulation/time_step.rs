@@ -27,7 +27,7 @@ impl Simulation {
         let gravity = self.fields.weight_alone();
         self.clear_boundary_loads();
         let forces = self.evaluate(gravity.is_none(), context);
-        self.follow_contacts(step);
+        self.follow_contacts();
 
         self.book_second_kick(gravity, step, context);
         let speed = self.kick_again(gravity, step, context);

@@ -53,10 +53,17 @@ pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec
 
 /// The largest root \[1/s\] of the blocks of interactions that are told one after the other, none of which is kept, from the safe side;
 /// and the body that has it. Bodies that share one bear of it as if they had no others.
-pub(super) fn quick_root(bodies: &Network, tell: impl FnOnce(&mut dyn FnMut(Link))) -> (f64, Option<usize>) {
+pub(super) fn quick_root(
+    bodies: &Network,
+    supports: Vec<(Element, [f64; 4])>,
+    tell: impl FnOnce(&mut dyn FnMut(Link)),
+) -> (f64, Option<usize>) {
     let (movers, shares) = (bodies.movers(), Shares::of_none(bodies));
     let mut blocks = Blocks { network: bodies, shares, stiffness: vec![[0.0; 21]; movers], damping: Vec::new() };
     tell(&mut |link| blocks.add_link(&link));
+    for (element, stiffness) in supports {
+        blocks.add_parts(&element, [stiffness, [0.0; 4]]);
+    }
     let (root, mover) = blocks.largest_of_all();
     (root * (1.0 + ROUNDING), mover)
 }
@@ -84,11 +91,16 @@ impl<'a> Blocks<'a> {
 impl Blocks<'_> {
     /// Adds an interaction that the network does not keep.
     fn add_link(&mut self, link: &Link) {
-        let Some((element, parts)) = self.network.between(link) else { return };
+        let Some(element) = self.network.element(link) else { return };
+        self.add_parts(&element, [link.stiffness, link.damping]);
+    }
+
+    /// Adds an element with these springs and dashpots.
+    fn add_parts(&mut self, element: &Element, parts: [[f64; 4]; 2]) {
         let movers = element.slots.map(|slot| self.network.mover(slot));
         let mut shares = [1.0; 2];
         if let [Some(_), Some(_)] = movers {
-            let strengths = [0, 1].map(|end| self.network.trace(&element, end, parts[0]).sqrt());
+            let strengths = [0, 1].map(|end| self.network.trace(element, end, parts[0]).sqrt());
             shares = divided(strengths);
         }
         let parts = parts.map(|parts| parts.map(|part| part as f32));
@@ -97,7 +109,7 @@ impl Blocks<'_> {
         }
         for end in 0..2 {
             if let Some(mover) = movers[end] {
-                self.add_end(mover, (&element, end), parts, shares[end]);
+                self.add_end(mover, (element, end), parts, shares[end]);
             }
         }
     }

@@ -18,6 +18,9 @@ pub struct Limiter {
 impl Limiter {
     /// In words, with what particles and boundaries are called.
     pub fn words(&self, number: impl Fn(u32) -> u32, boundary: impl Fn(u32) -> String) -> String {
+        if let (LimiterKind::Support, Some(index)) = (self.kind, self.boundary) {
+            return format!("{} of boundary {} to the ground", self.kind.words(), boundary(index));
+        }
         let first = number(self.first);
         let bodies = match (self.second, self.boundary) {
             (Some(second), _) => format!("s {first} and {}", number(second)),
@@ -41,6 +44,8 @@ pub enum LimiterKind {
     Bond,
     /// A bond that may be made before the next look.
     ComingBond,
+    /// Springs that hold a boundary to the ground.
+    Support,
 }
 
 impl LimiterKind {
@@ -52,6 +57,7 @@ impl LimiterKind {
             Self::Impact => "an impact to come",
             Self::Bond => "the bond",
             Self::ComingBond => "a bond to come",
+            Self::Support => "the springs",
         }
     }
 }

@@ -8,12 +8,12 @@
 
 mod blocks;
 mod cluster;
+mod impedance;
 mod lanczos;
 mod limiter;
 mod network;
 mod plain;
 mod shares;
-mod surfaces;
 mod triangle;
 
 use crate::base::threads::Context;
@@ -26,7 +26,6 @@ use crate::scene::{Insertion, ParticleShape, Scene};
 pub use limiter::{Limiter, LimiterKind, Mode};
 use nalgebra::Matrix6;
 use network::Network;
-pub(crate) use surfaces::{has_more_contacts, put_blocks};
 
 /// What limits the time step.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,7 +103,10 @@ impl System<'_> {
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
     fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
-        blocks::quick_root(&bodies, |tell| self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell)))
+        let supports = bodies.supports(self.bodies);
+        blocks::quick_root(&bodies, supports, |tell| {
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell))
+        })
     }
 
     /// Whether there are bonds, or are about to be.
@@ -134,7 +136,7 @@ impl System<'_> {
                 kind: LimiterKind::Impact,
                 first: meeting.particle,
                 second: None,
-                boundary: None,
+                boundary: meeting.boundary,
                 mode,
             });
         }
@@ -164,7 +166,18 @@ impl System<'_> {
                 }
             });
         }
-        let link: Link = link.get()?;
+        let Some(link): Option<Link> = link.get() else {
+            // Behind what the passes tell stand the springs to the ground.
+            let boundary = network.supported(place)?;
+            let mode = if part < 2 { Mode::Normal } else { Mode::Torsion };
+            return Some(Limiter {
+                kind: LimiterKind::Support,
+                first: GONE,
+                second: None,
+                boundary: Some(boundary),
+                mode,
+            });
+        };
         let name = |slot: u32| self.state.particles.id[slot as usize];
         Some(Limiter {
             kind: match link.kind {
@@ -189,20 +202,25 @@ impl System<'_> {
     /// acceleration \[m/s²\]; likewise each group that forces move.
     fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, PossibleContact)> {
         let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
-            let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
+            let body = body.as_ref().filter(|body| body.is_free() && !body.is_surface())?;
             let turn = answer(&body.mobility(moved), body.farthest + body.largest);
             Some(PossibleContact {
                 radius: body.largest,
                 mass: 1.0 / turn,
                 turn,
                 particle: body.members[0],
+                boundary: None,
+                acceleration,
                 across: false,
             })
         });
+        let surfaces = self.impacts_at_surfaces(acceleration);
         let mut limit: Option<(f64, PossibleContact)> = None;
         let coming = self.scene.insertions.iter().map(smallest_to_come);
-        for mut meeting in smallest_particle(&self.state.particles).into_iter().chain(coming).chain(groups) {
-            let closing = 2.0 * speed + (2.0 * acceleration * meeting.radius).sqrt();
+        let particles = smallest_particle(&self.state.particles).into_iter().chain(coming);
+        let particles = particles.map(|it| PossibleContact { acceleration, ..it });
+        for mut meeting in particles.chain(groups).chain(surfaces) {
+            let closing = 2.0 * speed + (2.0 * meeting.acceleration * meeting.radius).sqrt();
             let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
             for pass in self.passes {
                 pass.impacts(radius, mass, closing, &mut |response| {
@@ -214,6 +232,34 @@ impl System<'_> {
             }
         }
         limit
+    }
+
+    /// What surfaces that forces move may meet next: the lightest particle, or the largest, which is stiffer. Each reaches the speed
+    /// that its load gives it over a diameter, at least what falls at this acceleration \[m/s²\].
+    fn impacts_at_surfaces(&self, acceleration: f64) -> Vec<PossibleContact> {
+        let State { particles, boundaries, neighbours, .. } = self.state;
+        let mut meetings = Vec::new();
+        for (index, (body, moved)) in self.bodies.iter().zip(boundaries).enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free() && body.is_surface()) else { continue };
+            let extent = neighbours.boundary_extent.get(index).copied().unwrap_or(0.0);
+            let mobility = answer(&body.mobility(moved), extent);
+            let acceleration = acceleration.max(body.acceleration(moved, extent));
+            for slot in [smallest_slot(particles), largest_slot(particles)].into_iter().flatten() {
+                let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
+                let own = 1.0 / mass;
+                meetings.push(PossibleContact {
+                    // As its like would be: twice the effective radius and mass, half of what answers across.
+                    radius: 2.0 * radius,
+                    mass: 2.0 / (own + mobility),
+                    turn: 0.5 * (mobility + own + radius * radius / particles.angular_velocity[slot][3]),
+                    particle: particles.id[slot],
+                    boundary: Some(index as u32),
+                    acceleration,
+                    across: false,
+                });
+            }
+        }
+        meetings
     }
 
     /// Whether any contact of the smallest particle with its like, or with a surface, gets stiffer where it is so much `faster` than this
@@ -262,6 +308,10 @@ struct PossibleContact {
     turn: f64,
     /// The particle: index into the scene's particles.
     particle: u32,
+    /// The surface that it meets, if not its like.
+    boundary: Option<u32>,
+    /// Acceleration by which both gain speed over a radius \[m/s²\].
+    acceleration: f64,
     /// Whether sliding limits, rather than pressing.
     across: bool,
 }
@@ -282,14 +332,26 @@ fn smallest_to_come(insertion: &Insertion) -> PossibleContact {
     let [radius, _] = insertion.sizes.bounds();
     let mass = insertion.mass(radius);
     let turn = 1.0 / mass + radius * radius / ParticleShape::Sphere.inertia(mass, radius);
-    PossibleContact { radius, mass, turn, particle: GONE, across: false }
+    PossibleContact { radius, mass, turn, particle: GONE, boundary: None, acceleration: 0.0, across: false }
 }
 
 /// The smallest particle that forces move.
 fn smallest_particle(particles: &Particles) -> Option<PossibleContact> {
-    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-    let slot = free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))?;
+    let slot = smallest_slot(particles)?;
     let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
     let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
-    Some(PossibleContact { radius, mass, turn, particle: particles.id[slot], across: false })
+    let particle = particles.id[slot];
+    Some(PossibleContact { radius, mass, turn, particle, boundary: None, acceleration: 0.0, across: false })
+}
+
+/// The lightest particle (slot) that forces move.
+fn smallest_slot(particles: &Particles) -> Option<usize> {
+    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+    free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))
+}
+
+/// The particle (slot) that forces move with the largest radius.
+fn largest_slot(particles: &Particles) -> Option<usize> {
+    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+    free.max_by(|&a, &b| particles.position[a][3].total_cmp(&particles.position[b][3]).then(b.cmp(&a)))
 }

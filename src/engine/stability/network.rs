@@ -11,11 +11,14 @@ use std::sync::Arc;
 /// Instead of a slot: what does not move by the forces on it.
 pub(super) const UNMOVED: u32 = u32::MAX;
 
+/// Added to a slot: a particle that counts as standing still, and tells where a surface is touched.
+const HELD: u32 = 1 << 31;
+
 /// A contact or bond between two bodies that forces move, or of one with something else; its springs and dashpots stand in
 /// [`Parts`]. Single precision: the network of a million particles is to fit beside them; the bound allows for the rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
-    /// Particles (slots) at which it acts; the second may be [`UNMOVED`].
+    /// Particles (slots) at which it acts, or behind all particles a boundary by its index; the second may be [`UNMOVED`] or held.
     pub slots: [u32; 2],
     /// Unit normal.
     pub normal: [f32; 3],
@@ -24,9 +27,11 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// The same between the body at this end and something that stands still.
-    fn end(&self, end: usize) -> Self {
-        Self { slots: [self.slots[end], UNMOVED], arms: [self.arms[end], 0.0], ..*self }
+    /// The same between the body at this end and something that stands still, of `count` particles.
+    fn end(&self, end: usize, count: usize) -> Self {
+        let [own, other] = [self.slots[end], self.slots[1 - end]];
+        let held = own as usize >= count && other != UNMOVED;
+        Self { slots: [own, if held { other | HELD } else { UNMOVED }], arms: [self.arms[end], 0.0], ..*self }
     }
 }
 
@@ -73,7 +78,7 @@ impl Parts {
     }
 }
 
-/// A group that forces move.
+/// A group or a surface that forces move.
 pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
@@ -89,9 +94,6 @@ pub(crate) struct Network<'a> {
     pub(super) roots: Arc<[[f64; 2]]>,
     /// Of each boundary.
     pub(super) groups: Arc<[Option<Group>]>,
-    /// Boundaries whose contacts count twice for their particles: surfaces that forces move, to whose inertia the other half is
-    /// added ([`crate::engine::boundaries::implicit`]).
-    light: Vec<bool>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
     /// Their springs.
@@ -110,8 +112,8 @@ impl<'a> Network<'a> {
             [(linear / mass).sqrt(), (angular / inertia).sqrt()]
         };
         let group = |(body, moved): (&Option<RigidBody>, _)| {
-            let body = body.as_ref().filter(|body| body.is_free() && !body.is_implicit())?;
-            let [linear, angular] = fields.amplification(body.members[0]);
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            let [linear, angular] = fields.amplification_of(body);
             let factor = |row: usize| if row < 3 { linear } else { angular };
             let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
@@ -120,7 +122,6 @@ impl<'a> Network<'a> {
             state,
             roots: (0..particles.len()).map(root).collect(),
             groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
-            light: bodies.iter().map(|body| body.as_ref().is_some_and(RigidBody::is_implicit)).collect(),
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
@@ -142,7 +143,44 @@ impl<'a> Network<'a> {
         for pass in passes {
             pass.stiffness(state, ahead, &mut |link| network.add(&link, most));
         }
+        network.add_supports(bodies);
         network
+    }
+
+    /// Adds the springs of bodies to the ground, axis by axis.
+    fn add_supports(&mut self, bodies: &[Option<RigidBody>]) {
+        for (element, stiffness) in self.supports(bodies) {
+            let most = self.elements.len() + 1;
+            self.stiffness.push(stiffness, self.elements.len(), most);
+            self.damping.push([0.0; 4], self.elements.len(), most);
+            self.elements.push(element);
+        }
+    }
+
+    /// The springs of bodies to the ground. Their dashpots do not limit the time step
+    /// ([`crate::engine::boundaries::rigid_body`]).
+    pub(super) fn supports(&self, bodies: &[Option<RigidBody>]) -> Vec<(Element, [f64; 4])> {
+        let mut supports = Vec::new();
+        for (index, body) in bodies.iter().enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
+            for (axis, stiffness) in body.springs().into_iter().enumerate().filter(|(_, stiffness)| *stiffness > 0.0) {
+                let normal = [0, 1, 2].map(|k| if k == axis % 3 { 1.0 } else { 0.0 });
+                let element = Element { slots: [self.boundary_slot(index as u32), UNMOVED], normal, arms: [0.0; 2] };
+                let parts = if axis < 3 { [stiffness, 0.0, 0.0, 0.0] } else { [0.0, 0.0, stiffness, 0.0] };
+                supports.push((element, parts));
+            }
+        }
+        supports
+    }
+
+    /// The boundary that an element holds to the ground, by its place.
+    pub(super) fn supported(&self, place: usize) -> Option<u32> {
+        self.elements.get(place)?.slots[0].checked_sub(self.roots.len() as u32)
+    }
+
+    /// What stands for a slot where a boundary acts itself, instead of one of its particles.
+    fn boundary_slot(&self, boundary: u32) -> u32 {
+        self.roots.len() as u32 + boundary
     }
 
     /// That of the chosen bodies (places as [`Self::mover`] tells them), to which all others stand still. What they share with
@@ -152,7 +190,6 @@ impl<'a> Network<'a> {
             state: self.state,
             roots: Arc::clone(&self.roots),
             groups: Arc::clone(&self.groups),
-            light: Vec::new(),
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
@@ -162,8 +199,8 @@ impl<'a> Network<'a> {
             let (taken, factor) = match inside {
                 [false, false] => continue,
                 [true, true] => (*element, 1.0),
-                [true, false] => (element.end(0), borne(place, 0)),
-                [false, true] => (element.end(1), borne(place, 1)),
+                [true, false] => (element.end(0, self.roots.len()), borne(place, 0)),
+                [false, true] => (element.end(1, self.roots.len()), borne(place, 1)),
             };
             let most = part.elements.len() + 1;
             part.stiffness.push(self.stiffness.of(place).map(|it| factor * f64::from(it)), part.elements.len(), most);
@@ -175,18 +212,11 @@ impl<'a> Network<'a> {
 
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
-        if let Some((element, [stiffness, damping])) = self.between(link) {
-            self.stiffness.push(stiffness, self.elements.len(), most);
-            self.damping.push(damping, self.elements.len(), most);
+        if let Some(element) = self.element(link) {
+            self.stiffness.push(link.stiffness, self.elements.len(), most);
+            self.damping.push(link.damping, self.elements.len(), most);
             self.elements.push(element);
         }
-    }
-
-    /// An interaction between what moves, with its springs and dashpots as they count; none if nothing moves by it.
-    pub(super) fn between(&self, link: &Link) -> Option<(Element, [[f64; 4]; 2])> {
-        let twice = link.boundary.is_some_and(|boundary| self.light[boundary as usize]);
-        let share = |part: f64| if twice { 2.0 * part } else { part };
-        Some((self.element(link)?, [link.stiffness.map(share), link.damping.map(share)]))
     }
 
     /// Whether any interaction has a dashpot.
@@ -204,13 +234,19 @@ impl<'a> Network<'a> {
     /// An interaction between what moves, if it moves anything.
     pub(super) fn element(&self, link: &Link) -> Option<Element> {
         let moved = |slot: &u32| self.mover(*slot).is_some();
-        let (first, second) = (Some(link.first).filter(moved), link.second.filter(moved));
+        // A surface feels an element where its particle is touched.
+        let surface = link.boundary.map(|boundary| self.boundary_slot(boundary)).filter(moved);
+        let second = link.second.map(|second| (second, link.arms[1]));
+        let second = second.filter(|(slot, _)| moved(slot)).or(surface.map(|slot| (slot, -link.arms[0])));
+        let first = Some(link.first).filter(moved);
         let [x, y, z] = link.normal.to_array();
-        let same = first.is_some_and(|first| second.is_some_and(|second| self.mover(first) == self.mover(second)));
+        let same = first.is_some_and(|first| second.is_some_and(|(second, _)| self.mover(first) == self.mover(second)));
         let (slots, [a, b]) = match (first, second) {
             (Some(_), Some(_)) if same => return None,
-            (Some(first), second) => ([first, second.unwrap_or(UNMOVED)], [-link.arms[0], link.arms[1]]),
-            (None, Some(second)) => ([second, UNMOVED], [link.arms[1], 0.0]),
+            (Some(first), Some((second, arm))) => ([first, second], [-link.arms[0], arm]),
+            (Some(first), None) => ([first, UNMOVED], [-link.arms[0], 0.0]),
+            (None, Some((second, arm))) if surface.is_some() => ([second, link.first | HELD], [arm, 0.0]),
+            (None, Some((second, arm))) => ([second, UNMOVED], [arm, 0.0]),
             (None, None) => return None,
         };
         Some(Element { slots, normal: [x as f32, y as f32, z as f32], arms: [a as f32, b as f32] })
@@ -221,13 +257,15 @@ impl<'a> Network<'a> {
         self.roots.len() + self.groups.len()
     }
 
-    /// The body that moves a particle, if forces move it: the particle itself, or behind all particles its group.
+    /// The body that moves a particle or a boundary, if forces move it: the particle itself, or behind all particles the boundary.
     #[inline]
     pub(super) fn mover(&self, slot: u32) -> Option<usize> {
-        match (*self.state.particles.owner.get(slot as usize)? as usize).checked_sub(1) {
-            None => Some(slot as usize),
-            Some(group) => self.groups[group].as_ref().map(|_| self.roots.len() + group),
-        }
+        let group = match self.state.particles.owner.get(slot as usize) {
+            Some(0) => return Some(slot as usize),
+            Some(owner) => *owner as usize - 1,
+            None => (slot as usize).checked_sub(self.roots.len())?,
+        };
+        self.groups.get(group)?.as_ref().map(|_| self.roots.len() + group)
     }
 
     /// The group behind the place of a body, if it is one.
@@ -252,8 +290,11 @@ impl<'a> Network<'a> {
     /// From what moves a particle to where an element acts on it \[m\].
     pub(super) fn arm(&self, element: &Element, end: usize, group: &Group) -> Vector {
         let [x, y, z] = element.normal.map(f64::from);
-        let center = Vector::from(self.state.particles.position[element.slots[end] as usize]);
-        center - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
+        let centre = |slot: u32| self.state.particles.position.get((slot & !HELD) as usize);
+        // A surface is touched by the particle at the other end; what holds it to the ground acts at its point of reference.
+        let [own, other] = [element.slots[end], element.slots[1 - end]];
+        let Some(&centre) = centre(own).or_else(|| centre(other)) else { return Vector::zero() };
+        Vector::from(centre) - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
     }
 }
 

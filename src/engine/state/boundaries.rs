@@ -38,8 +38,8 @@ pub struct BoundaryState {
     pub turn: [f64; 3],
     /// Largest speed of each driven axis on the way to it, signed \[m/s, rad/s\].
     pub fastest: [f64; 6],
-    /// Mechanical impedance of what touches a boundary with a servo, along x, y, z \[kg/s\]; 0 for others.
-    pub impedance: [f64; 3],
+    /// What servos press on, along x, y, z; zeros for others.
+    pub pressed: [Pressed; 3],
     /// What free axes need.
     pub inertial: Inertial,
     /// Force at the present time \[N\].
@@ -84,8 +84,38 @@ impl BoundaryState {
     /// Counts impulse and work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.total_impulse, self.work) = ([0.0; 3], 0.0);
-        let Inertial { applied_impulse, support_impulse, added_impulse, .. } = &mut self.inertial;
-        (*applied_impulse, *support_impulse, *added_impulse) = ([0.0; 6], [0.0; 6], [0.0; 6]);
+        let Inertial { applied_impulse, support_impulse, .. } = &mut self.inertial;
+        (*applied_impulse, *support_impulse) = ([0.0; 6], [0.0; 6]);
+    }
+}
+
+/// What a servo presses on, as it was looked at last.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pressed {
+    /// Mechanical impedance of what touches; 0 where nothing does \[kg/s\].
+    pub impedance: f64,
+    /// Stiffness of what touches; 0 where nothing does \[N/m\].
+    pub stiffness: f64,
+    /// Force on the boundary then \[N\].
+    pub force: f64,
+    /// The way that a time step may go towards the target, by the stiffness felt last near it; 0 where none was \[m\].
+    pub way: f64,
+}
+
+impl Pressed {
+    /// Whether what touches, by the force \[N\], is not what it was.
+    pub(crate) fn has_changed(&self, force: f64) -> bool {
+        let (now, then) = (force.abs(), self.force.abs());
+        (force == 0.0) != (self.stiffness == 0.0) || now > 2.0 * then || then > 2.0 * now
+    }
+
+    /// Takes over stiffness \[N/m\], impedance \[kg/s\] and force \[N\], where the force is to reach a target \[N\].
+    pub(crate) fn take(&mut self, [stiffness, impedance, force]: [f64; 3], target: f64) {
+        let is_near = force.abs() >= 0.5 * target.abs();
+        if stiffness > 0.0 && (is_near || self.way == 0.0) {
+            self.way = 0.5 * target.abs() / stiffness;
+        }
+        (self.stiffness, self.impedance, self.force) = (stiffness, impedance, force);
     }
 }
 
@@ -110,19 +140,10 @@ pub struct Inertial {
     pub applied: [f64; 6],
     /// What springs and dashpots to the ground do at the present time \[N, N m\].
     pub support: [f64; 6],
-    /// What contacts and springs offer to the six freedoms of a surface, as it may get soon: lower triangle, row by row
-    /// \[N/m, N, N m\].
-    pub stiffness: [[f64; 6]; 6],
-    /// The same of dashpots \[kg/s, kg m/s, kg m²/s\].
-    pub damping: [[f64; 6]; 6],
-    /// How many contacts there were when these were found.
-    pub contacts: u64,
     /// Impulse of the input loads since time 0 \[N s, N m s\].
     pub applied_impulse: [f64; 6],
     /// Impulse of springs and dashpots to the ground since time 0 \[N s, N m s\].
     pub support_impulse: [f64; 6],
-    /// Impulse of what stiff contacts add to the inertia since time 0 \[N s, N m s\].
-    pub added_impulse: [f64; 6],
 }
 
 /// A unit quaternion: scalar, x, y, z.

@@ -5,6 +5,7 @@
 //! anything is done with it. Each part looks through itself; the passes add what their laws demand of their lists
 //! ([`Pass::check`](crate::engine::contacts::Pass::check)).
 
+use super::boundaries::Pressed;
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
 use super::{Exchange, GONE, History, NearParts, Nodes, Row, State, Underway, WallContacts};
 
@@ -535,14 +536,20 @@ impl BoundaryState {
             &inertial.support,
             &inertial.applied_impulse,
             &inertial.support_impulse,
-            &inertial.added_impulse,
         ];
-        let blocks = inertial.stiffness.iter().chain(&inertial.damping).flatten();
         let rows = [orientation.0, start_orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
-            && blocks.clone().all(|number| number.is_finite())
-            && [*work].iter().chain(&self.impedance).all(|number| number.is_finite())
+            && work.is_finite()
+            && self.pressed.iter().all(Pressed::is_finite)
+    }
+}
+
+impl Pressed {
+    /// Whether all numbers are finite.
+    fn is_finite(&self) -> bool {
+        let Self { impedance, stiffness, force, way } = *self;
+        [impedance, stiffness, force, way].iter().all(|number| number.is_finite())
     }
 }
 

@@ -20,26 +20,16 @@ pub enum Source {
     Applied,
     /// Springs and dashpots from bodies to the ground.
     Support,
-    /// What stiff contacts add to the inertia of light bodies.
-    AddedInertia,
 }
 
 impl Source {
     /// Kinds that passes make, in the order in which they are added up.
     pub const PASSES: usize = 3;
     /// All kinds, those of passes first.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Contacts,
-        Self::Bonds,
-        Self::Walls,
-        Self::Damping,
-        Self::Gravity,
-        Self::Applied,
-        Self::Support,
-        Self::AddedInertia,
-    ];
+    pub const ALL: [Self; Self::COUNT] =
+        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support];
     /// How many there are.
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 7;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -51,7 +41,6 @@ impl Source {
             Self::Gravity => "gravity",
             Self::Applied => "applied",
             Self::Support => "support",
-            Self::AddedInertia => "added_inertia",
         }
     }
 }

@@ -21,6 +21,7 @@ pub(crate) use course::Progress;
 pub(crate) use keys::{Axis, Keys};
 pub use nodes::NodeMotion;
 pub use schedule::{Schedule, Sine, Trapezoid};
+pub(crate) use servo::Felt;
 pub use servo::Servo;
 pub use table::Table;
 pub(crate) use table::{FileKeys, TableKeys};
@@ -76,9 +77,13 @@ trait Motion {
         None
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
+    /// Displacement \[m, rad\] at the end of a time step, and velocity in it \[m/s, rad/s\], if the motion leads it through: tangential
+    /// springs, which grow by the velocity, grow by the way.
     fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
-        self.at(progress.time).map(|[place, rate]| [path.target + place, rate])
+        self.at(progress.time).map(|[place, _]| {
+            let place = path.target + place;
+            [place, (place - path.before) / progress.step]
+        })
     }
 }
 
@@ -217,7 +222,7 @@ impl AxisMotion {
         self.ask(|row| row.at(time))
     }
 
-    /// Displacement \[m, rad\] and velocity \[m/s, rad/s\] at the end of a time step, if the motion leads it through.
+    /// Displacement \[m, rad\] at the end of a time step, and velocity in it \[m/s, rad/s\], if the motion leads it through.
     pub(crate) fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
         self.ask(|row| row.lead(path, progress))
     }

@@ -1,6 +1,6 @@
 //! `prescribed`: the scene says how the axis moves.
 
-use super::{Motion, ShownVariables};
+use super::{AxisPath, Motion, Progress, ShownVariables};
 
 /// An axis that moves at a constant velocity \[m/s, rad/s\].
 impl Motion for f64 {
@@ -14,5 +14,9 @@ impl Motion for f64 {
 
     fn at(&self, time: f64) -> Option<[f64; 2]> {
         Some([self * time, *self])
+    }
+
+    fn lead(&self, path: &AxisPath, progress: &Progress) -> Option<[f64; 2]> {
+        Some([path.target + self * progress.time, *self])
     }
 }

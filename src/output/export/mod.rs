@@ -88,11 +88,22 @@ pub fn export(
     };
 
     let mut entries = vec![Resource::new("modelDescription.xml", description::write(&model).map_err(written)?)];
-    let picture = picture::png(scene, simulation.state());
-    entries.extend(picture.as_ref().map(|picture| Resource::new("model.png", picture.clone())));
     let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder).collect();
-    let page = page::Page { model: &model, simulation: &simulation, source, platforms: &platforms };
-    let page = page.write(picture.is_some(), state.is_some());
+    let picture = picture::png(scene, simulation.state());
+    let steps = page::steps(scene, &simulation);
+    // A scene that starts and then stops by itself has a unit without an experiment.
+    let experiment = Experiment::run(simulation, &interface).ok();
+    let page = page::Page {
+        model: &model,
+        source,
+        platforms: &platforms,
+        steps,
+        has_picture: picture.is_some(),
+        has_state: state.is_some(),
+        has_experiment: experiment.is_some(),
+    };
+    let page = page.write();
+    entries.extend(picture.map(|picture| Resource::new("model.png", picture)));
     entries.extend(libraries.into_iter().map(|Library { platform, bytes }| {
         let path = format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix);
         Resource::new(path, Content::Program(bytes))
@@ -101,8 +112,7 @@ pub fn export(
     entries.extend(licenses(scene));
     let resources = resources(source, bytes).into_iter().chain(nodes::tables(scene));
     entries.extend(resources.map(|entry| entry.inside("resources")));
-    // A scene that starts and then stops by itself has a unit without an experiment.
-    if let Ok(experiment) = Experiment::run(simulation, &interface) {
+    if let Some(experiment) = experiment {
         entries.extend(experiment.files().map_err(written)?);
     }
     archive::write(&entries, output).map_err(written)

@@ -11,12 +11,18 @@ use std::fmt::Write;
 pub(super) struct Page<'a> {
     /// The unit.
     pub(super) model: &'a Model<'a>,
-    /// The scene at its beginning.
-    pub(super) simulation: &'a Simulation,
     /// Its text and files.
     pub(super) source: &'a Source,
     /// The platforms that the unit has libraries for.
     pub(super) platforms: &'a [&'a str],
+    /// What [`steps`] says.
+    pub(super) steps: String,
+    /// Whether it has a picture.
+    pub(super) has_picture: bool,
+    /// Whether it begins in a state of its own.
+    pub(super) has_state: bool,
+    /// Whether it has a reference experiment.
+    pub(super) has_experiment: bool,
 }
 
 /// How the page looks.
@@ -38,10 +44,10 @@ const USE: &str = "<h2>How to step it</h2>\n<ol>\n\
     <code>fmi2Discard</code> and leaves the state of its beginning; the logger gets the reason.</p>\n";
 
 impl Page<'_> {
-    /// The page of a unit with or without a picture, which begins in a state of its own or not.
-    pub(super) fn write(&self, has_picture: bool, has_state: bool) -> String {
+    /// The page.
+    pub(super) fn write(&self) -> String {
         let Self { model, .. } = self;
-        let picture = if has_picture {
+        let picture = if self.has_picture {
             "<p><img src=\"../model.png\" alt=\"the particles and boundaries at the start\"></p>\n"
         } else {
             ""
@@ -55,12 +61,12 @@ impl Page<'_> {
             name = escape(model.identifier),
             about = escape(about(model.scene).trim_end_matches('.')),
             facts = self.facts(),
-            steps = self.steps(),
+            steps = self.steps,
             inputs = self.table(Causality::Input),
             outputs = self.table(Causality::Output),
             parameters = self.table(Causality::Parameter),
             nodes = nodes(model.scene),
-            origin = self.origin(has_state),
+            origin = self.origin(),
         )
     }
 
@@ -88,31 +94,6 @@ impl Page<'_> {
         format!("<table>\n{rows}</table>\n")
     }
 
-    /// What is known of lengths of steps.
-    fn steps(&self) -> String {
-        let scene = self.model.scene;
-        let (limit, step) = (self.simulation.limit(), self.simulation.state().clock.step);
-        let by = limit.by.map_or_else(String::new, |by| format!(" ({})", self.simulation.words(&by)));
-        let chosen = match scene.run.step {
-            Step::Automatic { .. } => "chosen by the unit, which follows the stable one",
-            Step::Given(_) => "given by the scene",
-        };
-        let stable = if limit.safe.is_finite() {
-            format!("; the stable one is {:.3e} s at the start{by}", limit.safe)
-        } else {
-            String::new()
-        };
-        let suggested = communication_step(scene).map_or_else(String::new, |suggested| {
-            format!(" The default experiment takes communication steps of {suggested:.3e} s.")
-        });
-        format!(
-            "<h2>How long steps may be</h2>\n<p>Time step inside: {step:.3e} s, {chosen}{}. A communication step may have any \
-             length; whole multiples of a given time step keep every bit.{suggested} How long it may be for a coupled \
-             structure follows from both sides: an explicit exchange diverges where a light structure meets a stiff packing.</p>\n",
-            escape(&stable),
-        )
-    }
-
     /// The variables of one causality, those of nodes once.
     fn table(&self, causality: Causality) -> String {
         let shown = |variable: &&Variable| variable.node().is_none_or(|node| node == 0);
@@ -127,7 +108,7 @@ impl Page<'_> {
         for variable in variables {
             let start = variable.start.map(|start| start.to_string()).or(variable.start_text().map(str::to_owned));
             let start =
-                if has_start { format!("<td>{}</td>", escape(&start.unwrap_or_default())) } else { String::new() };
+                if has_start { format!("<td>{}</td>", escape(start.unwrap_or_default())) } else { String::new() };
             let tunable = causality == Causality::Parameter && variable.variability == Variability::Tunable;
             let _ = writeln!(
                 rows,
@@ -135,7 +116,7 @@ impl Page<'_> {
                 escape(variable.name.as_str()),
                 escape(variable.quantity.unit().unwrap_or("")),
                 escape(variable.description.as_str()),
-                escape(&range(variable)),
+                escape(range(variable)),
                 if tunable { "; tunable" } else { "" },
             );
         }
@@ -143,7 +124,7 @@ impl Page<'_> {
     }
 
     /// Where the unit came from and what else is in it.
-    fn origin(&self, has_state: bool) -> String {
+    fn origin(&self) -> String {
         let files: Vec<String> =
             self.source.files.iter().map(|(name, bytes)| format!("{name} ({} bytes)", bytes.len())).collect();
         let files = if files.is_empty() {
@@ -151,19 +132,48 @@ impl Page<'_> {
         } else {
             format!(" It reads {}.", list(files.iter().map(String::as_str)))
         };
-        let state = if has_state {
+        let state = if self.has_state {
             " The unit begins in a state that was computed before: <code>resources/state.bin</code>."
         } else {
             ""
         };
+        let experiment = if self.has_experiment {
+            " <code>extra/org.fmi-standard.fmi-ls-ref</code> has a short experiment: inputs, and what the unit answered; an \
+             importer that repeats it gets the same numbers."
+        } else {
+            ""
+        };
         format!(
-            "<h2>Where it came from</h2>\n<p>The scene, <code>resources/scene.toml</code>, as it was packaged.{}{state} \
-             <code>extra/org.fmi-standard.fmi-ls-ref</code> has a short experiment: inputs, and what the unit answered; an importer that \
-             repeats it gets the same numbers. Licences: <a href=\"licenses/license.txt\">licenses/license.txt</a>.</p>\n<pre>{}</pre>\n",
+            "<h2>Where it came from</h2>\n<p>The scene, <code>resources/scene.toml</code>, as it was packaged.{}{state}{experiment} \
+             Licences: <a href=\"licenses/license.txt\">licenses/license.txt</a>.</p>\n<pre>{}</pre>\n",
             escape(&files),
             escape(&self.source.text),
         )
     }
+}
+
+/// What is known of lengths of steps.
+pub(super) fn steps(scene: &Scene, simulation: &Simulation) -> String {
+    let (limit, step) = (simulation.limit(), simulation.state().clock.step);
+    let by = limit.by.map_or_else(String::new, |by| format!(" ({})", simulation.words(&by)));
+    let chosen = match scene.run.step {
+        Step::Automatic { .. } => "chosen by the unit, which follows the stable one",
+        Step::Given(_) => "given by the scene",
+    };
+    let stable = if limit.safe.is_finite() {
+        format!("; the stable one is {:.3e} s at the start{by}", limit.safe)
+    } else {
+        String::new()
+    };
+    let suggested = communication_step(scene).map_or_else(String::new, |suggested| {
+        format!(" The default experiment takes communication steps of {suggested:.3e} s.")
+    });
+    format!(
+        "<h2>How long steps may be</h2>\n<p>Time step inside: {step:.3e} s, {chosen}{}. A communication step may have any \
+         length; whole multiples of a given time step keep every bit.{suggested} How long it may be for a coupled \
+         structure follows from both sides: an explicit exchange diverges where a light structure meets a stiff packing.</p>\n",
+        escape(&stable),
+    )
 }
 
 /// Words, one after the other.

@@ -16,9 +16,8 @@ struct Account {
     boundaries: [f64; 3],
     /// Impulse of global damping since time 0 \[N s\].
     damping: [f64; 3],
-    /// Impulses since time 0 of inputs, of springs and dashpots to the ground, and of what stiff contacts add to the inertia
-    /// of light bodies \[N s\].
-    of_bodies: [[f64; 3]; 3],
+    /// Impulses since time 0 of inputs, and of springs and dashpots to the ground \[N s\].
+    of_bodies: [[f64; 3]; 2],
     /// What came less what went.
     net: NetExchange,
     /// Time \[s\].
@@ -40,8 +39,6 @@ pub struct MomentumBalance {
     pub damping: [f64; 3],
     /// Impulse of springs and dashpots from bodies to the ground \[N s\].
     pub support: [f64; 3],
-    /// Impulse of what stiff contacts add to the inertia of light bodies \[N s\].
-    pub added_inertia: [f64; 3],
     /// Momentum that came with particles less what went with others, where the number of particles changes \[N s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exchanged: Option<[f64; 3]>,
@@ -52,18 +49,8 @@ pub struct MomentumBalance {
 impl MomentumBalance {
     /// Whether every number is finite.
     pub(super) fn is_finite(&self) -> bool {
-        let Self {
-            change,
-            gravity,
-            applied,
-            boundaries,
-            damping,
-            support,
-            added_inertia,
-            exchanged,
-            relative_residual,
-        } = self;
-        let impulses = [change, gravity, applied, boundaries, damping, support, added_inertia];
+        let Self { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual } = self;
+        let impulses = [change, gravity, applied, boundaries, damping, support];
         impulses.into_iter().chain(exchanged).flatten().chain([relative_residual]).all(|number| number.is_finite())
     }
 }
@@ -91,7 +78,7 @@ impl Start {
         let gravity = simulation.scene().gravity;
         let change = less(end.momentum, start.momentum);
         let exchanged = less(ended.momentum, begun.momentum);
-        let [inputs, support, added_inertia] = [0, 1, 2].map(|term| less(end.of_bodies[term], start.of_bodies[term]));
+        let [inputs, support] = [0, 1].map(|term| less(end.of_bodies[term], start.of_bodies[term]));
         let terms = [
             [0, 1, 2].map(|axis| weight[axis] * duration + gravity[axis] * mass_time),
             [0, 1, 2].map(|axis| {
@@ -102,7 +89,6 @@ impl Start {
             less(end.boundaries, start.boundaries),
             less(end.damping, start.damping),
             support,
-            added_inertia,
             exchanged,
         ];
         let rest = terms.iter().fold(change, |rest, &term| less(rest, term));
@@ -111,17 +97,7 @@ impl Start {
         let [gravity, applied, boundaries, damping, ..] = terms;
         let relative_residual = if scale > 0.0 { largest(&rest) / scale } else { 0.0 };
         let exchanged = simulation.scene().changes_number().then_some(exchanged);
-        MomentumBalance {
-            change,
-            gravity,
-            applied,
-            boundaries,
-            damping,
-            support,
-            added_inertia,
-            exchanged,
-            relative_residual,
-        }
+        MomentumBalance { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual }
     }
 }
 
@@ -140,12 +116,12 @@ fn account(scene: &Scene, state: &State) -> Account {
             momentum[axis] += velocity[3] * along[axis];
         }
     }
-    let (mut boundaries, mut of_bodies) = ([0.0; 3], [[0.0; 3]; 3]);
+    let (mut boundaries, mut of_bodies) = ([0.0; 3], [[0.0; 3]; 2]);
     for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
-        let Inertial { applied_impulse, support_impulse, added_impulse, .. } = &moved.inertial;
+        let Inertial { applied_impulse, support_impulse, .. } = &moved.inertial;
         for axis in 0..3 {
             boundaries[axis] -= moved.total_impulse[axis];
-            for (sum, part) in of_bodies.iter_mut().zip([applied_impulse, support_impulse, added_impulse]) {
+            for (sum, part) in of_bodies.iter_mut().zip([applied_impulse, support_impulse]) {
                 sum[axis] += part[axis];
             }
             if boundary.axes[axis].is_free() {

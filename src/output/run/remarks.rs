@@ -4,7 +4,7 @@ use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
-use crate::scene::{ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, ContactLaw, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -17,6 +17,9 @@ const DEEP_COHESION: f64 = 0.03;
 
 /// Overlap over radius above which contact laws are hardly valid.
 const DEEP_OVERLAP: f64 = 0.05;
+
+/// Share of the target by which a servo misses it that is remarked.
+const MISSED: f64 = 0.01;
 
 /// The remarks on a scene in its present state.
 pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
@@ -34,6 +37,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
     remarks.extend(full(scene, simulation));
+    remarks.extend(missed(scene, simulation));
     remarks
 }
 
@@ -50,6 +54,23 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
     (step > NEAR_THE_BOUND * stable).then(|| {
         format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
     })
+}
+
+/// On servos that press with another force than they are to, as a mean over the last interval.
+fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let mut missed = Vec::new();
+    for (boundary, moved) in scene.boundaries.iter().zip(&simulation.state().boundaries) {
+        for axis in (0..3).filter(|&axis| boundary.axes[axis].servo().is_some()) {
+            let (found, target) = (moved.mean_force[axis], 0.5 * (moved.start[axis] + moved.end[axis]));
+            if simulation.state().clock.steps > 0 && (found - target).abs() > MISSED * target.abs() {
+                let [name, axis] = [&boundary.name, AxisMotion::WORDS[axis]];
+                missed.push(format!(
+                    "[boundary.{name}] servo: the particles press with {found:.4e} N along {axis} in the last interval, to be {target:.4e} N"
+                ));
+            }
+        }
+    }
+    missed
 }
 
 /// On what insertions did not let come for want of room.

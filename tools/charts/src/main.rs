@@ -3,6 +3,7 @@
 
 mod bed;
 mod block;
+mod bodies;
 mod border;
 mod cantilever;
 mod cohesion;
@@ -61,6 +62,7 @@ const CHARTS: &[Chart] = &[
     cohesion::CHART,
     bed::CHART,
     size_ratio::CHART,
+    bodies::CHART,
     features::CHART,
     work::CHART,
 ];

@@ -161,9 +161,22 @@ impl RigidBody {
         }
     }
 
-    /// Whether stiff contacts add to its inertia, because a surface may be far lighter than the particles that touch it.
-    pub(crate) fn is_implicit(&self) -> bool {
-        self.members.is_empty() && self.is_free()
+    /// Whether it is a surface, not a group of particles.
+    pub(crate) fn is_surface(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// The acceleration along a normal by a unit force along it, where the body does not turn \[1/kg\].
+    pub(crate) fn yields_along(&self, normal: Vector) -> f64 {
+        let free = self.along_free(normal.to_array());
+        if self.moves == [false; 3] { 0.0 } else { free.dot(free) / self.mass }
+    }
+
+    /// The acceleration that its present load gives to its points this far from the point of reference \[m\], at most \[m/s²\].
+    pub(crate) fn acceleration(&self, moved: &BoundaryState, extent: f64) -> f64 {
+        let [x, y, z, a, b, c] = [moved.inertial.load, moved.inertial.couple].concat()[..] else { return 0.0 };
+        let answer = self.mobility(moved) * Vector6::new(x, y, z, a, b, c);
+        answer.fixed_rows::<3>(0).norm() + answer.fixed_rows::<3>(3).norm() * extent
     }
 
     /// Which of its six freedoms are free.
@@ -186,9 +199,15 @@ impl RigidBody {
         }
     }
 
-    /// Starts the sum of what resists its motion with springs and dashpots to the ground.
-    pub(crate) fn supports(&self) -> [Matrix6<f64>; 2] {
-        [self.stiffness, self.damping].map(|parts| Matrix6::from_diagonal(&Vector6::from(parts)))
+    /// Stiffness of the springs to the ground \[N/m, N m/rad\].
+    pub(crate) fn springs(&self) -> [f64; 6] {
+        self.stiffness
+    }
+
+    /// Dashpots to the ground along the free axes \[N s/m\] and about them \[N m s\].
+    fn dashpots(&self) -> [Vector; 2] {
+        let [x, y, z, a, b, c] = self.damping;
+        [self.along_free([x, y, z]), self.about_free([a, b, c])]
     }
 
     /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].

@@ -17,6 +17,7 @@ use super::records::ContactRecord;
 use crate::base::lanes::{Shared, Width};
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::engine::contacts::coefficients::{CoefficientTable, Partners};
 use crate::engine::run_error::{Cause, RunError};
@@ -56,6 +57,8 @@ pub(super) struct AtSurface {
     reference: Vector,
     /// Velocity of a conveying surface where it lies along this vector, in its own axes \[m/s\].
     conveying: Vector,
+    /// The body that it is, where forces move it.
+    body: Option<RigidBody>,
     /// Rows that are stored for each contact.
     kept_rows: usize,
     /// Coefficients of the law.
@@ -108,10 +111,13 @@ impl AtSurface {
     fn of(scene: &Scene, index: usize, (boundary, law): (&Boundary, usize)) -> Self {
         let choice = &scene.contacts[law];
         let conveying = Vector::from([0, 1, 2].map(|axis| boundary.axes[axis].conveys()));
+        let body = RigidBody::of(scene, boundary).filter(RigidBody::is_free);
         let touched = match boundary.shifting_plane() {
             Some(surface::Plane { point, normal, .. }) => {
                 let (point, normal, velocity) = (point.into(), normal.into(), Vector::zero());
-                Touched::Plane(Plane { point, normal, velocity, conveying: sphere::along(conveying, normal) })
+                let (mobility, conveying) =
+                    (body.as_ref().map(|body| body.yields_along(normal)), sphere::along(conveying, normal));
+                Touched::Plane(Plane { point, normal, velocity, conveying, mobility })
             }
             None => match boundary.shape.deforming().filter(|_| boundary.driven_nodes() > 0) {
                 Some(mesh) => Touched::Nodes(RwLock::new(Box::new(mesh))),
@@ -125,6 +131,7 @@ impl AtSurface {
             material: boundary.shape.material().map_or(0, |material| material.0),
             reference: boundary.reference.into(),
             conveying,
+            body,
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
             law: BatchLaw::of(scene.law(law)),

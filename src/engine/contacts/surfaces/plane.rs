@@ -23,6 +23,8 @@ pub(super) struct Plane {
     pub(super) normal: Vector,
     /// The velocity of its surface \[m/s\].
     pub(super) velocity: Vector,
+    /// By how much a force along the normal accelerates it, where forces move it \[1/kg\].
+    pub(super) mobility: Option<f64>,
 }
 
 impl Plane {
@@ -50,7 +52,8 @@ impl Plane {
         pair_constant: N,
     ) -> ContactGeometry<N> {
         let sphere = SphereAt { normal: lanes(self.normal), distance, radius };
-        sphere.meet(motion, lanes(self.velocity), vector(motion[1]), pair_constant)
+        let surface = (lanes(self.velocity), vector(motion[1]));
+        sphere.meet(motion, surface, self.mobility.map(N::splat), pair_constant)
     }
 }
 

@@ -33,13 +33,14 @@ impl<N: Number> SphereAt<N> {
     }
 
     /// Geometry and relative motion, where the surface has this velocity \[m/s\] at the point of contact, and the sphere turns
-    /// by so much more than the surface \[rad/s\].
+    /// by so much more than the surface \[rad/s\]. A surface that forces move is accelerated so much there by a force along the
+    /// normal \[1/kg\].
     #[inline(always)]
     pub(super) fn meet(
         &self,
         [velocity, spin]: [[N; 4]; 2],
-        surface_velocity: Vector<N>,
-        relative_spin: Vector<N>,
+        (surface_velocity, relative_spin): (Vector<N>, Vector<N>),
+        mobility: Option<N>,
         pair_constant: N,
     ) -> ContactGeometry<N> {
         let Self { normal, distance, radius } = *self;
@@ -51,7 +52,7 @@ impl<N: Number> SphereAt<N> {
         let contact = Contact {
             overlap,
             radius,
-            mass: velocity[3],
+            mass: mobility.map_or(velocity[3], |mobility| velocity[3] / (N::splat(1.0) + velocity[3] * mobility)),
             section_area: self.section(),
             section_radius: radius,
             normal,

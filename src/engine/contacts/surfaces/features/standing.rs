@@ -3,6 +3,7 @@
 use crate::base::geometry::Frame;
 use crate::base::lanes::{Lane, vector};
 use crate::base::number::Vector;
+use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::surfaces::nodes::Moving;
 use crate::engine::contacts::surfaces::sphere::{SphereAt, along, lanes};
@@ -33,6 +34,36 @@ pub(super) struct MovingSurface<'a> {
     pub(super) conveys: bool,
     /// Its nodes, where they move one by one.
     pub(super) moving: Option<Moving<'a>>,
+    /// How forces accelerate it, where they move it.
+    mobility: Option<Mobility>,
+}
+
+/// How forces accelerate a surface.
+#[derive(Clone, Copy)]
+struct Mobility {
+    /// Acceleration of the point of reference along x, y, z by a force \[1/kg\].
+    along: Vector,
+    /// Angular acceleration by a moment about x, y, z \[1/(kg m²)\].
+    about: [Vector; 3],
+}
+
+impl Mobility {
+    /// Of a body where its boundary stands.
+    fn of(body: &RigidBody, boundary: &BoundaryState) -> Self {
+        let mobility = body.mobility(boundary);
+        let about = [3, 4, 5].map(|axis| Vector::from([3, 4, 5].map(|row| mobility[(row, axis)])));
+        Self { along: Vector::from([0, 1, 2].map(|axis| mobility[(axis, axis)])), about }
+    }
+
+    /// The acceleration along a normal of a point at this arm \[m\] by a force along it there \[1/kg\].
+    #[inline(always)]
+    fn along<N: Lane>(&self, normal: Vector<N>, arm: Vector<N>) -> N {
+        let (own, moment) = (lanes::<N>(self.along), arm.cross(normal));
+        let [x, y, z] = self.about.map(lanes::<N>);
+        let turning = x * moment.x + y * moment.y + z * moment.z;
+        let shift = normal.x * normal.x * own.x + normal.y * normal.y * own.y + normal.z * normal.z * own.z;
+        shift + turning.dot(moment)
+    }
 }
 
 impl<'a> MovingSurface<'a> {
@@ -43,7 +74,8 @@ impl<'a> MovingSurface<'a> {
         let (pivot, turning) = (frame.pivot(), spin != Vector::zero());
         let (conveying, conveys) = (frame.outside(surface.conveying), surface.conveying != Vector::zero());
         let velocity = boundary.velocity.into();
-        Self { features, frame, pivot, velocity, spin, turning, conveying, conveys, moving: None }
+        let mobility = surface.body.as_ref().map(|body| Mobility::of(body, boundary));
+        Self { features, frame, pivot, velocity, spin, turning, conveying, conveys, moving: None, mobility }
     }
 
     /// The surface of a boundary, whose nodes may move one by one, where it stands.
@@ -87,7 +119,11 @@ impl<'a> MovingSurface<'a> {
         if self.conveys {
             velocity += along(lanes(self.conveying), sphere.normal);
         }
-        sphere.meet(motion, velocity, relative_spin, pair_constant)
+        let mobility = self.mobility.map(|mobility| {
+            let point = vector(position) - sphere.normal * sphere.arm();
+            mobility.along(sphere.normal, point - lanes(self.pivot))
+        });
+        sphere.meet(motion, (velocity, relative_spin), mobility, pair_constant)
     }
 }
 
