@@ -105,7 +105,7 @@ impl System<'_> {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
         blocks::quick_root(&bodies, supports, |tell| {
-            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell))
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell));
         })
     }
 

@@ -22,6 +22,9 @@ const LEAST: f64 = 0.03;
 /// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
 const SHORT: f64 = 0.6;
 
+/// A change of what is written.
+type Change = fn(&mut Output);
+
 /// Something that a scene could drop.
 struct Unused {
     /// What it is and why.
@@ -111,7 +114,7 @@ fn unused(scene: &Scene) -> Vec<Unused> {
     for bond in 0..scene.bonds.len() {
         unused.extend(without_breakage(scene, bond));
     }
-    let books: [(&str, bool, fn(&mut Output)); 2] = [
+    let books: [(&str, bool, Change); 2] = [
         ("energy", scene.output.energy, |output| output.energy = false),
         ("losses", scene.output.losses, |output| output.losses = false),
     ];

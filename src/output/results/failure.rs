@@ -108,7 +108,7 @@ pub enum Refusal {
         /// File name of the scene.
         scene: String,
         /// Which.
-        source: ChosenError,
+        source: Box<ChosenError>,
     },
     /// More outputs than anybody can mean.
     #[error(

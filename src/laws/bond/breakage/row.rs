@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// New values of strengths, by their keys below `[bond.<name>.breakage]`.
 pub(in crate::laws::bond) type NewStrengths<'a> = &'a dyn Fn(&str) -> Option<Positive>;
 
+/// Makes a rule of its keys, beside the other rules of the bond law and its formulation; reports what contradicts.
+type MakeRule = fn(Kept, NewStrengths, (&[BreakageChoice], FormulationChoice), &mut Vec<KeyError>) -> Rule;
+
 /// What the program knows of a rule of breakage.
 pub struct BreakageRow {
     /// Its name.
@@ -27,7 +30,7 @@ pub struct BreakageRow {
     /// Its strengths: key and unit.
     strengths: fn(Kept) -> Vec<(String, &'static str)>,
     /// The rule in numbers; what its keys contradict is added to the list.
-    rule: fn(Kept, NewStrengths, (&[BreakageChoice], FormulationChoice), &mut Vec<KeyError>) -> Rule,
+    rule: MakeRule,
 }
 
 impl BreakageRow {
