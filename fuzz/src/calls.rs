@@ -293,14 +293,15 @@ impl Host {
                     fmi2SetupExperiment(component, defined, script.real(), start, defined, stop);
                 }
                 19 => {
-                    let _ = if script.byte() % 2 == 0 {
+                    let _ = if script.byte().is_multiple_of(2) {
                         fmi2EnterInitializationMode(component)
                     } else {
                         fmi2ExitInitializationMode(component)
                     };
                 }
                 20 => {
-                    let _ = if script.byte() % 2 == 0 { fmi2Reset(component) } else { fmi2Terminate(component) };
+                    let _ =
+                        if script.byte().is_multiple_of(2) { fmi2Reset(component) } else { fmi2Terminate(component) };
                     self.time = 0.0;
                 }
                 21 => {

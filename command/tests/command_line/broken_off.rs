@@ -183,9 +183,9 @@ fn a_run_that_was_interrupted_on_its_way_ends_with_the_same_bytes() {
     let place = Place::new("on_its_way");
     let scene = place.at("scene.toml");
     let text = BEAM
-        .replace("history_interval = 4e-5", "history_interval = 2e-2")
+        .replace("history_interval = 4e-5", "history_interval = 1e-2")
         .replace("frame_interval = 1e-3\ncheckpoint_interval = 1e-4", "")
-        .replace("end = 4e-3", "end = 4e-2");
+        .replace("end = 4e-3", "end = 2e-2");
     fs::write(&scene, text).unwrap();
     let (broken, whole) = (place.at("broken"), place.at("whole"));
     interrupted(&scene, &broken, &[], Duration::from_millis(700));

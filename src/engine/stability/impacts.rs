@@ -105,12 +105,7 @@ impl System<'_> {
 
     /// Tells bodies, freedoms, springs and dashpots of every impact that can come at up to twice this speed \[m/s\], with what
     /// falling over a radius adds.
-    fn impacts(
-        &self,
-        speed: f64,
-        acceleration: f64,
-        tell: &mut dyn FnMut(ImpactBodies, Freedoms, [Frame; 2]),
-    ) {
+    fn impacts(&self, speed: f64, acceleration: f64, tell: &mut dyn FnMut(ImpactBodies, Freedoms, [Frame; 2])) {
         let (candidates, surfaces) = (self.candidates(), self.moved_surfaces());
         let closing = |radius: f64| 2.0 * speed + (2.0 * acceleration * radius).sqrt();
         for (place, a) in candidates.iter().enumerate() {
