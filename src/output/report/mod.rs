@@ -80,11 +80,7 @@ pub struct Report {
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let interface = Interface::of(scene);
     let chosen = interface.check_names(scene);
-<<<<<<< HEAD
     chosen.map_err(|source| Refusal::Chosen { scene: scene_name.to_owned(), source: Box::new(source) })?;
-=======
-    chosen.map_err(|source| Refusal::Chosen { scene: scene_name.to_owned(), source: source.into() })?;
->>>>>>> use
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
     if let Some(schedule) = &schedule {

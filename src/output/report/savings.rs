@@ -21,9 +21,6 @@ const LEAST: f64 = 0.03;
 /// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
 const SHORT: f64 = 0.6;
 
-/// A change of what is written.
-type Change = fn(&mut Output);
-
 /// Something that a scene could drop.
 struct Unused {
     /// What it is and why.
@@ -113,18 +110,10 @@ fn unused(scene: &Scene) -> Vec<Unused> {
     for bond in 0..scene.bonds.len() {
         unused.extend(without_breakage(scene, bond));
     }
-<<<<<<< HEAD
     for (key, is_kept) in [("energy", scene.output.energy), ("losses", scene.output.losses)] {
         if !is_kept || is_read(scene) {
             continue;
         }
-=======
-    let books: [(&str, bool, Change); 2] = [
-        ("energy", scene.output.energy, |output| output.energy = false),
-        ("losses", scene.output.losses, |output| output.losses = false),
-    ];
-    for (key, _, drop) in books.into_iter().filter(|(_, kept, _)| *kept && !is_read(scene)) {
->>>>>>> use
         let mut without = SceneDraft::clone(scene);
         match key {
             "energy" => without.output.energy = false,

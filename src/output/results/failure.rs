@@ -107,11 +107,7 @@ pub enum Refusal {
     Chosen {
         /// File name of the scene.
         scene: String,
-<<<<<<< HEAD
         /// Which; in a place of its own, since it is large.
-=======
-        /// Which.
->>>>>>> use
         source: Box<ChosenError>,
     },
     /// More outputs than anybody can mean.

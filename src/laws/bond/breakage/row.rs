@@ -14,11 +14,7 @@ use std::sync::Arc;
 /// New values of strengths, by their keys below `[bond.<name>.breakage]`.
 pub(in crate::laws::bond) type NewStrengths<'a> = &'a dyn Fn(&str) -> Option<Positive>;
 
-<<<<<<< HEAD
 /// Makes a rule of its keys and new strengths, among all rules of a bond of this formulation; adds what the keys contradict.
-=======
-/// Makes a rule of its keys, beside the other rules of the bond law and its formulation; reports what contradicts.
->>>>>>> use
 type MakeRule = fn(Kept, NewStrengths, (&[BreakageChoice], FormulationChoice), &mut Vec<KeyError>) -> Rule;
 
 /// What the program knows of a rule of breakage.
@@ -33,11 +29,7 @@ pub struct BreakageRow {
     read: fn(&Document, &str, &mut Faults) -> Option<Kept>,
     /// Its strengths: key and unit.
     strengths: fn(Kept) -> Vec<(String, &'static str)>,
-<<<<<<< HEAD
     /// The rule in numbers.
-=======
-    /// The rule in numbers; what its keys contradict is added to the list.
->>>>>>> use
     rule: MakeRule,
 }
 
