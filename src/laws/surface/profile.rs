@@ -84,12 +84,19 @@ impl Revolution {
     }
 
     /// A centre in the half plane: q, z, and the direction away from the axis; on the axis any.
+    #[inline(always)]
     fn in_profile(&self, centre: Vector) -> ([f64; 2], Vector) {
         let apart = centre - self.origin;
         let z = apart.dot(self.axis);
         let out = apart - self.axis * z;
         let q = out.length();
-        ([q, z], if q >= f64::MIN_POSITIVE { out * (1.0 / q) } else { across(self.axis)[0] })
+        ([q, z], if q >= f64::MIN_POSITIVE { out * (1.0 / q) } else { self.any_way_out() })
+    }
+
+    /// A direction across the axis.
+    #[cold]
+    fn any_way_out(&self) -> Vector {
+        across(self.axis)[0]
     }
 
     /// The nearest point of a segment.
@@ -187,10 +194,16 @@ impl Features for Revolution {
             if nearest.corner.is_none() && nearest.distance <= radius {
                 list.push(self.foot((place, outwards), radius, (segment, &nearest, 1.0)));
             }
-            corners.extend(ends);
+            for end in ends {
+                // Segments follow each other: mostly it is the last one.
+                if !corners.contains(&end) {
+                    corners.push(end);
+                }
+            }
         }
-        corners.sort_unstable();
-        corners.dedup();
+        if !corners.is_sorted() {
+            corners.sort_unstable();
+        }
         let corners = std::mem::take(corners);
         for &corner in &corners {
             let (mut weight, mut here) = (1, None);
