@@ -17,7 +17,7 @@ use nalgebra::Matrix6;
 /// Turns in which the root of slip and rolling comes down to where it stands.
 const TURNS: usize = 12;
 
-/// How many surfaces that stand or are led a body may meet at once: two in an edge.
+/// How many surfaces that stand or are led a sphere may meet at once: two in an edge.
 const AT_SURFACES: f64 = 2.0;
 
 /// What meets: a particle, another one, or a boundary.
@@ -127,22 +127,24 @@ impl System<'_> {
                     });
                 }
             }
+            if a.slip <= 0.0 {
+                continue;
+            }
             let contact = contact_of(a, None);
             let meeting = |closing: f64, per_mass: f64| Meeting {
                 materials: (a.material, None),
                 contact,
                 energy: 0.5 * closing * closing / per_mass,
             };
-            if a.slip > 0.0 {
-                let meeting = meeting(closing(a.radius), a.per_striking_mass);
-                for pass in self.passes {
-                    pass.impacts(self.state, &meeting, &mut |boundary, parts| {
-                        if boundary.is_some_and(|boundary| surfaces[boundary as usize].is_none()) {
-                            let parts = parts.map(|frame| frame.map(|it| AT_SURFACES * it));
-                            tell((a.particle, None, boundary), Freedoms::of(a), parts);
-                        }
-                    });
-                }
+            let times = if a.is_sphere { AT_SURFACES } else { 1.0 };
+            let standing = meeting(closing(a.radius), a.per_striking_mass);
+            for pass in self.passes {
+                pass.impacts(self.state, &standing, &mut |boundary, parts| {
+                    if boundary.is_some_and(|boundary| surfaces[boundary as usize].is_none()) {
+                        let parts = parts.map(|frame| frame.map(|it| times * it));
+                        tell((a.particle, None, boundary), Freedoms::of(a), parts);
+                    }
+                });
             }
             for (index, surface) in surfaces.iter().enumerate() {
                 let Some(surface) = surface else { continue };
