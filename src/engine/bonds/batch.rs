@@ -79,7 +79,8 @@ impl TakeFormulation for TakeSlabs {
 fn slab<F: Formulation>(work: &Work, from: usize, to: usize, width: Width) -> Done {
     let mut done = Done::default();
     if from < to {
-        let (mut buffer, mut energies) = (PipelineBuffer::new(), [[0.0; 8]; 2]);
+        let mut buffer = PipelineBuffer::new();
+        let mut energies = [[0.0; 8]; 2];
         let (buffer, lost, told) = (&mut buffer, &mut energies, &mut done);
         let formulation = PhantomData::<F>;
         lanes::run(width, Slab { work, from, to, width, buffer, energies: lost, done: told, formulation });

@@ -108,9 +108,10 @@ pub(super) struct PipelineBuffer {
 
 impl Answer {
     /// An empty one.
+    #[inline(always)]
     fn new() -> Self {
         Self {
-            loaded: LoadedBonds::EMPTY,
+            loaded: LoadedBonds::none(),
             motion: [[0.0; 8]; 11],
             loads: [[0.0; 8]; 9],
             relaxed: [[0.0; 8]],
@@ -164,7 +165,8 @@ impl Answer {
 }
 
 impl PipelineBuffer {
-    /// An empty one.
+    /// An empty one, made where it stands.
+    #[inline(always)]
     pub(super) fn new() -> Self {
         let rows = [[0.0; 4]; 8];
         let loads = Loads { force: rows, first_torque: rows, second_torque: rows };

@@ -18,8 +18,10 @@ pub(crate) struct LoadedBonds {
 
 impl LoadedBonds {
     /// None.
-    pub(crate) const EMPTY: Self =
-        Self { size: [[0.0; 8]; 2], elastic: [[0.0; 8]; 9], cause: [[0.0; 8]], breaks: false };
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self { size: [[0.0; 8]; 2], elastic: [[0.0; 8]; 9], cause: [[0.0; 8]], breaks: false }
+    }
 
     /// Writes bonds that hold.
     #[inline(always)]
