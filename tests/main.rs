@@ -46,3 +46,4 @@ mod support;
 mod suppressed_contacts;
 mod surface_courses;
 mod surfaces;
+mod units;

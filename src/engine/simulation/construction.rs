@@ -99,6 +99,8 @@ impl Simulation {
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();
+        let groups = rigid_body::coming_speed(&self.bodies, &self.state, 0.0);
+        self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
         self.first_step(&context)?;
         self.look_at_pressed();
         let step = self.state.clock.step;

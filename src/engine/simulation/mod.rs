@@ -30,7 +30,6 @@ pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use advance::divide;
 pub use coefficients::TuneError;
 pub use derivatives::{Input, NoDerivative};
-pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};

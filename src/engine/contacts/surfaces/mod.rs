@@ -10,7 +10,7 @@ mod nodes;
 mod plane;
 mod sphere;
 
-use super::ahead::{Link, SearchLimits};
+use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
@@ -20,11 +20,10 @@ use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
-use crate::engine::contacts::coefficients::{CoefficientTable, Partners};
+use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
-use crate::laws::contact::Response;
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Outside, Scene, Shape};
 use features::{ColumnBuffer, FeatureContacts};
@@ -352,15 +351,11 @@ impl Pass for SurfacePass {
         }
     }
 
-    fn impacts(&self, radius: f64, mass: f64, speed: f64, tell: &mut dyn FnMut(Response)) {
+    fn impacts(&self, state: &State, meeting: &Meeting, tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {
+        let (first, None) = meeting.materials else { return };
         for surface in &self.surfaces {
-            let AtSurface { table, law, material, .. } = surface;
-            // Against a surface the effective radius and mass are the particle's own, twice those of an equal pair.
-            let (radius, mass) = (2.0 * radius, 2.0 * mass);
-            table
-                .stiffest(&law.law, Partners::Boundary(*material), radius, mass, speed)
-                .into_iter()
-                .for_each(&mut *tell);
+            let found = surface.table.impact(&surface.law.law, [first, surface.material], meeting);
+            found.into_iter().for_each(|parts| tell(Some(surface.list(state).boundary), parts));
         }
     }
 

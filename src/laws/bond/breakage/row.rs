@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// New values of strengths, by their keys below `[bond.<name>.breakage]`.
 pub(in crate::laws::bond) type NewStrengths<'a> = &'a dyn Fn(&str) -> Option<Positive>;
 
+/// Makes a rule of its keys and new strengths, among all rules of a bond of this formulation; adds what the keys contradict.
+type MakeRule = fn(Kept, NewStrengths, (&[BreakageChoice], FormulationChoice), &mut Vec<KeyError>) -> Rule;
+
 /// What the program knows of a rule of breakage.
 pub struct BreakageRow {
     /// Its name.
@@ -26,8 +29,8 @@ pub struct BreakageRow {
     read: fn(&Document, &str, &mut Faults) -> Option<Kept>,
     /// Its strengths: key and unit.
     strengths: fn(Kept) -> Vec<(String, &'static str)>,
-    /// The rule in numbers; what its keys contradict is added to the list.
-    rule: fn(Kept, NewStrengths, (&[BreakageChoice], FormulationChoice), &mut Vec<KeyError>) -> Rule,
+    /// The rule in numbers.
+    rule: MakeRule,
 }
 
 impl BreakageRow {
