@@ -40,13 +40,14 @@ fn junction(topology: &Topology) -> Option<String> {
 const CRACK: f64 = 0.01;
 
 /// A free vertex so near to a free edge of another triangle that both count for a sphere on the crack between them, though they are
-/// not one: nearer than `within` \[m\]. Told in words.
+/// not one: nearer than `within` \[m\]. The narrowest one, in words.
 pub(super) fn crack(topology: &Topology, within: f64) -> Option<String> {
     let at = |vertex: u32| topology.vertices[vertex as usize];
     let free: Vec<usize> = (0..topology.edges.len()).filter(|edge| topology.at_edge[*edge].len() == 1).collect();
     let mut rim: Vec<(u32, usize)> =
         free.iter().flat_map(|&edge| topology.edges[edge].map(|end| (end, edge))).collect();
     rim.sort_by(|a, b| at(a.0).x.total_cmp(&at(b.0).x).then(a.cmp(b)));
+    let mut narrowest: Option<(f64, [usize; 2])> = None;
     for &edge in &free {
         let [a, b] = topology.edges[edge];
         let (from, way) = (at(a), at(b) - at(a));
@@ -56,16 +57,17 @@ pub(super) fn crack(topology: &Topology, within: f64) -> Option<String> {
         for &(vertex, other) in rim[start..].iter().take_while(|(vertex, _)| at(*vertex).x <= high) {
             let share = ((at(vertex) - from).dot(way) / way.dot(way)).clamp(0.0, 1.0);
             let apart = (at(vertex) - from - way * share).length();
-            if ![a, b].contains(&vertex) && apart <= reach {
-                let [one, two] = [edge, other].map(|edge| topology.numbers[topology.at_edge[edge][0] as usize]);
-                let [one, two] = [one.min(two), one.max(two)];
-                return Some(format!(
-                    "free edges of triangles {one} and {two} are {apart:.1e} m apart: a sphere over this crack touches both"
-                ));
+            if ![a, b].contains(&vertex) && apart <= reach && narrowest.is_none_or(|(least, _)| apart < least) {
+                narrowest = Some((apart, [edge, other]));
             }
         }
     }
-    None
+    let (apart, edges) = narrowest?;
+    let [one, two] = edges.map(|edge| topology.numbers[topology.at_edge[edge][0] as usize]);
+    let [one, two] = [one.min(two), one.max(two)];
+    Some(format!(
+        "free edges of triangles {one} and {two} are {apart:.1e} m apart: a sphere over this crack touches both"
+    ))
 }
 
 /// Two triangles in one plane that cover one another in part. Found along the axis on which the surface is longest.

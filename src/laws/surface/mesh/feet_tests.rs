@@ -105,7 +105,8 @@ fn one_triangle_of_a_plane_tells_what_all_of_them_do() {
             assert_eq!(whole.list, Vec::from_iter(found), "{place:?}, radius {radius}");
             touched += whole.list.len();
         }
-        assert!(planes > 5000 && told > 2000 && touched > 1000, "{planes} {told} {touched}");
+        // What is deep is left to the whole rule.
+        assert!(planes > 5000 && told > 2000 && touched > 200, "{planes} {told} {touched}");
     }
 }
 
