@@ -314,6 +314,11 @@ fn a_state_is_refused_with_the_part_that_cannot_be() {
         refusal(&|state| state.particles.position[1][0] = f64::NAN),
         "invalid state, position[1]: expected finite numbers"
     );
+    // The energy of this spin was infinite: cells of the history were empty, with status 0.
+    assert_eq!(
+        refusal(&|state| state.particles.angular_velocity[1][0] = 1e300),
+        "invalid state, angular_velocity[1]: expected a kinetic energy that is a number"
+    );
     assert_eq!(
         refusal(&|state| state.nodes[0].force[3][2] = f64::INFINITY),
         "invalid state, nodes[3]: expected finite numbers"

@@ -20,9 +20,16 @@ const TIME: Duration = Duration::from_secs(10);
 /// One input takes no longer.
 const LONGEST: Duration = Duration::from_secs(60);
 
+/// Keeps an input, and says where.
+fn keep(target: &Target, name: &str, bytes: &[u8]) -> String {
+    let file = std::env::temp_dir().join(format!("cograin_{}_{}", target.name, name.replace([' ', '/'], "_")));
+    std::fs::write(&file, bytes).unwrap();
+    file.display().to_string()
+}
+
 /// Tries inputs of a target; a thread beside it ends the process where one hangs.
 fn try_all(target: &Target) {
-    let (now, (begins, begun)) = (&Mutex::new(String::new()), channel());
+    let (now, (begins, begun)) = (&Mutex::new((String::new(), Vec::new())), channel());
     std::thread::scope(move |scope| {
         scope.spawn(move || {
             loop {
@@ -30,20 +37,22 @@ fn try_all(target: &Target) {
                     Ok(()) => {}
                     Err(RecvTimeoutError::Disconnected) => break,
                     Err(RecvTimeoutError::Timeout) => {
-                        eprintln!("{}: {} takes more than {LONGEST:?}", target.name, now.lock().unwrap());
+                        let (name, bytes) = &*now.lock().unwrap();
+                        eprintln!(
+                            "{} takes more than {LONGEST:?} for {name}: {}",
+                            target.name,
+                            keep(target, name, bytes)
+                        );
                         abort();
                     }
                 }
             }
         });
         let run = |name: &str, bytes: &[u8]| {
-            name.clone_into(&mut now.lock().unwrap());
+            *now.lock().unwrap() = (name.to_owned(), bytes.to_vec());
             begins.send(()).unwrap();
             if catch_unwind(AssertUnwindSafe(|| (target.run)(bytes))).is_err() {
-                let file =
-                    std::env::temp_dir().join(format!("cograin_{}_{}", target.name, name.replace([' ', '/'], "_")));
-                std::fs::write(&file, bytes).unwrap();
-                eprintln!("{} fails on {name}: {}", target.name, file.display());
+                eprintln!("{} fails on {name}: {}", target.name, keep(target, name, bytes));
                 panic!("a target fails");
             }
         };

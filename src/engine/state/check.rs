@@ -234,7 +234,25 @@ impl Particles {
             (&self.torque, "torque"),
             (&self.orientation, "orientation"),
         ];
-        rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))
+        rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))?;
+        self.check_energy()
+    }
+
+    /// Whether the kinetic energy of all is a number: a spin of 1e300 rad/s is one, its energy is none.
+    fn check_energy(&self) -> Result<(), StateFault> {
+        let energy = |row: &Row| row[3] * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+        let mut sum = 0.0;
+        for (rows, part) in [(&self.velocity, "velocity"), (&self.angular_velocity, "angular_velocity")] {
+            demand_all(
+                rows.iter().map(|row| {
+                    sum += energy(row);
+                    sum.is_finite()
+                }),
+                part,
+                "a kinetic energy that is a number",
+            )?;
+        }
+        Ok(())
     }
 
     /// Whether places that no particle has are marked as such, and those of the later ones can be taken again.
