@@ -93,6 +93,47 @@ material = "b"
 energy = true
 "#;
 
+/// Sub-models with the keys that change what they do.
+pub(crate) mod laws {
+    use cograin::scene::Models;
+
+    /// Normal models, each with its keys in every form.
+    pub(crate) fn normal(models: &Models) -> Vec<(&'static str, &'static str)> {
+        let keys = |name: &str| -> &[&str] {
+            match name {
+                "hooke" | "hooke_viscous" => &["characteristic_velocity = 1.0"],
+                "hooke_stiffness" => &["", "absolute_damping = false"],
+                "jkr" => &["", "tear_off = \"whole_branch\"", "engine_exact = true"],
+                "dmt" => &["", "engine_exact = true"],
+                "eepa" => &[
+                    "overlap_exponent = 1.5\nadhesion_exponent = 2",
+                    "overlap_exponent = 1.5\nadhesion_exponent = 2\nengine_exact = true",
+                    "overlap_exponent = 1\nadhesion_exponent = 1",
+                ],
+                _ => &[""],
+            }
+        };
+        models.normal_names().into_iter().flat_map(|name| keys(name).iter().map(move |keys| (name, *keys))).collect()
+    }
+
+    /// Rolling models, each with its keys in every form and a share of critical damping.
+    pub(crate) fn rolling(models: &Models) -> Vec<(&'static str, &'static str, f64)> {
+        let forms = |name: &str| -> &[(&str, f64)] {
+            match name {
+                "epsd" => {
+                    &[("", 0.0), ("", 0.1), ("", 0.5), ("", 3.0), ("torsion = true", 1.0), ("engine_exact = true", 1.0)]
+                }
+                "epsd2" => &[("", 0.0), ("torsion = true", 0.0), ("engine_exact = true", 0.0)],
+                // Its torque does not grow with spin: there is no linear law.
+                "cdt" => &[],
+                _ => &[("", 0.0)],
+            }
+        };
+        let of = |name: &'static str| forms(name).iter().map(move |(keys, damping)| (name, *keys, *damping));
+        models.rolling_names().into_iter().flat_map(of).collect()
+    }
+}
+
 /// Every contact law there is: name, and scene.
 pub(crate) fn contact_laws() -> BTreeMap<String, String> {
     let mut scenes = BTreeMap::new();
@@ -173,7 +214,7 @@ energy = true
 "#;
 
 /// Every formulation, damping, relaxation and breakage of bonds: name, and scene.
-fn bond_laws() -> BTreeMap<String, String> {
+pub(crate) fn bond_laws() -> BTreeMap<String, String> {
     let mut scenes = BTreeMap::new();
     let parts = |number: &str| {
         let part = |name| format!("{name} = {number}");

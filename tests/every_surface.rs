@@ -4,7 +4,7 @@
 //! Twelve stations stand side by side along x, each a surface under spheres that meet it and each other. High above them a block of
 //! spheres falls: with fewer than 2,000 particles one thread would do all the work.
 
-use crate::support::scene_with;
+use crate::support::{Files, scene_with};
 use cograin::lanes::Width;
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::Scene;
@@ -114,6 +114,12 @@ fn scene(threads: usize) -> Arc<Scene> {
 
 /// The scene with this many threads, in which the motions of the stations became others.
 fn scene_of(threads: usize, other: impl Fn(&'static str) -> &'static str) -> Arc<Scene> {
+    let (text, files) = text_of(threads, other);
+    scene_with(&text, files)
+}
+
+/// Its text and files.
+pub(crate) fn text_of(threads: usize, other: impl Fn(&'static str) -> &'static str) -> (String, Files) {
     let mut boundaries = String::new();
     let mut spheres = Vec::new();
     let mut group = Vec::new();
@@ -167,8 +173,7 @@ energy = true
         group.join(", ")
     );
     let way = "time,x\n0.0,0.0\n0.004,-8e-4\n0.01,2e-4\n";
-    let files = BTreeMap::from([("bumps.obj".to_owned(), bumps()), ("way.csv".to_owned(), way.into())]);
-    scene_with(&text, files)
+    (text, BTreeMap::from([("bumps.obj".to_owned(), bumps()), ("way.csv".to_owned(), way.into())]))
 }
 
 /// Moves all inputs and advances, from one communication step to another. Says of each station whether something pushed it.

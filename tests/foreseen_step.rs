@@ -199,10 +199,41 @@ fn spheres_that_are_too_soft_for_their_impact_do_not_pass_through_each_other_uns
         let RunError::Crushed { overlap, cause: Cause::Impact { speed }, .. } = &error else { panic!("{error}") };
         assert!(*overlap > 1.0 && *overlap < 1.5 && *speed > 20.0 && *speed <= 32.0, "{error}");
     }
-    // The automatic step follows their stiffness: they would jump over each other in it.
-    let error = start(&too_soft("")).advance(0.01).expect_err("they jump over each other");
-    let RunError::Runaway { cause: Cause::Speed { speed, .. }, .. } = &error else { panic!("{error}") };
-    assert_eq!(*speed, 16.0);
+    // The automatic step follows their stiffness and their motion: they do not jump over each other in it.
+    let error = start(&too_soft("")).advance(0.01).expect_err("they go through each other");
+    assert!(matches!(error, RunError::Crushed { cause: Cause::Impact { .. }, .. }), "{error}");
+}
+
+#[test]
+fn an_automatic_step_does_not_lead_to_its_own_refusal() {
+    // Nothing is stiff; it begins fast, it falls, it is pushed, or it comes fast.
+    let falls = "gravity = [0.0, 0.0, -9.81]\n";
+    let fast = "[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                list = [ { position = [0.0, 0.0, 0.0], radius = 0.001, velocity = [0.0, 0.0, 100.0] } ]\n";
+    let pushed = "[force.f]\nparticles = { set = \"p\" }\nforce = [1e-3, 0.0, 0.0]\n";
+    let comes = "[region.feed]\nbox = [[0.0, 0.0, 1.0], [1.0, 1.0, 2.0]]\n[insertion.rain]\nregion = \"feed\"\nmaterial = \"a\"\n\
+                 sizes = { radius = 1e-3 }\ncount_rate = 100.0\nvelocity = [0.0, 0.0, -50.0]\n";
+    let slow = fast.replace("100.0", "0.0");
+    for text in [fast.to_owned(), format!("{falls}{slow}"), format!("{slow}{pushed}"), format!("{slow}{comes}")] {
+        let mut simulation = start(&text);
+        for interval in [1e-9, 1.0, 0.5] {
+            simulation.advance(interval).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        }
+        assert!((simulation.time() - 1.5).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn where_nothing_moves_and_nothing_is_stiff_a_communication_step_is_one_time_step() {
+    let text = "[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                list = [ { position = [0.0, 0.0, 0.0], radius = 0.01 } ]\n";
+    let mut simulation = start(text);
+    for interval in [1e-6, 3.0, 1e5] {
+        let before = simulation.state().clock.steps;
+        simulation.advance(interval).expect("nothing moves");
+        assert_eq!(simulation.state().clock.steps - before, 1);
+        assert_eq!(simulation.state().clock.step, interval);
+    }
 }
 
 #[test]

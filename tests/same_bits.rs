@@ -176,7 +176,7 @@ fn a_communication_step_made_in_parts_and_saved_between_them_gives_the_same_bits
             }
             whole.advance(interval).expect("it runs");
             let mut made = 0;
-            while !parts.advance_part(interval, 3 + made % 5).expect("it runs") {
+            while !parts.advance_part(interval, 1 + made % 3).expect("it runs") {
                 made += 1;
                 let underway = parts.state().underway.expect("a part is left");
                 assert!((whole.time() - interval + underway.elapsed() - parts.time()).abs() < 1e-12);
@@ -184,7 +184,7 @@ fn a_communication_step_made_in_parts_and_saved_between_them_gives_the_same_bits
                 let state = State::from_bytes(&bytes, scene.fingerprint).expect("the bytes are whole");
                 parts = Simulation::resume(scene.clone(), state).expect("it is a state of the scene");
             }
-            assert!(made > 3, "{made} parts");
+            assert!(made >= 2, "{made} parts");
             assert_eq!(parts.state().fingerprint(), whole.state().fingerprint(), "after {interval} s");
         }
     }

@@ -208,3 +208,90 @@ fn what_has_no_static_stiffness_is_refused_by_name() {
                        stiffness"
     );
 }
+
+/// A column of three spheres with friction between a floor and a lid, one on the floor and one on that beside it, at 2^`scale` of their
+/// size, times as much longer.
+fn loose(scale: i32) -> String {
+    let size = 2.0_f64.powi(scale);
+    let [radius, apart, over] = [0.01, 0.01999, 0.00999].map(|length| length * size);
+    let place =
+        |x: f64, height: f64| format!("{{ position = [{:?}, 0.0, {height:?}], radius = {radius:?} }}", x * size);
+    let (beside, top) = (place(0.1, over), place(0.1, over + apart));
+    format!(
+        r#"
+gravity = [0.0, 0.0, {:?}]
+
+[run]
+step = {:?}
+threads = 1
+
+[material.glass]
+density = 2500.0
+youngs_modulus = 5.0e7
+poissons_ratio = 0.3
+
+[pair.glass.glass]
+restitution = 0.5
+friction = 0.5
+
+[contact.touch.normal.hertz]
+[contact.touch.tangential.history]
+
+[particles.column]
+material = "glass"
+list = [{}, {}, {}, {beside}, {top}]
+
+[boundary.floor]
+material = "glass"
+rectangle = {{ corner = [{:?}, {:?}, 0.0], edges = [[{:?}, 0.0, 0.0], [0.0, {:?}, 0.0]] }}
+
+[boundary.lid]
+material = "glass"
+rectangle = {{ corner = [{:?}, {:?}, {:?}], edges = [[{:?}, 0.0, 0.0], [0.0, {:?}, 0.0]] }}
+motion = {{ driven = ["x", "z"] }}
+"#,
+        -9.81 / size,
+        2e-6 * size,
+        place(0.0, over),
+        place(0.0, over + apart),
+        place(0.0, over + 2.0 * apart),
+        -0.05 * size,
+        -0.05 * size,
+        0.3 * size,
+        0.1 * size,
+        -0.05 * size,
+        -0.05 * size,
+        2.0 * (over + apart),
+        0.1 * size,
+        0.1 * size,
+    )
+}
+
+#[test]
+fn what_bears_nothing_is_left_out_and_the_answer_is_that_of_the_column_alone_at_any_scale() {
+    let stacked = of_last(&start(&loose(0)));
+    assert_eq!(
+        stacked.rattlers,
+        [3, 4],
+        "the upper one touches the lower one alone, which then touches the floor alone"
+    );
+    assert_eq!(stacked.loose, [0, 1, 2], "they bear, and nothing keeps them from turning about the column");
+    let alone = loose(0).replace(", { position = [0.1, 0.0, 0.00999], radius = 0.01 }", "");
+    let alone = alone.replace(&format!(", {{ position = [0.1, 0.0, {:?}], radius = 0.01 }}", 0.00999 + 0.01999), "");
+    let alone = of_last(&start(&alone));
+    assert_eq!(alone.freedoms, 18);
+    assert_eq!((stacked.freedoms, &stacked.boundaries), (18, &alone.boundaries));
+    // Four equal contacts in a row, E* = E/(2 (1 − ν²)), of which those of two spheres have half the radius.
+    let modulus = 5.0e7 / (2.0 * (1.0 - 0.09));
+    let [wall, pair] = [0.01_f64, 0.005].map(|radius| 2.0 * modulus * (radius * 1e-5).sqrt());
+    let (expected, found) = (1.0 / (2.0 / wall + 2.0 / pair), stacked.boundaries[0].matrix[2][2]);
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found} is not {expected}");
+    for scale in [-20, -7, 3, 20] {
+        let scaled = of_last(&start(&loose(scale)));
+        assert_eq!((&scaled.rattlers, &scaled.loose), (&stacked.rattlers, &stacked.loose));
+        let size = 2.0_f64.powi(scale);
+        let same = scaled.boundaries[0].matrix.map(|row| row.map(|entry| entry / size));
+        assert_eq!(same, stacked.boundaries[0].matrix, "at 2^{scale}");
+        assert_eq!(scaled.boundaries[0].residual, stacked.boundaries[0].residual, "at 2^{scale}");
+    }
+}

@@ -131,9 +131,7 @@ fn contacts_of_which_nothing_acts_are_left_alone_until_their_bond_breaks() {
     assert!(is_resting(before.0) && before.0 & TOUCHING == 0, "{before:?}");
     while living(&simulation) > 0 {
         assert_eq!(kept(&simulation), before);
-        let positions = &simulation.state().particles.position;
-        let overlap = (2e-3 - (positions[1][0] - positions[0][0]).abs()) / 1e-3;
-        assert!((simulation.largest_overlap() - overlap).abs() < 1e-12, "it is told all the same");
+        assert_eq!(simulation.largest_overlap(), 0.0, "nothing presses there");
         simulation.advance(1e-8).unwrap();
     }
     let (flags, offset) = kept(&simulation);

@@ -47,13 +47,13 @@ pub type LogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Tex
 #[repr(C)]
 pub struct Callbacks {
     /// Takes messages.
-    pub(crate) logger: Option<LogFunction>,
+    pub logger: Option<LogFunction>,
     /// Not used: memory is our own.
-    pub(crate) allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
+    pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
     /// Not used: memory is our own.
-    pub(crate) free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
+    pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
     /// Not used: steps are done when `fmi2DoStep` returns.
-    pub(crate) step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
+    pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
     /// Handed to the logger as it is.
-    pub(crate) environment: *mut c_void,
+    pub environment: *mut c_void,
 }

@@ -138,6 +138,22 @@ fn times_that_cannot_be_are_refused() {
 }
 
 #[test]
+fn a_step_left_out_or_made_twice_is_seen_at_any_time_of_the_calendar() {
+    let length = 1.0e-4;
+    for start in [0.0, 3600.0, 86_400.0, 3.0e7, 1.7e9] {
+        let unit = Unpacked::new();
+        let host = Host::instantiated(&unit);
+        assert_eq!(fmi2SetupExperiment(host.component, 0, 0.0, start, 0, 0.0), Status::Ok);
+        assert_eq!(fmi2EnterInitializationMode(host.component), Status::Ok);
+        assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok);
+        assert_eq!(host.step(start, length), Status::Ok);
+        host.refused(host.step(start, length), &["communication point: expected the present time"]);
+        host.refused(host.step(start + 2.0 * length, length), &["communication point: expected the present time"]);
+        assert_eq!(host.step(start + length, length), Status::Ok);
+    }
+}
+
+#[test]
 fn a_step_without_end_is_refused() {
     let unit = Unpacked::new();
     let host = Host::started(&unit);

@@ -315,6 +315,11 @@ class Coupling:
         mine = getattr(self.partner, "unit", None)
         if mine is not None and any(mine is unit for unit in getattr(self.interface, "units", [])):
             raise ValueError(f"{mine.name}: expected another unit as the partner, found the same on both sides")
+        for unit in [*getattr(self.interface, "units", []), *([] if mine is None else [mine])]:
+            if abs(unit.time - self._start) > 1e-6 * self.step:
+                raise ValueError(
+                    f"{unit.name}: expected to stand at {self._start:g} s, as the others do, found {unit.time:g} s"
+                )
         # What was computed in two ways differs by rounding.
         if np.abs(here - there).max() > 1e-9 * max(np.abs(here).max(), np.abs(there).max()):
             raise ValueError(

@@ -147,7 +147,7 @@ class Search:
         slow = len(self.trials) > 3 and best.size > 0.5 * min(trial.size for trial in self.trials[:-3])
         if self.gives_way() or len(target) > 1:
             # In several directions a bound on one of them cuts off too much of the others; only what strays is held.
-            if slow and len(self.trials) % 2 == 0:
+            if slow and len(self.trials) % 4:
                 return self.middle()
             return target if far <= 1.0 else best.displacement + (target - best.displacement) / far
         halves = [(trial.place + 0.5 * trial.way, 0.5 * float(np.linalg.norm(trial.way))) for trial in self.trials]
@@ -187,7 +187,12 @@ class Search:
             return False
         apart = np.abs(pair[0].displacement - pair[1].displacement)
         rounding = 4.0 * np.finfo(float).eps * np.abs(pair[0].displacement)
-        return bool((apart <= np.maximum(CLOSED * allowed, rounding)).all())
+        if not (apart <= np.maximum(CLOSED * allowed, rounding)).all():
+            return False
+        # Some mean of the two forces leaves nothing, in any direction: there the jump is the answer.
+        change = pair[1].way - pair[0].way
+        left = pair[0].way - change * (float(pair[0].way @ change) / float(change @ change))
+        return float(np.linalg.norm(left)) <= 1e-3 * float(np.linalg.norm(change))
 
 
 class Implicit(Exchange):
@@ -439,7 +444,7 @@ class QuasiNewton(Implicit):
         reuse: int = 4,
         tolerance: Tolerance | None = None,
         force: Force = "mean",
-        limit: int = 60,
+        limit: int = 100,
     ) -> None:
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         self.relaxation = relaxation
@@ -516,7 +521,7 @@ class Newton(Implicit):
         perturbation: float | None = None,
         tolerance: Tolerance | None = None,
         force: Force = "mean",
-        limit: int = 60,
+        limit: int = 100,
     ) -> None:
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         if derivative not in ("unit", "differences"):

@@ -32,10 +32,17 @@ class _Turn:
     of the unit.
     """
 
-    def __init__(self, places: list[int], axes: list[int], names: dict[Force, tuple[str, ...]]) -> None:
+    def __init__(
+        self,
+        places: list[int],
+        axes: list[int],
+        names: dict[Force, tuple[str, ...]],
+        others: tuple[str, ...],
+    ) -> None:
         self.places = places  # of its directions among those of the part
         self.axes = axes  # of these directions
         self.names = names  # of the moments about x, y, z
+        self.others = others  # names of driven rotations of the boundary that are no directions
         self.moments = slice(0, 0)  # their places in what is read
         self.turns = False
         self.given: Vector = np.zeros(3)  # rotation vector [rad]
@@ -46,16 +53,23 @@ class _Turn:
         """What changes."""
         return self.given, self.before, self.counted
 
-    def begin(self, given: Vector) -> None:
-        """Stands at this rotation vector, of which the directions are a part."""
+    def begin(self, given: Vector, others: Vector) -> None:
+        """Stands at this rotation vector: its directions, and the other driven rotations."""
         self.given[self.axes] = given
+        self.given[self.beside] = others
         self.before, self.counted = self.given, self.given
 
-    def move(self, displacement: Vector) -> Vector:
-        """The directions as the unit is given them."""
+    @property
+    def beside(self) -> list[int]:
+        """Axes of the other driven rotations."""
+        return ["xyz".index(name[-1]) for name in self.others]
+
+    def move(self, displacement: Vector, others: Vector) -> Vector:
+        """The directions as the unit is given them, where the other driven rotations are given these."""
         if not self.turns:
             moved = self.given.copy()
             moved[self.axes] = displacement
+            moved[self.beside] = others
         else:
             now = after(quaternion(displacement - self.counted), quaternion(self.given))
             moved = rotation_vector(now, near=self.given)
@@ -102,7 +116,7 @@ class _Part:
         self.begin = unit.get(displacements)
         #: How many directions of the partner it has.
         self.size = len(displacements) if through is None else through.shape[1]
-        self.turns = list(_turns_of(displacements, ends, means))
+        self.turns = list(_turns_of(unit, displacements, ends, means))
         # Everything that is read for the forces: the forces, then all moments of each turn.
         self.read = dict(self.forces)
         for one in self.turns:
@@ -111,7 +125,7 @@ class _Part:
                 for name in names:
                     unit.variable(name)
                 self.read[kind] = (*self.read[kind], *names)
-            one.begin(self.begin[one.places])
+            one.begin(self.begin[one.places], unit.get(one.others))
         self._turns_saved = [one.memory() for one in self.turns]
 
     def names(self) -> tuple[str, ...]:
@@ -132,11 +146,14 @@ class _Part:
         if self.turns:
             given = given.copy()
             for one in self.turns:
-                given[one.places] = one.move(given[one.places])
+                given[one.places] = one.move(given[one.places], self.unit.get(one.others))
         self.unit.set(self.displacements, given)
 
     def bend(self, acceleration: Vector, displacement: Vector, length: float) -> None:
         """Gives the unit where it is to be at the end of a step of this length \\[s\\], and its acceleration in it."""
+        turning = [name for name in self.displacements if ".displacement." not in name]
+        if turning:
+            raise ValueError(f"quadratic motion: expected displacements, found {turning[0]}")
         self.move(displacement)
         given = acceleration if self.through is None else self.through @ acceleration
         # The step ends at value + (rate + ½ acceleration · length) · length: at the value, to the last bit.
@@ -194,7 +211,9 @@ class _Part:
             one.given, one.before, one.counted = saved
 
 
-def _turns_of(displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...]) -> Iterator[_Turn]:
+def _turns_of(
+    unit: Unit, displacements: tuple[str, ...], ends: tuple[str, ...], means: tuple[str, ...]
+) -> Iterator[_Turn]:
     """The boundaries that turn about several axes, where forces have the names that follow from those of the inputs."""
     found: dict[str, list[tuple[int, int]]] = {}
     for place, name in enumerate(displacements):
@@ -203,11 +222,14 @@ def _turns_of(displacements: tuple[str, ...], ends: tuple[str, ...], means: tupl
         if usual and (ends[place], means[place]) == (_answer(name, 0), _answer(name, 1)):
             found.setdefault(stem, []).append((place, "xyz".index(axis)))
     for stem, several in found.items():
-        if len(several) > 1:
+        coupled = [f"{stem}.{'xyz'[axis]}" for _, axis in several]
+        driven = [f"{stem}.{axis}" for axis in "xyz" if f"{stem}.{axis}" in unit.variables]
+        others = tuple(name for name in driven if name not in coupled and unit.variable(name).causality == "input")
+        if len(several) + len(others) > 1:
             names: dict[Force, tuple[str, ...]] = {
                 kind: tuple(_answer(f"{stem}.{axis}", number) for axis in "xyz") for number, kind in enumerate(_KINDS)
             }
-            yield _Turn([place for place, _ in several], [axis for _, axis in several], names)
+            yield _Turn([place for place, _ in several], [axis for _, axis in several], names, others)
 
 
 class Interface:
@@ -269,6 +291,14 @@ class Interface:
         for place, (_, name) in enumerate(inputs):
             if inputs[place] in inputs[:place]:
                 raise ValueError(f"interface: expected each displacement once, found {name} twice")
+        turning: dict[tuple[int, str], _Part] = {}
+        for part in self._parts:
+            for name in part.displacements:
+                stem = name.rpartition(".")[0]
+                if stem.endswith(".rotation") and turning.setdefault((id(part.unit), stem), part) is not part:
+                    raise ValueError(
+                        f"interface: expected all of {stem} in one Interface, found it in two: they do not add"
+                    )
         self.displacement = np.concatenate([part.displacement for part in self._parts])
         self._saved = self.displacement
         #: Every unit, once.

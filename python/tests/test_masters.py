@@ -164,6 +164,35 @@ def test_a_partner_with_mass_gets_through_a_jump_by_shorter_steps(make):
     assert record["evaluations"].sum() < 100 * len(record)
 
 
+class Stiff(Contact):
+    """Three springs of power 1.5, ten thousand times as stiff as what they meet."""
+
+    names: ClassVar = [f"{name}.displacement.x" for name in "abc"]
+
+    def __init__(self):
+        super().__init__(1e7, np.array([1e-3, -1e-3, 2e-3]))
+        self.displacement = self.before = np.zeros(3)
+
+    def force(self, kind):
+        return self.at(self.displacement) - self.at(np.zeros(3))
+
+
+def test_a_stiff_side_in_several_directions_is_solved_or_said_not_to_be():
+    frame = np.array([[2e3, -5e2, 0.0], [-5e2, 2e3, -5e2], [0.0, -5e2, 2e3]])
+
+    def run(exchange):
+        partner = Structure(0.0, frame, load=lambda time: np.array([3.0, 2.0, 1.0]) * min(1.0, time / 5e-3))
+        record = couple(Stiff(), partner, exchange, step=1e-3, end=0.02, progress=False)
+        assert max((row.residual for row in record.unconverged), default=0.0) < 1e-4
+        return record
+
+    assert not run(Newton("differences")).unconverged
+    try:
+        run(QuasiNewton())
+    except CouplingStopped as told:
+        assert "displacements differ by" in str(told)
+
+
 def test_a_jump_can_stop_a_run_or_be_accepted():
     plate = Oscillator(0.0, 1e3, load=lambda time: 3.0)
     with pytest.raises(CouplingStopped, match="force jumps"):
@@ -357,6 +386,16 @@ def test_names_that_are_the_same_are_refused(opened):
         )
     record = couple(Interface(one, FLOOR), Oscillator(1.0, 1.0), Secant(), step=1e-3, end=2e-3, watch=[FLOOR])
     assert record.names.count(FLOOR) == 1
+
+
+def test_units_of_different_times_are_refused(opened):
+    one, other = opened(DROP, name="one"), opened(DROP, name="other")
+    other.step(1e-3)
+    with pytest.raises(ValueError, match=r"other: expected to stand at 0 s, as the others do, found 0.001 s"):
+        Coupling(Interface(one, FLOOR) + Interface(other, FLOOR), Structure([1.0, 1.0], 1.0), QuasiNewton(), 1e-3)
+    partner = UnitPartner(other, force=FLOOR, displacement="ball.displacement.z")
+    with pytest.raises(ValueError, match="other: expected to stand at 0 s"):
+        Coupling(Interface(one, FLOOR), partner, FixedPoint(), 1e-3)
 
 
 def test_an_output_is_not_moved(drop):

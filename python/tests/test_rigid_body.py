@@ -8,10 +8,12 @@ from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
 from cograin import (
+    Coupling,
     Interface,
     Newton,
     Oscillator,
     Partners,
+    Quadratic,
     QuasiNewton,
     RigidBody,
     Step,
@@ -311,6 +313,22 @@ def test_a_structure_with_large_rotations_takes_the_work_that_the_units_give(ope
     # The columns are the unit's own.
     if substeps == 1:
         assert record["tip.mean_moment.x"][-1] == unit["tip.mean_moment.x"]
+
+
+def test_a_rotation_beside_one_that_stands_takes_its_own_work(opened):
+    unit = opened(dumbbell([1.0], f"driven = {SIX}"), inputs={"tip.rotation.y": 0.8, "tip.rotation.z": -0.4})
+    spring = Oscillator(1e-6, 1e-3, load=lambda _: 5e-4)
+    record = couple(Interface(unit, "tip.rotation.x"), spring, QuasiNewton(), step=1e-3, end=0.2)
+    assert abs(spring.displacement[0]) > 0.3
+    assert abs(record.interface_energy) <= 1e-11 * record.exchanged_work
+
+
+def test_rotations_of_a_boundary_stand_in_one_interface(opened):
+    unit = opened(dumbbell([1.0], f"driven = {SIX}"))
+    with pytest.raises(ValueError, match=r"expected all of tip.rotation in one Interface, found it in two"):
+        Interface(unit, "tip.rotation.x") + Interface(unit, "tip.rotation.y")
+    with pytest.raises(ValueError, match=r"quadratic motion: expected displacements, found tip.rotation.x"):
+        Coupling(Interface(unit, "tip.rotation.x"), Oscillator(1.0, 1.0), Quadratic(), 1e-3).advance()
 
 
 def test_rotation_vectors_and_turns_belong_together():

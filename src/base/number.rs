@@ -94,6 +94,12 @@ pub trait Number:
     }
 }
 
+/// The power of two at or below the magnitude of a number; 1 where it is 0, subnormal or not finite. What is divided by it keeps its bits.
+pub(crate) fn binade(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7FF0_0000_0000_0000;
+    if x.is_normal() { f64::from_bits(x.to_bits() & EXPONENT) } else { 1.0 }
+}
+
 impl Number for f64 {
     type Mask = bool;
     #[inline(always)]

@@ -6,7 +6,7 @@ use crate::engine::state::BoundaryState;
 use crate::laws::contact::{Material, PairProperties};
 use crate::laws::surface::{Group, Plane};
 use crate::scene::{
-    AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Particle, ParticleShape, SceneDraft, Shape,
+    AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Outside, Particle, ParticleShape, SceneDraft, Shape,
 };
 
 /// A scene of one sphere, a driven plane, a plane that moves by itself, and the sphere as a group that stands.
@@ -25,6 +25,7 @@ fn draft() -> SceneDraft {
         input: InputCourse::Ramp,
         reference: [0.0; 3],
         body: Body::default(),
+        outside: Outside::default(),
     };
     let sphere = Particle {
         id: ParticleId(7),

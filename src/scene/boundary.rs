@@ -1,6 +1,6 @@
 //! `[boundary.<name>]`
 
-use super::{AxisMotion, Body, InputCourse, NodeMotion, Shape};
+use super::{AxisMotion, Body, InputCourse, NodeMotion, Outside, Shape};
 
 /// `[boundary.<name>]`: where the outside world acts on the particles.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub struct Boundary {
     pub reference: [f64; 3],
     /// Its properties as a rigid body that forces move.
     pub body: Body,
+    /// What happens to a particle whose centre came through it.
+    pub outside: Outside,
 }
 
 impl Boundary {

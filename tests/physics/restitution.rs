@@ -69,3 +69,45 @@ fn an_elastic_impact_errs_with_the_step_as_velocity_verlet_must() {
         assert!(error < 1.05 * largest, "{steps} steps: {error:e}, at most {largest:e}");
     }
 }
+
+/// Measured restitution of two equal spheres by `eepa` without plasticity and adhesion, of this radius \[m\], that meet at this speed \[m/s\].
+fn measured_by_eepa(exponents: [f64; 2], given: f64, radius: f64, speed: f64) -> f64 {
+    let [overlap, adhesion] = exponents;
+    let sphere = |side: f64| {
+        let (place, velocity) = (1.0001 * side * radius, -0.5 * side * speed);
+        format!("{{ position = [{place:?}, 0.0, 0.0], radius = {radius:?}, velocity = [{velocity:?}, 0.0, 0.0] }}")
+    };
+    let text = format!(
+        "[run]\nthreads = 1\nsafety = 0.05\n[material.g]\ndensity = 2500.0\nyoungs_modulus = 5e7\npoissons_ratio = 0.25\n\
+         [pair.g.g]\nrestitution = {given}\nunloading_stiffness_ratio = 1.0\npull_off_force = 0.0\nsurface_energy = 0.0\n\
+         [contact.c.normal.eepa]\noverlap_exponent = {overlap:?}\nadhesion_exponent = {adhesion:?}\n\
+         [particles.p]\nmaterial = \"g\"\nlist = [{}, {}]\n",
+        sphere(1.0),
+        sphere(-1.0)
+    );
+    let mut simulation = crate::support::start(&text);
+    // Impacts last some R/(√(E/ρ))^(4/5) V^(1/5).
+    let before = simulation.kinetic_energy();
+    for _ in 0..40 {
+        simulation.advance(0.1 * radius / speed.powf(0.2)).expect("it moves slowly");
+    }
+    assert_eq!(simulation.contact_count(), 0);
+    (simulation.kinetic_energy() / before).sqrt()
+}
+
+#[test]
+fn eepa_rebounds_with_the_restitution_given_whatever_size_and_speed() {
+    for exponents in [[1.5, 3.0], [1.0, 1.0]] {
+        for radius in [0.5, 5e-3, 5e-7] {
+            for speed in [0.05, 1.0] {
+                for given in [0.6, 0.9] {
+                    let found = measured_by_eepa(exponents, given, radius, speed);
+                    assert!(
+                        (found - given).abs() < 2e-3,
+                        "{exponents:?}, {radius} m, {speed} m/s: {found}, {given} expected"
+                    );
+                }
+            }
+        }
+    }
+}

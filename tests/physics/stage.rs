@@ -7,8 +7,8 @@ use cograin::contact::{
 };
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
 use cograin::scene::{
-    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Particle, ParticleShape, Run, SceneDraft, Shape,
-    Step,
+    AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Outside, Particle, ParticleShape, Run, SceneDraft,
+    Shape, Step,
 };
 use cograin::simulation::Simulation;
 use cograin::surface::Plane;
@@ -89,6 +89,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),
+        outside: Outside::default(),
     }
 }
 

@@ -16,8 +16,11 @@ const INTERVAL: f64 = 1e-4;
 /// Communication steps of which means are compared.
 const WINDOW: usize = 8;
 
-/// Part of the stable step: the default, a tenth of it, and another to see what is chaotic.
-const PARTS: [f64; 3] = [0.2, 0.02, 0.028];
+/// Part of the stable step by default.
+pub(crate) const DEFAULT: f64 = 0.2;
+
+/// A tenth of it, and another to see what is chaotic.
+const FINE: [f64; 2] = [0.02, 0.028];
 
 /// Runs in an ensemble.
 const MEMBERS: u64 = 16;
@@ -137,11 +140,12 @@ fn difference(course: &Course, other: &Course, window: usize) -> (f64, &'static 
         .fold((0.0, NAMES[0]), |most, next| if next.0 > most.0 { next } else { most })
 }
 
-/// What becomes of the scene of a seed, with these lines in `[run]`, in so many communication steps.
-pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcome) {
+/// What becomes of the scene of a seed with this part of the stable step and these lines in `[run]`, in so many communication steps.
+pub(crate) fn judge(seed: u64, intervals: usize, part: f64, lines: &str) -> (String, Outcome) {
     let scene = random(seed, 0);
     let name = format!("seed {seed}: {}", scene.name);
-    let courses: Result<Vec<Course>, Outcome> = PARTS.iter().map(|part| run(&scene, *part, intervals, lines)).collect();
+    let courses: Result<Vec<Course>, Outcome> =
+        [part, FINE[0], FINE[1]].into_iter().map(|part| run(&scene, part, intervals, lines)).collect();
     let courses = match courses {
         Ok(courses) => courses,
         Err(outcome) => return (name, outcome),
@@ -152,7 +156,7 @@ pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcom
         let (apart, _) = difference(default, fine, window);
         let unsure = difference(other, fine, window).0;
         if apart > ALLOWED || unsure > CHAOTIC {
-            return (name, judge_means(seed, window..intervals / WINDOW, lines, agreement));
+            return (name, judge_means(seed, window..intervals / WINDOW, (part, lines), agreement));
         }
         agreement.until = (window + 1) as f64 * WINDOW as f64 * INTERVAL;
         agreement.apart = agreement.apart.max(apart);
@@ -162,8 +166,8 @@ pub(crate) fn judge(seed: u64, intervals: usize, lines: &str) -> (String, Outcom
 
 /// The same in these windows, by means over ensembles: two runs have parted there, as a motion is chaotic or as the step is too long.
 /// A step that is too long changes the means.
-fn judge_means(seed: u64, windows: Range<usize>, lines: &str, mut agreement: Agreement) -> Outcome {
-    let ensembles = [PARTS[0], PARTS[1]].map(|part| ensemble(seed, part, windows.end * WINDOW, lines));
+fn judge_means(seed: u64, windows: Range<usize>, (part, lines): (f64, &str), mut agreement: Agreement) -> Outcome {
+    let ensembles = [part, FINE[0]].map(|part| ensemble(seed, part, windows.end * WINDOW, lines));
     let [default, fine] = match ensembles {
         [Ok(default), Ok(fine)] => [default, fine],
         [Err(outcome), _] | [_, Err(outcome)] => return outcome,

@@ -12,20 +12,27 @@ use nalgebra::DMatrix;
 ///
 /// Times about `near` are tried.
 pub(crate) fn stable_step(text: &str, near: f64) -> f64 {
-    let per_root = masses(&checked(text)).map(|mass| 1.0 / mass.sqrt());
-    let scaled = |matrix: &DMatrix<f64>| {
-        let matrix = 0.5 * (matrix + matrix.transpose());
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |a, b| per_root[a] * matrix[(a, b)] * per_root[b])
-    };
+    let masses = with_step(&checked(text), 1e-12);
     let (stiffness, damping) = counted(text, near);
-    let (stiffness, damping) = (scaled(&stiffness), scaled(&damping));
+    largest_step(&scaled(&masses, &stiffness), &scaled(&masses, &damping), near)
+}
+
+/// A matrix of the free spheres, symmetric and scaled by the roots of masses and moments of inertia.
+pub(crate) fn scaled(simulation: &Simulation, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let per_root = masses(simulation).map(|mass| 1.0 / mass.sqrt());
+    let matrix = 0.5 * (matrix + matrix.transpose());
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |a, b| per_root[a] * matrix[(a, b)] * per_root[b])
+}
+
+/// The largest time step with 4 − 2 Δt C − Δt² K positive definite, about `near` \[s\].
+pub(crate) fn largest_step(stiffness: &DMatrix<f64>, damping: &DMatrix<f64>, near: f64) -> f64 {
     let is_stable = |step: f64| {
         let rest = DMatrix::identity(stiffness.nrows(), stiffness.ncols()) * 4.0
-            - &damping * (2.0 * step)
-            - &stiffness * (step * step);
+            - damping * (2.0 * step)
+            - stiffness * (step * step);
         rest.cholesky().is_some()
     };
-    let (mut stable, mut unstable) = (0.5 * near, 2.0 * near);
+    let (mut stable, mut unstable) = (0.3 * near, 4.0 * near);
     assert!(is_stable(stable) && !is_stable(unstable), "the true step is not about {near:e} s");
     while unstable / stable > 1.0 + 1e-5 {
         let middle = 0.5 * (stable + unstable);
@@ -54,21 +61,20 @@ fn counted(text: &str, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
 }
 
 /// Stiffness and damping of a scene whose dashpots see the velocities of mid-step.
-fn measured(scene: &Scene, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+pub(crate) fn measured(scene: &Scene, near: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     // A freedom that moves with speed 1 for a time step h answers with h K + C.
     let [long, short] = [0.02, 0.01].map(|part| answers(scene, part * near));
     ((&long - &short) / (0.01 * near), 2.0 * short - long)
 }
 
 /// Masses and moments of inertia of the free spheres, six for each.
-fn masses(scene: &Scene) -> nalgebra::DVector<f64> {
-    let simulation = with_step(scene, 1e-12);
+fn masses(simulation: &Simulation) -> nalgebra::DVector<f64> {
     let particles = &simulation.state().particles;
     let of = |slot: u32| {
         let (mass, inertia) = (particles.velocity[slot as usize][3], particles.angular_velocity[slot as usize][3]);
         [mass, mass, mass, inertia, inertia, inertia]
     };
-    let all: Vec<f64> = free(&simulation).into_iter().flat_map(|id| of(particles.slot[id as usize])).collect();
+    let all: Vec<f64> = free(simulation).into_iter().flat_map(|id| of(particles.slot[id as usize])).collect();
     nalgebra::DVector::from_vec(all)
 }
 
@@ -81,7 +87,7 @@ fn free(simulation: &Simulation) -> Vec<u32> {
 /// What a unit velocity of each freedom lets the loads fall by after one time step: step · K + C.
 fn answers(scene: &Scene, step: f64) -> DMatrix<f64> {
     /// Way of the trials \[m\] and turn \[rad\]: far below every overlap.
-    const TRIALS: [f64; 2] = [1e-10, 1e-7];
+    const TRIALS: [f64; 2] = [1e-11, 1e-8];
     let mut simulation = with_step(scene, step);
     let mut rest = simulation.state().clone();
     for row in rest.particles.velocity.iter_mut().chain(&mut rest.particles.angular_velocity) {

@@ -5,6 +5,8 @@
 //! Each scene is at rest but for a motion that is small enough for springs and dashpots to be linear: what grows has left
 //! the stable step behind, and what is stable stays bounded (velocity Verlet is linear there).
 
+mod impacts;
+mod laws;
 mod linearised;
 mod scenes;
 

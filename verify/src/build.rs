@@ -8,8 +8,8 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Particle, ParticleShape,
-    Run, Scene, SceneDraft, Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Outside, Particle,
+    ParticleShape, Run, Scene, SceneDraft, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -139,6 +139,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
             input: InputCourse::Ramp,
             reference: case.particles[case.by_id()[first]].position,
             body: Body::default(),
+            outside: Outside::default(),
         });
     }
     Ok(all)
@@ -189,6 +190,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
         input: InputCourse::Ramp,
         reference,
         body: Body::default(),
+        outside: Outside::default(),
     })
 }
 
@@ -232,6 +234,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
         input: InputCourse::Ramp,
         reference: point,
         body: Body::default(),
+        outside: Outside::default(),
     })
 }
 

@@ -5,7 +5,7 @@ use super::build::positive;
 use super::case::Case;
 use super::error::Mistake;
 use cograin::contact::cohesion::sjkr;
-use cograin::contact::normal::{eepa, hooke, hooke_stiffness, sticky};
+use cograin::contact::normal::{eepa, hooke, hooke_stiffness, jkr, sticky};
 use cograin::contact::rolling::rocking;
 use cograin::contact::tangential::turned_history::Keys as Turned;
 use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
@@ -209,7 +209,7 @@ pub(super) fn law(case: &Case) -> Result<LawChoice, Mistake> {
             models.normal("hooke_stiffness", keys)
         }
         "edinburgh" => models.normal("eepa", eepa(case)?),
-        "jkr" => models.normal("jkr", sticky(case)?),
+        "jkr" => models.normal("jkr", jkr(case)?),
         "dmt" => models.normal("dmt", sticky(case)?),
         other => {
             let expected = "hertz, hooke, hertz/stiffness, hooke/stiffness, edinburgh, jkr or dmt";
@@ -289,6 +289,12 @@ fn sticky(case: &Case) -> Result<sticky::Keys, Mistake> {
         other => return Err(Mistake::new("model.arms", format!("expected lammps or overlap, found \"{other}\""))),
     };
     Ok(sticky::Keys { damping, given_tangential_modulus: case.model.mixing == "lammps", engine_exact })
+}
+
+/// Keys of `jkr`.
+fn jkr(case: &Case) -> Result<jkr::Keys, Mistake> {
+    let sticky::Keys { damping, given_tangential_modulus, engine_exact } = sticky(case)?;
+    Ok(jkr::Keys { damping, given_tangential_modulus, engine_exact, ..jkr::Keys::default() })
 }
 
 /// Flags that the other engine refuses with the model at hand.

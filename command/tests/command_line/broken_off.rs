@@ -183,9 +183,9 @@ fn a_run_that_was_interrupted_on_its_way_ends_with_the_same_bytes() {
     let place = Place::new("on_its_way");
     let scene = place.at("scene.toml");
     let text = BEAM
-        .replace("history_interval = 4e-5", "history_interval = 2e-2")
+        .replace("history_interval = 4e-5", "history_interval = 1e-2")
         .replace("frame_interval = 1e-3\ncheckpoint_interval = 1e-4", "")
-        .replace("end = 4e-3", "end = 4e-2");
+        .replace("end = 4e-3", "end = 2e-2");
     fs::write(&scene, text).unwrap();
     let (broken, whole) = (place.at("broken"), place.at("whole"));
     interrupted(&scene, &broken, &[], Duration::from_millis(700));
@@ -203,6 +203,10 @@ fn settling_is_interrupted_between_time_steps_and_can_be_gone_on_with() {
     // Nothing comes to rest without damping.
     let run = "step = 1e-7\nsettle_damping = 0.0\nsettle_tolerance = 1e-12";
     let (scene, state) = (place.scene(run, ""), place.at("settled.cograin"));
+    // Many enough that it does not give up before it is interrupted.
+    let many = "[particles.many]\nmaterial = \"glass\"\nlattice = { kind = \"simple_cubic\", origin = [-0.01, 0.02, 0.006], \
+                counts = [4, 20, 28], spacing = 9.9e-3, radius = 4.9e-3 }\n";
+    fs::write(&scene, format!("{}{many}", fs::read_to_string(&scene).unwrap())).unwrap();
     let mut command = Command::new("env");
     command.args(["--default-signal=INT", env!("CARGO_BIN_EXE_cograin"), "settle"]).arg(&scene).arg("-o").arg(&state);
     let child = command.args(["--steps", "1000000000"]).stderr(Stdio::piped()).spawn().unwrap();

@@ -5,6 +5,7 @@ mod charts;
 mod checks;
 mod chosen;
 mod economy;
+mod faults;
 mod folders;
 mod ground;
 mod hostile;

@@ -23,7 +23,7 @@ fn a_long_run_tells_in_a_pipe_how_far_it_is() {
     let said = complaint(&done, 0);
     let lines: Vec<&str> = said.lines().collect();
     let told = |line: &&str| line.starts_with("t = ") && line.contains(" of 1.0000e0 s (") && line.ends_with(" left");
-    assert!(!lines.is_empty() && lines.len() <= 10 && lines.iter().all(|line| told(&line)), "{said}");
+    assert!(!lines.is_empty() && lines.len() <= 40 && lines.iter().all(told), "{said}");
 }
 
 #[test]

@@ -60,9 +60,8 @@ impl Features for Ball {
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let (height, unit) = self.outside(centre);
         if height.abs() <= radius {
-            let behind = height < 0.0;
-            let normal = if behind { -unit } else { unit };
-            feet.list.push(Foot { feature: 0, distance: height.abs(), normal, weight: 1.0, behind });
+            let normal = if height < 0.0 { -unit } else { unit };
+            feet.list.push(Foot { feature: 0, distance: height.abs(), normal, weight: 1.0, slope: 1.0 });
         }
     }
 

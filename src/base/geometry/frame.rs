@@ -46,6 +46,14 @@ impl Frame {
         turn.conjugate().turn(position - self.pivot()) + self.reference
     }
 
+    /// The position in global axes of a place in the axes of the body at time 0 \[m\].
+    pub(crate) fn place(&self, inside: Vector) -> Vector {
+        match &self.turn {
+            None => inside + self.displacement,
+            Some(turn) => turned(turn, inside - self.reference) + self.pivot(),
+        }
+    }
+
     /// A direction of the body in global axes.
     #[inline(always)]
     pub(crate) fn outside(&self, direction: Vector) -> Vector {

@@ -4,17 +4,12 @@
 //! helpers look for the next loop for a while before they sleep. Each thread begins with the same share of every loop:
 //! what it works on is in its cache; a thread that has finished takes from the end of the shares of others.
 
-use std::cell::UnsafeCell;
+use super::sync::{
+    AtomicBool, AtomicU8, AtomicU64, AtomicUsize, LOOKS, Mutex, PATIENCE, Thread, UnsafeCell, current, fence, park,
+    spin_loop, yield_now,
+};
+use std::sync::PoisonError;
 use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release, SeqCst};
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize};
-use std::sync::{Mutex, PoisonError};
-use std::thread::Thread;
-
-/// How often a helper looks for work before it sleeps: some 50 µs.
-const LOOKS: u32 = 1500;
-
-/// How often a thread that has finished looks whether the others have, before it yields the processor.
-const PATIENCE: u32 = 3000;
 
 /// In the gate: pieces of the present loop may be taken.
 const OPEN: u64 = 1;
@@ -123,11 +118,11 @@ impl Threads {
             work: UnsafeCell::new(None),
             shares: shares(),
             even: shares(),
-            done: Mutex::default(),
+            done: Mutex::new(Vec::new()),
             dismissed: AtomicBool::new(false),
             failed: AtomicBool::new(false),
             asleep: AtomicUsize::new(0),
-            sleepers: Mutex::default(),
+            sleepers: Mutex::new(Vec::new()),
         }
     }
 
@@ -138,7 +133,7 @@ impl Threads {
 
     /// Lets the helpers go.
     pub(crate) fn dismiss(&self) {
-        self.dismissed.store(true, SeqCst);
+        self.dismissed.store(true, Release);
         self.wake();
     }
 
@@ -152,8 +147,10 @@ impl Threads {
         }
         // SAFETY: nobody is inside the gate. What is lent here for longer than it lives is looked at inside the gate
         // alone, and everybody is out before this function ends.
-        unsafe { *self.work.get() = Some(std::mem::transmute::<&Work<'_>, &'static Work<'static>>(work)) };
-        self.gate.store((((before >> LOOP) + 1) << LOOP) | OPEN, SeqCst);
+        let lent = unsafe { std::mem::transmute::<&Work<'_>, &'static Work<'static>>(work) };
+        // SAFETY: as above.
+        self.work.with_mut(|work| unsafe { *work = Some(lent) });
+        self.gate.store((((before >> LOOP) + 1) << LOOP) | OPEN, Release);
         self.wake();
         let open = Open(self);
         take_all(&self.shares, 0, work);
@@ -198,9 +195,11 @@ impl Threads {
         });
     }
 
-    /// Wakes the helpers that sleep.
+    /// Wakes the helpers that sleep, after something was stored that they wait for.
     fn wake(&self) {
-        if self.asleep.load(SeqCst) > 0 {
+        // Either this sees that somebody sleeps, or who falls asleep sees what was stored: see `sleep`.
+        fence(SeqCst);
+        if self.asleep.load(Relaxed) > 0 {
             let mut sleepers = self.sleepers.lock().unwrap_or_else(PoisonError::into_inner);
             sleepers.drain(..).for_each(|sleeper| sleeper.unpark());
         }
@@ -209,12 +208,12 @@ impl Threads {
     /// Helps with every loop until the threads are dismissed.
     pub(crate) fn help(&self, place: usize) {
         let (mut done, mut looks) = (0, 0);
-        while !self.dismissed.load(SeqCst) {
-            let gate = self.gate.load(SeqCst);
+        while !self.dismissed.load(Acquire) {
+            let gate = self.gate.load(Acquire);
             if gate & OPEN == 0 || gate >> LOOP == done {
                 looks += 1;
                 if looks < LOOKS {
-                    std::hint::spin_loop();
+                    spin_loop();
                 } else {
                     self.sleep(gate >> LOOP);
                     looks = 0;
@@ -223,7 +222,7 @@ impl Threads {
                 let _inside = Inside(self);
                 (done, looks) = (gate >> LOOP, 0);
                 // SAFETY: inside the gate it is not written, and lives.
-                if let Some(work) = unsafe { *self.work.get() } {
+                if let Some(work) = self.work.with(|work| unsafe { *work }) {
                     take_all(&self.shares, place, work);
                 }
             }
@@ -232,20 +231,21 @@ impl Threads {
 
     /// Sleeps until there is another loop than this, which is over or done here, or for less.
     fn sleep(&self, last: u64) {
-        self.sleepers.lock().unwrap_or_else(PoisonError::into_inner).push(std::thread::current());
-        self.asleep.fetch_add(1, SeqCst);
+        self.sleepers.lock().unwrap_or_else(PoisonError::into_inner).push(current());
+        self.asleep.fetch_add(1, Relaxed);
         // Whoever opens the gate after this look sees that somebody sleeps.
-        if self.gate.load(SeqCst) >> LOOP == last && !self.dismissed.load(SeqCst) {
-            std::thread::park();
+        fence(SeqCst);
+        if self.gate.load(Acquire) >> LOOP == last && !self.dismissed.load(Acquire) {
+            park();
         }
-        self.asleep.fetch_sub(1, SeqCst);
+        self.asleep.fetch_sub(1, Relaxed);
     }
 }
 
 /// Waits a moment for a thread that is at work; in the long run yields the processor.
 fn look_again(looks: &mut u32) {
     *looks += 1;
-    if *looks < PATIENCE { std::hint::spin_loop() } else { std::thread::yield_now() }
+    if *looks < PATIENCE { spin_loop() } else { yield_now() }
 }
 
 /// Does the share of this place from its front, then what others have left from the back.

@@ -2,6 +2,7 @@
 
 mod context;
 mod helpers;
+mod sync;
 mod workers;
 
 pub(crate) use context::{CHUNK, Context};

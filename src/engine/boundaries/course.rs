@@ -191,6 +191,7 @@ pub(crate) fn advance(
 ) {
     travels.clear();
     for ((boundary, body), moved) in scene.boundaries.iter().zip(bodies).zip(&mut state.boundaries) {
+        moved.before = moved.stand();
         let before = moved.displacement;
         let mut travel = BoundaryTravel::default();
         if let Some(body) = body {

@@ -4,6 +4,7 @@ pub(crate) mod course;
 mod inertia;
 pub(crate) mod loads;
 pub(crate) mod nodes;
+pub(crate) mod passing;
 pub(crate) mod placing;
 pub(crate) mod rigid_body;
 

@@ -6,13 +6,11 @@ use crate::engine::state::{Nodes, Row, State};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::Scene;
 
-/// Working space of a time step: what the nodes felt and where they stood at its beginning.
+/// Working space of a time step: what the nodes felt at its beginning.
 #[derive(Debug, Default)]
 pub(crate) struct NodeWorkspace {
     /// Forces of each mesh \[N\].
     force: Vec<Vec<Row>>,
-    /// Displacements of each mesh \[m\].
-    place: Vec<Vec<Row>>,
 }
 
 /// Begins a communication step of `interval` \[s\]: nodes now know where they go.
@@ -41,28 +39,21 @@ pub(crate) fn end(state: &mut State, elapsed: f64) {
 }
 
 /// Moves all nodes to where they stand at the end of the present time step, and notes how far their boundaries bend.
-pub(crate) fn advance(
-    scene: &Scene,
-    state: &mut State,
-    progress: &Progress,
-    before: &mut NodeWorkspace,
-    travels: &mut [BoundaryTravel],
-) {
-    before.place.resize_with(state.nodes.len(), Vec::new);
-    for (nodes, place) in state.nodes.iter_mut().zip(&mut before.place) {
+pub(crate) fn advance(scene: &Scene, state: &mut State, progress: &Progress, travels: &mut [BoundaryTravel]) {
+    for nodes in &mut state.nodes {
         let course = scene.boundaries[nodes.boundary as usize].input;
-        place.clone_from(&nodes.displacement);
-        lead(nodes, place, course, progress);
-        travels[nodes.boundary as usize].bent = farthest(&nodes.displacement, place);
+        nodes.before.clone_from(&nodes.displacement);
+        lead(nodes, course, progress);
+        travels[nodes.boundary as usize].bent = farthest(&nodes.displacement, &nodes.before);
     }
 }
 
 /// Moves the nodes of a mesh from where they stood before the present time step.
-fn lead(nodes: &mut Nodes, before: &[Row], course: InputCourse, progress: &Progress) {
-    let Nodes { displacement, velocity, start, end, .. } = nodes;
+fn lead(nodes: &mut Nodes, course: InputCourse, progress: &Progress) {
+    let Nodes { displacement, before, velocity, start, end, .. } = nodes;
     let share = progress.share(course);
     for (((place, velocity), before), (start, end)) in
-        displacement.iter_mut().zip(velocity).zip(before).zip(start.iter().zip(end))
+        displacement.iter_mut().zip(velocity).zip(&*before).zip(start.iter().zip(end))
     {
         for axis in 0..3 {
             let way = end[axis] - start[axis];
@@ -88,13 +79,13 @@ pub(crate) fn clear_loads(state: &mut State, before: &mut NodeWorkspace) {
 /// Books the impulses of a time step, and the work on its way: the kicks of both its halves, node by node.
 pub(crate) fn book(state: &mut State, before: &NodeWorkspace, step: f64) {
     let State { nodes, boundaries, .. } = state;
-    for ((nodes, force), place) in nodes.iter_mut().zip(&before.force).zip(&before.place) {
+    for (nodes, force) in nodes.iter_mut().zip(&before.force) {
         let mut work = 0.0;
         for node in 0..nodes.force.len() {
             for axis in 0..3 {
                 let both = force[node][axis] + nodes.force[node][axis];
                 nodes.impulse[node][axis] += 0.5 * step * both;
-                work -= 0.5 * both * (nodes.displacement[node][axis] - place[node][axis]);
+                work -= 0.5 * both * (nodes.displacement[node][axis] - nodes.before[node][axis]);
             }
         }
         boundaries[nodes.boundary as usize].work += work;

@@ -59,18 +59,45 @@ impl Link {
         contact: &Contact,
         arms: [f64; 2],
     ) -> Self {
-        let (response, rolling) = (law.stiffness(row, contact), law.rolling_stiffness(row, contact));
+        let [stiffness, damping] = frames(law, row, contact);
+        // Slip that is seen with the arms of the undeformed bodies stretches springs by these.
+        let missing = if law.undeformed_arms() { 0.5 * contact.overlap.max(0.0) } else { 0.0 };
         Self {
             kind: Kind::Contact,
             first,
             second,
             boundary,
             normal: contact.normal,
-            arms,
-            stiffness: [response.normal_stiffness, response.tangential_stiffness, rolling.torsion, rolling.bending],
-            damping: [response.normal_damping, response.tangential_damping, 0.0, 0.0],
+            arms: arms.map(|arm| arm + missing),
+            stiffness,
+            damping,
         }
     }
+}
+
+/// Springs and dashpots of a contact.
+pub(super) fn frames(law: &Law, row: &[f64], contact: &Contact) -> [Frame; 2] {
+    let (response, rolling) = (law.stiffness(row, contact), law.rolling_response(row, contact));
+    [
+        [
+            response.normal_stiffness,
+            response.tangential_stiffness,
+            rolling.torsional_stiffness,
+            rolling.bending_stiffness,
+        ],
+        [response.normal_damping, response.tangential_damping, rolling.torsional_damping, rolling.bending_damping],
+    ]
+}
+
+/// Two bodies that are about to touch, or one and a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Meeting {
+    /// Indices of their materials; no second one at a surface.
+    pub materials: (u32, Option<u32>),
+    /// What their law sees as they begin to touch, but for the pair constant.
+    pub contact: Contact,
+    /// Kinetic energy that the contact takes up \[J\].
+    pub energy: f64,
 }
 
 impl Link {

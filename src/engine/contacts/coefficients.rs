@@ -1,8 +1,8 @@
 //! Coefficients of a contact law for each two materials of a scene.
 
-use crate::base::number::Vector;
+use super::ahead::{Frame, Meeting, frames};
 use crate::laws::contact::batch::CoefficientRows;
-use crate::laws::contact::{Contact, Law, MOST_HISTORY, MaterialPair, Response};
+use crate::laws::contact::{Contact, Law, MOST_HISTORY, MaterialPair};
 use crate::scene::{ContactLaw, Scene};
 
 /// The coefficients that the scene gives a law for all pairs of materials it governs, row by row; others get zeros.
@@ -41,17 +41,6 @@ pub(crate) struct CoefficientTable {
     single: Option<u32>,
     /// Whether the law governs these two materials.
     governed: Vec<bool>,
-    /// How many particles of the scene are of each material.
-    particles: Vec<usize>,
-}
-
-/// Bodies that may meet under a law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Partners {
-    /// Two particles.
-    Particles,
-    /// A particle and a boundary of this material.
-    Boundary(u32),
 }
 
 impl CoefficientTable {
@@ -62,14 +51,7 @@ impl CoefficientTable {
         let now = scene.particles.iter().map(|particle| particle.material.0);
         let mut present = now.chain(scene.insertions.iter().map(|insertion| insertion.material.0));
         let single = present.next().filter(|&first| present.all(|other| other == first));
-        let mut particles = vec![0; materials];
-        for particle in &scene.particles {
-            particles[particle.material.index()] += 1;
-        }
-        for insertion in &scene.insertions {
-            particles[insertion.material.index()] += 2;
-        }
-        Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone(), particles }
+        Self { rows: rows(law, scene), count, materials, single, governed: law.between.clone() }
     }
 
     /// Takes over the coefficients of a state.
@@ -81,8 +63,8 @@ impl CoefficientTable {
     #[cfg(test)]
     pub(crate) fn of_rows(rows: Vec<f64>, materials: usize) -> Self {
         let count = rows.len() / (materials * materials);
-        let (governed, particles) = (vec![true; materials * materials], vec![2; materials]);
-        Self { rows, count, materials, single: None, governed, particles }
+        let governed = vec![true; materials * materials];
+        Self { rows, count, materials, single: None, governed }
     }
 
     /// The one row that all particles have with each other, if it is one.
@@ -108,27 +90,17 @@ impl CoefficientTable {
         CoefficientRows { numbers: &self.rows, count: self.count }
     }
 
-    /// The stiffest response of an impact between bodies that the scene has.
-    pub(crate) fn stiffest(
-        &self,
-        law: &Law,
-        partners: Partners,
-        radius: f64,
-        mass: f64,
-        speed: f64,
-    ) -> Option<Response> {
-        let meet = |entry: usize| {
-            let (a, b) = (entry / self.materials, entry % self.materials);
-            let there = match partners {
-                Partners::Particles if a == b => self.particles[a] > 1,
-                Partners::Particles => self.particles[a] > 0 && self.particles[b] > 0,
-                Partners::Boundary(material) => a == material as usize && self.particles[b] > 0,
-            };
-            there && self.governed[entry]
-        };
-        let rows = self.rows.chunks_exact(self.count.max(1)).enumerate().filter(|(entry, _)| meet(*entry));
-        let responses = rows.map(|(_, row)| impact(law, row, radius, mass, speed));
-        responses.max_by(|a, b| a.normal_stiffness.total_cmp(&b.normal_stiffness))
+    /// Springs and dashpots at the deepest point of a head-on impact of bodies of these materials, where the spring has taken up the
+    /// kinetic energy; none where the law does not govern them.
+    pub(crate) fn impact(&self, law: &Law, [a, b]: [u32; 2], meeting: &Meeting) -> Option<[Frame; 2]> {
+        if !self.governed[self.entry(a, b) as usize] {
+            return None;
+        }
+        let row = self.row(a, b);
+        let Contact { radius, mass, .. } = meeting.contact;
+        let contact = Contact { pair_constant: law.pair_constant(row, radius, mass), ..meeting.contact };
+        let overlap = overlap_of(law, row, &contact, meeting.energy, radius).max(LEAST_OVERLAP * radius);
+        Some(frames(law, row, &Contact { overlap, ..contact }))
     }
 
     /// The coefficients for two materials.
@@ -136,29 +108,6 @@ impl CoefficientTable {
         let entry = a as usize * self.materials + b as usize;
         &self.rows[entry * self.count..(entry + 1) * self.count]
     }
-}
-
-/// Stiffness at the deepest point of a head-on impact: where the spring has taken up the kinetic energy.
-fn impact(law: &Law, row: &[f64], radius: f64, mass: f64, speed: f64) -> Response {
-    let contact = Contact {
-        overlap: 0.0,
-        radius,
-        mass,
-        section_area: 0.0,
-        section_radius: radius,
-        normal: Vector::new(1.0, 0.0, 0.0),
-        normal_velocity: 0.0,
-        slip: Vector::zero(),
-        relative_spin: Vector::zero(),
-        spin_sum: Vector::zero(),
-        turning: Vector::zero(),
-        per_distance: 0.0,
-        per_reach: 0.0,
-        rolling_inertia: mass * radius * radius,
-        pair_constant: law.pair_constant(row, radius, mass),
-    };
-    let overlap = overlap_of(law, row, &contact, 0.5 * mass * speed * speed, radius);
-    law.stiffness(row, &Contact { overlap: overlap.max(LEAST_OVERLAP * radius), ..contact })
 }
 
 /// The overlap at which the normal force of a contact holds this energy \[J\], at most `most` \[m\].

@@ -11,7 +11,7 @@ mod records;
 pub(crate) mod suppression;
 pub(crate) mod surfaces;
 
-pub(crate) use ahead::{FASTER, Kind, Link, SearchLimits};
+pub(crate) use ahead::{FASTER, Frame, Kind, Link, Meeting, SearchLimits};
 pub(crate) use listed::SLIGHT;
 pub(crate) use pass::Pass;
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

@@ -3,7 +3,7 @@
 //! Slabs of even and odd number share no particles among themselves; one of odd number waits until both its neighbours are
 //! done. The order in which a particle gets its loads is thus always the same.
 
-use super::ahead::{Link, SearchLimits};
+use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use super::pairs::Pairs;
 use super::pass::Pass;
@@ -12,11 +12,11 @@ use crate::base::lanes::Shared;
 use crate::base::threads::Context;
 use crate::engine::contacts::batches::SpherePair;
 use crate::engine::contacts::batches::{BatchLaw, Batches, ContactGeometry, Entries, Lost};
-use crate::engine::contacts::coefficients::{CoefficientTable, Partners};
+use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{ContactList, Particles, State, StateFault};
-use crate::laws::contact::{Contact, Law, Response};
+use crate::laws::contact::{Contact, Law};
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one contact law.
@@ -73,8 +73,11 @@ impl Pass for ContactPass {
         listed::stiffness(self, state, ahead, tell);
     }
 
-    fn impacts(&self, radius: f64, mass: f64, speed: f64, tell: &mut dyn FnMut(Response)) {
-        self.table.stiffest(&self.law.law, Partners::Particles, radius, mass, speed).into_iter().for_each(tell);
+    fn impacts(&self, _state: &State, meeting: &Meeting, tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {
+        if let (first, Some(second)) = meeting.materials {
+            let found = self.table.impact(&self.law.law, [first, second], meeting);
+            found.into_iter().for_each(|parts| tell(None, parts));
+        }
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {

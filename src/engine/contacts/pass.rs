@@ -1,13 +1,12 @@
 //! What the passes of a time step have in common.
 
-use super::ahead::{Link, SearchLimits};
+use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::records::{BondRecord, ContactRecord};
 use crate::base::threads::Context;
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
-use crate::laws::contact::Response;
 use crate::scene::Scene;
 
 /// One kind of interaction, composed for the scene.
@@ -50,9 +49,9 @@ pub(crate) trait Pass: Send + Sync {
     /// stable time step.
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link));
 
-    /// Tells the stiffest that each kind of contact gets between two bodies of this effective radius \[m\] and mass \[kg\]
-    /// which meet at this speed \[m/s\].
-    fn impacts(&self, _radius: f64, _mass: f64, _speed: f64, _tell: &mut dyn FnMut(Response)) {}
+    /// Tells springs and dashpots of an impact where it is deepest: of two particles, or of one and each surface with a boundary's
+    /// index.
+    fn impacts(&self, _state: &State, _meeting: &Meeting, _tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {}
 
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}

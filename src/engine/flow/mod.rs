@@ -9,9 +9,11 @@ mod check;
 mod meters;
 mod occupied;
 mod outlets;
+mod passed;
 mod places;
 
 use crate::base::number::Vector;
+use crate::engine::boundaries::passing::Passing;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;
@@ -40,6 +42,8 @@ pub(crate) struct Flow {
     removes: bool,
     /// Whether every time step looks for them: behind a boundary they would otherwise be lost.
     looks_always: bool,
+    /// How particles came to where they are, where those go that came through a boundary.
+    passing: Option<Passing>,
 }
 
 impl Flow {
@@ -47,8 +51,10 @@ impl Flow {
     pub(crate) fn of(scene: &Scene, turning: bool) -> Option<Self> {
         let smallest = scene.radii().fold(f64::INFINITY, f64::min);
         let any = scene.changes_number() || !scene.meters.is_empty();
-        let looks_always = scene.outlets.iter().any(|outlet| matches!(outlet.place, OutletPlace::Behind(_)));
-        any.then(|| Self { smallest, turning, removes: scene.removes(), looks_always })
+        let behind = scene.outlets.iter().any(|outlet| matches!(outlet.place, OutletPlace::Behind(_)));
+        let through = scene.boundaries.iter().any(|boundary| boundary.outside == Outside::Remove);
+        let (passing, looks_always) = (through.then(|| Passing::of(scene)), behind || through);
+        any.then(|| Self { smallest, turning, removes: scene.removes(), looks_always, passing })
     }
 
     /// Begins a communication step of this length \[s\].
@@ -81,14 +87,20 @@ impl Flow {
         }
     }
 
-    /// The particles that go now, if it is time to look and there are any.
-    pub(crate) fn leaving(&self, scene: &Scene, state: &mut State) -> Result<Option<RemovedParticles>, RunError> {
+    /// The particles that go now, in a time step of this length \[s\], if it is time to look and there are any.
+    pub(crate) fn leaving(
+        &self,
+        scene: &Scene,
+        state: &mut State,
+        step: f64,
+    ) -> Result<Option<RemovedParticles>, RunError> {
         let Some(exchange) = state.exchange.as_mut().filter(|_| self.removes) else { return Ok(None) };
         if exchange.travel <= LOOK * self.smallest && !self.looks_always {
             return Ok(None);
         }
         exchange.travel = 0.0;
-        outlets::find(scene, state)
+        let passed = self.passing.as_ref().map(|passing| passed::find(scene, state, passing, step));
+        outlets::find(scene, state, &passed.unwrap_or_default())
     }
 
     /// Takes them away, in a time step of this length \[s\].
@@ -246,6 +258,7 @@ pub(crate) fn begun(scene: &Scene) -> Option<Exchange> {
         next: scene.particles.last().map_or(1, |last| last.id.0.saturating_add(1)),
         feeds: scene.insertions.iter().map(feed).collect(),
         outlets: vec![Default::default(); scene.outlets.len()],
+        passed: vec![Default::default(); scene.boundaries.len()],
         meters: vec![Default::default(); scene.meters.len()],
         ..Exchange::default()
     })

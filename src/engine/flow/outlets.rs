@@ -1,5 +1,6 @@
 //! Which particles go, and why.
 
+use super::passed::PassedParticle;
 use super::removes_outside;
 use crate::base::number::Vector;
 use crate::engine::run_error::RunError;
@@ -11,47 +12,72 @@ use crate::scene::{OutletPlace, Scene};
 pub(crate) struct RemovedParticles {
     /// Whether the particle of each slot goes.
     pub(crate) goes: Vec<bool>,
-    /// How many go by each outlet and, last, because they are outside the domain.
+    /// How many go by each outlet, because they are outside the domain, and through each boundary.
     tallies: Vec<ParticleCount>,
+    /// Those that came through a boundary.
+    passed: Vec<PassedParticle>,
 }
 
 impl RemovedParticles {
     /// Adds them to what went.
     pub(super) fn tell(&self, scene: &Scene, exchange: &mut Exchange) {
-        let Exchange { outlets, outside, .. } = exchange;
-        let told = outlets.iter_mut().take(scene.outlets.len()).chain([outside]);
+        let Exchange { outlets, outside, passed, .. } = exchange;
+        let told = outlets.iter_mut().take(scene.outlets.len()).chain([outside]).chain(passed);
         for (sum, tally) in told.zip(&self.tallies) {
             sum.count += tally.count;
             sum.mass += tally.mass;
         }
     }
+
+    /// Puts what came through a boundary back to where it was before, so that its contact gives what it held.
+    pub(crate) fn put_back(&self, state: &mut State) {
+        for passed in self.passed.iter().filter(|passed| self.goes[passed.slot]) {
+            let row = &mut state.particles.position[passed.slot];
+            *row = passed.before.row_with(row[3]);
+        }
+    }
 }
 
 /// The particles whose centres are where an outlet takes them away, if there are any. The first outlet that has one takes it.
-pub(super) fn find(scene: &Scene, state: &State) -> Result<Option<RemovedParticles>, RunError> {
+pub(super) fn find(
+    scene: &Scene,
+    state: &State,
+    passed: &[PassedParticle],
+) -> Result<Option<RemovedParticles>, RunError> {
     let particles = &state.particles;
     let outside = scene.domain.filter(|_| removes_outside(scene));
     let (mut any, mut goes) = (false, vec![false; particles.len()]);
-    let mut tallies = vec![ParticleCount::default(); scene.outlets.len() + 1];
+    let first = scene.outlets.len() + 1;
+    let mut tallies = vec![ParticleCount::default(); first + scene.boundaries.len()];
     let shifts: Vec<Vector> = scene.outlets.iter().map(|outlet| shift(scene, state, outlet.place)).collect();
     for slot in 0..goes.len() {
         let centre = Vector::from(particles.position[slot]);
         let taken = |(place, shift): (&crate::scene::Outlet, &Vector)| takes(scene, place.place, centre - *shift);
         let by = scene.outlets.iter().zip(&shifts).position(taken);
         let by = by.or_else(|| outside.filter(|corners| is_outside(centre, corners)).map(|_| scene.outlets.len()));
+        let by = by.or_else(|| passed.iter().find(|it| it.slot == slot).map(|it| first + it.boundary));
         let Some(by) = by else { continue };
         if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
             return Err(RunError::GroupLeaves {
                 id: particles.id[slot],
                 boundary: scene.boundaries[group].name.clone(),
-                by: scene.outlets.get(by).map_or("[domain]".to_owned(), |outlet| format!("[outlet.{}]", outlet.name)),
+                by: words(scene, by),
                 time: state.clock.time,
             });
         }
         (any, goes[slot]) = (true, true);
         tallies[by].add(particles.velocity[slot][3]);
     }
-    Ok(any.then_some(RemovedParticles { goes, tallies }))
+    Ok(any.then(|| RemovedParticles { goes, tallies, passed: passed.to_vec() }))
+}
+
+/// What takes particles away, by its place in the tallies.
+fn words(scene: &Scene, by: usize) -> String {
+    match (scene.outlets.get(by), by.checked_sub(scene.outlets.len() + 1)) {
+        (Some(outlet), _) => format!("[outlet.{}]", outlet.name),
+        (None, Some(boundary)) => format!("[boundary.{}]", scene.boundaries[boundary].name),
+        (None, None) => "[domain]".to_owned(),
+    }
 }
 
 /// How far an outlet has moved with its boundary, or with the one that its region follows \[m\].

@@ -32,6 +32,14 @@ pub enum Cause {
         /// The stable one, as last found \[s\].
         stable: f64,
     },
+    /// A particle and a boundary are too fast for the time step.
+    #[error("they meet at {speed:.3e} m/s, which is too fast for a time step of {step:.3e} s")]
+    Meeting {
+        /// Speed of the particle as the boundary sees it \[m/s\].
+        speed: f64,
+        /// The time step \[s\].
+        step: f64,
+    },
     /// A force throws the body.
     #[error(
         "the force on it, {force:.3e} N, is too large for its mass: an overlap, a bond made under load or an applied force (the time step is below the stable one)"

@@ -49,12 +49,12 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
-    /// The centre of a particle is behind a plane.
+    /// The centre of a particle is behind a plane, or a surface or a group of particles went over it.
     #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}", time = plain(*time))]
     Behind {
         /// The particle.
         id: u32,
-        /// The plane.
+        /// The boundary.
         boundary: String,
         /// Time \[s\].
         time: f64,

@@ -80,7 +80,7 @@ impl Simulation {
             self.look(step, &Context { step, ..*standing })?;
             self.shorten_step();
         }
-        self.lengthen_step();
+        self.lengthen_step(interval);
         let (count, step) = self.divide(interval)?;
         Ok(Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed })
     }
@@ -95,12 +95,24 @@ impl Simulation {
         Ok(divide(interval, step))
     }
 
+    /// Divides what is left of a communication step by the present time step.
+    fn divide_rest(&self, underway: &mut Underway) -> Result<(), RunError> {
+        let (elapsed, length) = (underway.elapsed(), underway.length);
+        let (count, step) = self.divide(length - elapsed)?;
+        *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
+        Ok(())
+    }
+
     /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, the rest is
     /// divided again.
     fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
         let mut left = most;
         while underway.done < underway.count && left > 0 {
             let step = underway.step;
+            if self.outruns(step) && self.shorten_step() {
+                self.divide_rest(underway)?;
+                continue;
+            }
             self.check_displacement(step)?;
             if self.is_stopped() {
                 return Err(RunError::Stopped { time: self.time() });
@@ -119,9 +131,7 @@ impl Simulation {
             self.check_plane()?;
             self.look(step, &context)?;
             if self.shorten_step() && done < count {
-                let elapsed = underway.elapsed();
-                let (count, step) = self.divide(length - elapsed)?;
-                *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
+                self.divide_rest(underway)?;
             }
         }
         Ok(())

@@ -105,9 +105,9 @@ impl Simulation {
         for pass in self.passes.iter().filter(|pass| pass.source() != Source::Bonds) {
             pass.prepare(&mut self.state);
         }
-        if let Step::Automatic { safety } = self.scene.run.step {
+        if let Step::Automatic { .. } = self.scene.run.step {
             self.state.clock.stable = self.stable_step();
-            self.state.clock.step = self.state.clock.step.min(safety * self.state.clock.stable);
+            self.shorten_step();
         }
     }
 

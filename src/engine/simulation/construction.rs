@@ -5,6 +5,7 @@ use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
 use crate::base::threads::Workers;
+use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
@@ -47,6 +48,7 @@ impl Simulation {
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             flow,
             search: neighbours::Search::of(&scene),
+            passing: Passing::of(&scene),
             suppression: Suppression::of(&scene),
             width: Width::widest(),
             workers: Workers::new(scene.run.threads, most_particles(&scene)),
@@ -97,6 +99,8 @@ impl Simulation {
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         self.state.foresight = Foresight::default();
+        let groups = rigid_body::coming_speed(&self.bodies, &self.state, 0.0);
+        self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
         self.first_step(&context)?;
         self.look_at_pressed();
         let step = self.state.clock.step;

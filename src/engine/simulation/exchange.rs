@@ -17,7 +17,7 @@ impl Simulation {
     /// The same by what lets them.
     fn come_and_go(&mut self, flow: &Flow, way: f64, step: f64) -> Result<bool, RunError> {
         flow.pass(&self.scene, &mut self.state, way, step);
-        let leaving = flow.leaving(&self.scene, &mut self.state)?;
+        let leaving = flow.leaving(&self.scene, &mut self.state, step)?;
         if let Some(leaving) = &leaving {
             self.let_go(flow, leaving, step);
         }
@@ -36,6 +36,7 @@ impl Simulation {
     fn let_go(&mut self, flow: &Flow, leaving: &RemovedParticles, step: f64) {
         let booked = self.state.ledger.is_some() || self.state.losses.is_some();
         let held = |simulation: &Self| (simulation.elastic_energy(), simulation.held());
+        leaving.put_back(&mut self.state);
         let before = booked.then(|| held(self));
         let (passes, state) = (&self.passes, &mut self.state);
         let given: f64 = passes.iter().map(|pass| pass.let_go(state, &leaving.goes, step)).sum();

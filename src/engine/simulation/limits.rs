@@ -8,7 +8,7 @@ use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
 use crate::engine::state::{BoundaryState, State};
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::{Boundary, Step};
+use crate::scene::{Boundary, Insertion, Step};
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
@@ -28,8 +28,11 @@ const MUCH_LONGER: f64 = 20.0;
 /// How often it is foreseen at a time.
 const MOST_TRIES: usize = 4;
 
-/// The automatic time step of a scene in which nothing is stiff \[s\].
-pub const LONGEST_AUTOMATIC_STEP: f64 = 1e-3;
+/// Way in one automatic time step over the smallest radius; a step becomes shorter where what moves fastest goes a quarter farther.
+const MOST_WAY: [f64; 2] = [0.1, 0.125];
+
+/// The automatic time step where nothing limits it and no end is known, until the first communication step does \[s\].
+const UNLIMITED: f64 = 1.0;
 
 impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
@@ -93,12 +96,33 @@ impl Simulation {
         !self.search.holds_all_within(&self.state, way)
     }
 
-    /// The automatic time step that belongs to a stable one \[s\]; none where it is given.
-    fn automatic_step(&self, stable: f64) -> Option<f64> {
+    /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
+    pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
         match self.scene.run.step {
             Step::Given(_) => None,
-            Step::Automatic { safety } => Some((safety * stable).min(LONGEST_AUTOMATIC_STEP)),
+            Step::Automatic { safety } => Some((safety * stable).min(self.longest_by_motion())),
         }
+    }
+
+    /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
+    /// with what gravity, applied forces and the loads of bodies add in it \[s\].
+    fn longest_by_motion(&self) -> f64 {
+        let Self { scene, state, bodies, fields, .. } = self;
+        let way = MOST_WAY[0] * self.search.smallest_radius();
+        let coming = scene.insertions.iter().map(Insertion::fastest).fold(0.0, f64::max);
+        let speed = state.clock.speed.max(self.boundary_speed()).max(coming);
+        let free = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            Some(body.acceleration(moved, body.farthest))
+        });
+        let acceleration = free.fold(fields.acceleration(&state.particles), f64::max);
+        2.0 * way / (speed + (speed * speed + 2.0 * acceleration * way).sqrt())
+    }
+
+    /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].
+    pub(super) fn outruns(&self, step: f64) -> bool {
+        let is_automatic = matches!(self.scene.run.step, Step::Automatic { .. });
+        is_automatic && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
     }
 
     /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
@@ -217,7 +241,7 @@ impl Simulation {
         self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
     }
 
-    /// Shortens an automatic time step when the stable one has become shorter. Returns whether it has.
+    /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther. Returns whether it has.
     pub(super) fn shorten_step(&mut self) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
         // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
@@ -228,11 +252,14 @@ impl Simulation {
         shorter
     }
 
-    /// Lengthens an automatic time step, between communication steps, where the packing allows a good deal more.
-    pub(super) fn lengthen_step(&mut self) {
+    /// Lengthens an automatic time step, before a communication step of this length \[s\], where the packing allows a good deal more.
+    pub(super) fn lengthen_step(&mut self, interval: f64) {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
-        if step > LENGTHENING * self.state.clock.step {
-            self.state.clock.step = step;
+        let clock = &mut self.state.clock;
+        if step.is_infinite() {
+            clock.step = interval;
+        } else if step > LENGTHENING * clock.step {
+            clock.step = step;
         }
     }
 
@@ -240,7 +267,9 @@ impl Simulation {
     pub(super) fn first_step(&mut self, context: &Context) -> Result<(), RunError> {
         let given = if let Step::Given(step) = self.scene.run.step { step } else { 0.0 };
         self.look(given, context)?;
-        self.state.clock.step = self.automatic_step(self.state.clock.stable).unwrap_or(given);
+        let unlimited = self.scene.run.end.unwrap_or(UNLIMITED);
+        let limited = |step: f64| if step.is_finite() { step } else { unlimited };
+        self.state.clock.step = self.automatic_step(self.state.clock.stable).map_or(given, limited);
         Ok(())
     }
 }

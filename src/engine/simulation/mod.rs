@@ -30,7 +30,6 @@ pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use advance::divide;
 pub use coefficients::TuneError;
 pub use derivatives::{Input, NoDerivative};
-pub use limits::LONGEST_AUTOMATIC_STEP;
 pub use observe::ElasticEnergy;
 pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};
@@ -42,6 +41,7 @@ use crate::base::lanes::Width;
 use crate::base::threads::{Context, Workers};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
+use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::{RigidBody, nodes};
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
@@ -69,6 +69,8 @@ pub struct Simulation {
     bodies: Vec<Option<RigidBody>>,
     /// The neighbour search.
     search: neighbours::Search,
+    /// How particles came to where they are, as boundaries see it.
+    passing: Passing,
     /// Which contacts bonds suppress.
     suppression: Suppression,
     /// What lets particles come and go; none where their number stays.

@@ -11,8 +11,8 @@ use crate::engine::integration;
 use crate::engine::state::State;
 use std::sync::Arc;
 
-/// Time that a displacement takes \[s\]: so long that no dashpot feels it.
-const SLOWLY: f64 = 1e6;
+/// Time that a displacement takes, over the stable time step: so long that no dashpot feels it.
+const SLOWLY: f64 = (1_u64 << 40) as f64;
 
 /// A small motion of one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,8 @@ pub struct Probe {
     simulation: Simulation,
     /// Its state at rest.
     rest: State,
+    /// Time that a displacement takes \[s\].
+    slowly: f64,
 }
 
 impl Probe {
@@ -55,9 +57,23 @@ impl Probe {
         }
         for boundary in &mut rest.boundaries {
             (boundary.velocity, boundary.angular_velocity) = ([0.0; 3], [0.0; 3]);
+            boundary.before = boundary.stand();
         }
         rest.nodes.iter_mut().for_each(|nodes| nodes.velocity.fill([0.0; 4]));
-        Self { simulation: Simulation::with(Arc::clone(&simulation.scene), rest.clone()), rest }
+        let stable = simulation.state.clock.stable;
+        let slowly = SLOWLY * if stable > 0.0 && stable.is_finite() { stable } else { 1.0 };
+        Self { simulation: Simulation::with(Arc::clone(&simulation.scene), rest.clone()), rest, slowly }
+    }
+
+    /// Leaves out some particles (slots) from here on.
+    pub(crate) fn leave_out(&mut self, slots: impl Iterator<Item = u32>) {
+        let Self { simulation, rest, .. } = self;
+        let mut goes = vec![false; rest.particles.len()];
+        slots.for_each(|slot| goes[slot as usize] = true);
+        simulation.state.clone_from(rest);
+        simulation.state.remove(&goes);
+        simulation.rebuild(&simulation.standing());
+        rest.clone_from(&simulation.state);
     }
 
     /// The state at rest.
@@ -81,15 +97,16 @@ impl Probe {
 
     /// The state after these displacements, with the loads on particles and boundaries that come of them.
     pub fn displaced(&mut self, displacements: impl Iterator<Item = Displacement>) -> Result<&State, RunError> {
-        let Self { simulation, rest } = self;
+        let Self { simulation, rest, slowly } = self;
+        let slowly = *slowly;
         simulation.state.clone_from(rest);
         for Displacement { body, axis, amount } in displacements {
             match body {
-                ProbeBody::Particle(slot) => displace(&mut simulation.state, slot as usize, axis, amount),
+                ProbeBody::Particle(slot) => displace(&mut simulation.state, slot as usize, axis, (amount, slowly)),
                 ProbeBody::Boundary(boundary) => {
                     let boundary = &mut simulation.state.boundaries[boundary.index()];
                     boundary.displacement[axis] += amount;
-                    boundary.velocity[axis] = amount / SLOWLY;
+                    boundary.velocity[axis] = amount / slowly;
                 }
             }
         }
@@ -97,21 +114,21 @@ impl Probe {
         rigid_body::place_groups(scene, bodies, state);
         simulation.clear_boundary_loads();
         integration::clear_loads(&mut simulation.state.particles);
-        let context = Context { step: SLOWLY, ..simulation.standing() };
+        let context = Context { step: slowly, ..simulation.standing() };
         simulation.evaluate(false, &context)?;
         Ok(&simulation.state)
     }
 }
 
-/// Displaces a particle.
-fn displace(state: &mut State, slot: usize, axis: usize, amount: f64) {
+/// Displaces a particle by so much \[m, rad\] in so long \[s\].
+fn displace(state: &mut State, slot: usize, axis: usize, (amount, slowly): (f64, f64)) {
     let particles = &mut state.particles;
     if axis < 3 {
         particles.position[slot][axis] += amount;
-        particles.velocity[slot][axis] = amount / SLOWLY;
+        particles.velocity[slot][axis] = amount / slowly;
         return;
     }
-    particles.angular_velocity[slot][axis - 3] = amount / SLOWLY;
+    particles.angular_velocity[slot][axis - 3] = amount / slowly;
     if let Some(row) = particles.orientation.get_mut(slot) {
         let mut turn = [0.0; 3];
         turn[axis - 3] = amount;

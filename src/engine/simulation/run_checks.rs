@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation};
 use crate::base::number::Vector;
+use crate::engine::boundaries::passing::MovedParticles;
 use crate::engine::run_error::Cause;
 use crate::engine::state::{Clock, GONE, Particles};
 use crate::laws::motion::InputCourse;
@@ -151,6 +152,13 @@ impl Simulation {
         RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unidentified() }
     }
 
+    /// Finds a particle that a group of particles went over in a time step of this length \[s\].
+    pub(super) fn check_groups(&self, step: f64) -> Result<(), RunError> {
+        let Some((slot, group)) = self.passing.through_groups(&self.state, step) else { return Ok(()) };
+        let (id, boundary) = (self.state.particles.id[slot as usize], self.scene.boundaries[group].name.clone());
+        Err(RunError::Behind { id, boundary, time: self.time(), cause: Cause::NotSearched })
+    }
+
     /// Finds a particle outside the domain.
     pub(super) fn check_domain(&self) -> Result<(), RunError> {
         let stops = self.scene.outside == Outside::Stop;
@@ -165,19 +173,25 @@ impl Simulation {
         Ok(())
     }
 
-    /// Why a particle, by its index, is behind a plane.
-    fn cause_behind(&self, id: u32, plane: &str) -> Cause {
+    /// Why a particle, by its index, is behind a boundary.
+    fn cause_behind(&self, id: u32, name: &str) -> Cause {
+        let at = self.scene.boundaries.iter().position(|boundary| boundary.name == name);
+        let (Some(at), Some(slot)) = (at, self.state.particles.slot_of(id)) else { return Cause::Load };
+        let step = self.state.clock.last_step;
+        let particles = MovedParticles::of(&self.state, step);
+        let [from, to] = self.passing.way((at, &self.state.boundaries), particles, slot);
+        let (way, radius) = ((to - from).length(), particles.position[slot][3]);
+        if way > RUNAWAY * radius {
+            return Cause::Meeting { speed: way / step, step };
+        }
         if let Some(cause) = self.step_as_cause() {
             return cause;
         }
-        let at = self.scene.boundaries.iter().position(|boundary| boundary.name == plane);
-        let slot = self.state.particles.slot.get(id as usize);
-        let (Some(at), Some(&slot)) = (at, slot) else { return Cause::Load };
-        let Some(surface::Plane { normal, .. }) = self.scene.boundaries[at].shape.plane() else { return Cause::Load };
-        let relative = Vector::from(self.state.particles.velocity[slot as usize])
-            - Vector::from(self.state.boundaries[at].velocity);
-        let closing = -relative.dot(normal.into());
-        self.impact_or_load(closing, self.state.particles.position[slot as usize][3])
+        let closing = match self.scene.boundaries[at].shape.plane() {
+            Some(surface::Plane { normal, .. }) => (from - to).dot(normal.into()),
+            None => way,
+        };
+        self.impact_or_load(closing / step, radius)
     }
 
     /// The number of a particle by its index; of none, that of the next to come.

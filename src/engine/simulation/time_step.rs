@@ -19,6 +19,7 @@ impl Simulation {
         self.book_first_kick(step);
         let way = self.kick_and_drift(step, context);
         self.move_boundaries(progress);
+        let groups = self.check_groups(step);
         let lists = self.keep_lists(way, context);
         self.make_bonds(&moment, context);
         self.done("lists and boundaries");
@@ -32,7 +33,7 @@ impl Simulation {
         self.book_second_kick(gravity, step, context);
         let speed = self.kick_again(gravity, step, context);
         self.book_impulses(&progress);
-        if speed.is_finite() { lists.and(forces) } else { Err(self.not_finite()) }
+        if speed.is_finite() { groups.and(lists).and(forces) } else { Err(self.not_finite()) }
     }
 
     /// Lets the clock go on by a step of this length \[s\]. Returns the moment that this reaches.
@@ -70,7 +71,7 @@ impl Simulation {
     fn move_boundaries(&mut self, progress: Progress) {
         let Self { scene, bodies, state, workspace, .. } = self;
         course::advance(scene, bodies, state, progress, &mut workspace.travels);
-        nodes::advance(scene, state, &progress, &mut workspace.nodes, &mut workspace.travels);
+        nodes::advance(scene, state, &progress, &mut workspace.travels);
         rigid_body::place_groups(scene, bodies, state);
     }
 

@@ -6,7 +6,7 @@
 //! over the traces of the blocks ([`super::shares`]); whatever they find is a bound. Most bodies are far below it. Those that
 //! are not are taken together where that brings the bound down ([`super::cluster`]).
 
-use super::network::{Element, Network};
+use super::network::{Element, Network, single};
 use super::shares::{Shares, divided};
 use super::triangle::{Place, Triangle, add_group, whole};
 use crate::engine::contacts::Link;
@@ -103,7 +103,8 @@ impl Blocks<'_> {
             let strengths = [0, 1].map(|end| self.network.trace(element, end, parts[0]).sqrt());
             shares = divided(strengths);
         }
-        let parts = parts.map(|parts| parts.map(|part| part as f32));
+        // As a network keeps them.
+        let parts = parts.map(|parts| parts.map(single));
         if self.damping.is_empty() && parts[1] != [0.0; 4] {
             self.damping = vec![[0.0; 21]; self.stiffness.len()];
         }
@@ -195,7 +196,7 @@ impl Blocks<'_> {
         &mut self,
         mover: usize,
         (element, end): (&Element, usize),
-        [stiffness, damping]: [[f32; 4]; 2],
+        [stiffness, damping]: [[f64; 4]; 2],
         share: f64,
     ) {
         let network = self.network;

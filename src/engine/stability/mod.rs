@@ -4,10 +4,11 @@
 //! definite (M masses and moments of inertia, C dashpots, K stiffnesses of the whole network), that is while 2/Δt is above
 //! the largest root μ of det(μ² M − μ C − K). If there are contacts alone, [`blocks`] bounds the root from the safe side, and
 //! [`cluster`] takes the bodies together that limit it; a given step far below that bound needs no more than the blocks. If there are bonds, [`lanczos`] finds it with a certificate. The passes foresee contacts and bonds still to come
-//! ([`SearchLimits`]), [`coming_root`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
+//! ([`SearchLimits`]), [`impacts`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
 mod cluster;
+mod impacts;
 mod impedance;
 mod lanczos;
 mod limiter;
@@ -20,11 +21,10 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
-use crate::engine::state::{GONE, Particles, State};
-use crate::laws::contact::Response;
-use crate::scene::{Insertion, ParticleShape, Scene};
+use crate::engine::state::{GONE, State};
+use crate::scene::{Insertion, Scene};
+use impacts::Impact;
 pub use limiter::{Limiter, LimiterKind, Mode};
-use nalgebra::Matrix6;
 use network::Network;
 
 /// What limits the time step.
@@ -105,7 +105,7 @@ impl System<'_> {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
         blocks::quick_root(&bodies, supports, |tell| {
-            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell))
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell));
         })
     }
 
@@ -130,15 +130,7 @@ impl System<'_> {
         context: &Context,
     ) -> Option<Limiter> {
         if found.impacts > found.network {
-            let (_, meeting) = self.hardest_impact(speed, ahead.acceleration)?;
-            let mode = if meeting.across { Mode::Tangential } else { Mode::Normal };
-            return Some(Limiter {
-                kind: LimiterKind::Impact,
-                first: meeting.particle,
-                second: None,
-                boundary: meeting.boundary,
-                mode,
-            });
+            return self.hardest_impact(speed, ahead.acceleration).map(Impact::limiter);
         }
         let network = self.network(ahead);
         if network.elements.is_empty() {
@@ -195,85 +187,7 @@ impl System<'_> {
 
     /// The root of impacts still to come between bodies that are in no list \[1/s\], if anything can touch.
     pub(crate) fn impact(&self, speed: f64, acceleration: f64) -> Option<f64> {
-        self.hardest_impact(speed, acceleration).map(|(root, _)| root)
-    }
-
-    /// That root, and what meets: the two smallest particles at twice the speed \[m/s\], with what falling over a radius adds at this
-    /// acceleration \[m/s²\]; likewise each group that forces move.
-    fn hardest_impact(&self, speed: f64, acceleration: f64) -> Option<(f64, PossibleContact)> {
-        let groups = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
-            let body = body.as_ref().filter(|body| body.is_free() && !body.is_surface())?;
-            let turn = answer(&body.mobility(moved), body.farthest + body.largest);
-            Some(PossibleContact {
-                radius: body.largest,
-                mass: 1.0 / turn,
-                turn,
-                particle: body.members[0],
-                boundary: None,
-                acceleration,
-                across: false,
-            })
-        });
-        let surfaces = self.impacts_at_surfaces(acceleration);
-        let mut limit: Option<(f64, PossibleContact)> = None;
-        let coming = self.scene.insertions.iter().map(smallest_to_come);
-        let particles = smallest_particle(&self.state.particles).into_iter().chain(coming);
-        let particles = particles.map(|it| PossibleContact { acceleration, ..it });
-        for mut meeting in particles.chain(groups).chain(surfaces) {
-            let closing = 2.0 * speed + (2.0 * meeting.acceleration * meeting.radius).sqrt();
-            let (radius, mass) = (0.5 * meeting.radius, 0.5 * meeting.mass);
-            for pass in self.passes {
-                pass.impacts(radius, mass, closing, &mut |response| {
-                    let root = meeting.root(&response);
-                    if root > limit.as_ref().map_or(0.0, |(most, _)| *most) {
-                        limit = Some((root, meeting));
-                    }
-                });
-            }
-        }
-        limit
-    }
-
-    /// What surfaces that forces move may meet next: the lightest particle, or the largest, which is stiffer. Each reaches the speed
-    /// that its load gives it over a diameter, at least what falls at this acceleration \[m/s²\].
-    fn impacts_at_surfaces(&self, acceleration: f64) -> Vec<PossibleContact> {
-        let State { particles, boundaries, neighbours, .. } = self.state;
-        let mut meetings = Vec::new();
-        for (index, (body, moved)) in self.bodies.iter().zip(boundaries).enumerate() {
-            let Some(body) = body.as_ref().filter(|body| body.is_free() && body.is_surface()) else { continue };
-            let extent = neighbours.boundary_extent.get(index).copied().unwrap_or(0.0);
-            let mobility = answer(&body.mobility(moved), extent);
-            let acceleration = acceleration.max(body.acceleration(moved, extent));
-            for slot in [smallest_slot(particles), largest_slot(particles)].into_iter().flatten() {
-                let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
-                let own = 1.0 / mass;
-                meetings.push(PossibleContact {
-                    // As its like would be: twice the effective radius and mass, half of what answers across.
-                    radius: 2.0 * radius,
-                    mass: 2.0 / (own + mobility),
-                    turn: 0.5 * (mobility + own + radius * radius / particles.angular_velocity[slot][3]),
-                    particle: particles.id[slot],
-                    boundary: Some(index as u32),
-                    acceleration,
-                    across: false,
-                });
-            }
-        }
-        meetings
-    }
-
-    /// Whether any contact of the smallest particle with its like, or with a surface, gets stiffer where it is so much `faster` than this
-    /// \[m/s\].
-    pub(crate) fn stiffens(&self, speed: f64, faster: f64) -> bool {
-        let Some(meeting) = smallest_particle(&self.state.particles) else { return true };
-        let responses = |speed: f64| {
-            let mut all = Vec::new();
-            for pass in self.passes {
-                pass.impacts(meeting.radius, meeting.mass, speed, &mut |response| all.push(response));
-            }
-            all
-        };
-        responses(speed) != responses(faster * speed)
+        self.hardest_impact(speed, acceleration).map(|impact| impact.root)
     }
 
     /// Largest speed of a particle, of those to come as they come \[m/s\].
@@ -288,70 +202,4 @@ impl System<'_> {
 /// become `faster` times as fast: half of what two of them may meet at.
 pub(crate) fn foreseen_speed(particles: f64, boundaries: f64, faster: f64) -> f64 {
     faster * particles.max(0.5 * (particles + boundaries))
-}
-
-/// The largest acceleration that a unit force at this arm \[m\] gives to where it acts, or above \[1/kg\].
-fn answer(mobility: &Matrix6<f64>, arm: f64) -> f64 {
-    let diagonal = mobility.diagonal();
-    let (shift, turn) = (diagonal.fixed_rows::<3>(0).max(), diagonal.fixed_rows::<3>(3).sum());
-    shift + turn * arm * arm
-}
-
-/// What may meet something else next.
-#[derive(Clone, Copy, Debug)]
-struct PossibleContact {
-    /// Radius \[m\].
-    radius: f64,
-    /// Mass that it meets with \[kg\].
-    mass: f64,
-    /// Largest acceleration that a unit force across gives to where it acts \[1/kg\].
-    turn: f64,
-    /// The particle: index into the scene's particles.
-    particle: u32,
-    /// The surface that it meets, if not its like.
-    boundary: Option<u32>,
-    /// Acceleration by which both gain speed over a radius \[m/s²\].
-    acceleration: f64,
-    /// Whether sliding limits, rather than pressing.
-    across: bool,
-}
-
-impl PossibleContact {
-    /// The root while it meets its like with this response: both move, their one spring acts on the reduced mass.
-    fn root(&mut self, response: &Response) -> f64 {
-        let root = |k: f64, c: f64| c + (c * c + 2.0 * k).sqrt();
-        let along = root(response.normal_stiffness / self.mass, response.normal_damping / self.mass);
-        let across = root(response.tangential_stiffness * self.turn, response.tangential_damping * self.turn);
-        self.across = across > along;
-        along.max(across)
-    }
-}
-
-/// The smallest particle that an insertion lets come.
-fn smallest_to_come(insertion: &Insertion) -> PossibleContact {
-    let [radius, _] = insertion.sizes.bounds();
-    let mass = insertion.mass(radius);
-    let turn = 1.0 / mass + radius * radius / ParticleShape::Sphere.inertia(mass, radius);
-    PossibleContact { radius, mass, turn, particle: GONE, boundary: None, acceleration: 0.0, across: false }
-}
-
-/// The smallest particle that forces move.
-fn smallest_particle(particles: &Particles) -> Option<PossibleContact> {
-    let slot = smallest_slot(particles)?;
-    let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
-    let turn = 1.0 / mass + radius * radius / particles.angular_velocity[slot][3];
-    let particle = particles.id[slot];
-    Some(PossibleContact { radius, mass, turn, particle, boundary: None, acceleration: 0.0, across: false })
-}
-
-/// The lightest particle (slot) that forces move.
-fn smallest_slot(particles: &Particles) -> Option<usize> {
-    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-    free.min_by(|&a, &b| particles.velocity[a][3].total_cmp(&particles.velocity[b][3]).then(a.cmp(&b)))
-}
-
-/// The particle (slot) that forces move with the largest radius.
-fn largest_slot(particles: &Particles) -> Option<usize> {
-    let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-    free.max_by(|&a, &b| particles.position[a][3].total_cmp(&particles.position[b][3]).then(b.cmp(&a)))
 }

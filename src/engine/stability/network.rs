@@ -1,6 +1,6 @@
 //! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
 
-use crate::base::number::Vector;
+use crate::base::number::{Vector, binade};
 use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
@@ -35,45 +35,73 @@ impl Element {
     }
 }
 
-/// Springs, or dashpots, of all elements: two columns, of which each is empty while no element has anything of it.
+/// Two parts of all elements, in a unit that is a power of two: single precision then holds springs and dashpots of bodies of any size.
+#[derive(Debug, Default)]
+struct Column {
+    /// What they are counted in.
+    unit: f64,
+    /// The parts; empty while no element has any.
+    rows: Vec<[f32; 2]>,
+}
+
+/// A number in single precision, whatever its size.
+#[inline(always)]
+pub(super) fn single(number: f64) -> f64 {
+    let unit = binade(number);
+    f64::from((number / unit) as f32) * unit
+}
+
+impl Column {
+    /// Adds those of the next element: there are `before` others, and in all at most `most`.
+    fn push(&mut self, parts: [f64; 2], before: usize, most: usize) {
+        if self.rows.is_empty() {
+            if parts == [0.0; 2] {
+                return;
+            }
+            self.unit = binade(parts[0].max(parts[1]));
+            self.rows.reserve(most);
+            self.rows.resize(before, [0.0; 2]);
+        }
+        self.rows.push(parts.map(|part| (part / self.unit) as f32));
+    }
+
+    /// Those of an element.
+    #[inline(always)]
+    fn of(&self, place: usize) -> [f64; 2] {
+        self.rows.get(place).map_or([0.0; 2], |row| row.map(|part| f64::from(part) * self.unit))
+    }
+}
+
+/// Springs, or dashpots, of all elements.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     /// Along the normal and across it \[N/m or kg/s\].
-    shifting: Vec<[f32; 2]>,
+    shifting: Column,
     /// Against twisting and against bending \[N m or N m s\].
-    turning: Vec<[f32; 2]>,
+    turning: Column,
 }
 
 impl Parts {
     /// Adds those of the next element: there are `before` others, and in all at most `most`.
     fn push(&mut self, [along, across, twisting, bending]: [f64; 4], before: usize, most: usize) {
-        for (column, part) in [(&mut self.shifting, [along, across]), (&mut self.turning, [twisting, bending])] {
-            if column.is_empty() && part == [0.0; 2] {
-                continue;
-            }
-            if column.is_empty() {
-                column.reserve(most);
-                column.resize(before, [0.0; 2]);
-            }
-            column.push(part.map(|part| part as f32));
-        }
+        self.shifting.push([along, across], before, most);
+        self.turning.push([twisting, bending], before, most);
     }
 
     /// Whether anything resists twisting or bending.
     pub(super) fn resists_turning(&self) -> bool {
-        !self.turning.is_empty()
+        !self.turning.rows.is_empty()
     }
 
     /// Whether there are any.
     pub(super) fn any(&self) -> bool {
-        !self.shifting.is_empty() || !self.turning.is_empty()
+        !self.shifting.rows.is_empty() || self.resists_turning()
     }
 
     /// Those of an element: along the normal, across it, against twisting, against bending.
     #[inline(always)]
-    pub(super) fn of(&self, place: usize) -> [f32; 4] {
-        let [along, across] = self.shifting.get(place).copied().unwrap_or_default();
-        let [twisting, bending] = self.turning.get(place).copied().unwrap_or_default();
+    pub(super) fn of(&self, place: usize) -> [f64; 4] {
+        let ([along, across], [twisting, bending]) = (self.shifting.of(place), self.turning.of(place));
         [along, across, twisting, bending]
     }
 }
@@ -203,8 +231,8 @@ impl<'a> Network<'a> {
                 [false, true] => (element.end(1, self.roots.len()), borne(place, 1)),
             };
             let most = part.elements.len() + 1;
-            part.stiffness.push(self.stiffness.of(place).map(|it| factor * f64::from(it)), part.elements.len(), most);
-            part.damping.push(self.damping.of(place).map(|it| factor * f64::from(it)), part.elements.len(), most);
+            part.stiffness.push(self.stiffness.of(place).map(|it| factor * it), part.elements.len(), most);
+            part.damping.push(self.damping.of(place).map(|it| factor * it), part.elements.len(), most);
             part.elements.push(taken);
         }
         part
@@ -228,7 +256,7 @@ impl<'a> Network<'a> {
     #[inline(always)]
     pub(super) fn parts(&self, place: usize, root: f64) -> [f64; 4] {
         let (stiffness, damping) = (self.stiffness.of(place), self.damping.of(place));
-        std::array::from_fn(|k| f64::from(stiffness[k]) + root * f64::from(damping[k]))
+        std::array::from_fn(|k| stiffness[k] + root * damping[k])
     }
 
     /// An interaction between what moves, if it moves anything.

@@ -35,7 +35,7 @@ impl Plain {
         }
         let roots = movers.iter().map(|&mover| network.roots.get(mover as usize).copied()).collect::<Option<_>>()?;
         let tie = |(place, element): (usize, &Element)| {
-            let parts = |[along, across, _, _]: [f32; 4]| [f64::from(along), f64::from(across)];
+            let parts = |[along, across, _, _]: [f64; 4]| [along, across];
             ContactLink {
                 bodies: ends_of[place],
                 normal: element.normal.map(f64::from),

@@ -33,17 +33,17 @@ impl<'a> Shares<'a> {
         let mut shares = Self { network, traces: Vec::new(), weights: vec![1.0; network.movers()] };
         let mut at = guess;
         if network.is_damped() && guess <= 0.0 {
-            let sums = [0.0, 1.0].map(|root| {
-                shares.weigh(root);
+            let sums = [&network.stiffness, &network.damping].map(|parts| {
+                shares.weigh(|place| parts.of(place));
                 shares.sums()
             });
-            let root = |(k, both): (&f64, &f64)| {
-                let (k, c) = (LARGEST * k, LARGEST * (both - k).max(0.0));
+            let root = |(k, c): (&f64, &f64)| {
+                let (k, c) = (LARGEST * k, LARGEST * c);
                 0.5 * (c + (c * c + 4.0 * k).sqrt())
             };
             at = sums[0].iter().zip(&sums[1]).map(root).fold(0.0, f64::max);
         }
-        shares.weigh(at);
+        shares.weigh(|place| network.parts(place, at));
         for _ in 0..SWEEPS {
             let sums = shares.sums();
             let most = sums.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
@@ -54,11 +54,11 @@ impl<'a> Shares<'a> {
         shares
     }
 
-    /// Finds the traces of all elements at this root \[1/s\].
-    fn weigh(&mut self, root: f64) {
+    /// Finds the traces of all elements, each with these springs.
+    fn weigh(&mut self, parts: impl Fn(usize) -> [f64; 4]) {
         let network = self.network;
         let traces = |(place, element): (usize, &Element)| {
-            let parts = network.parts(place, root);
+            let parts = parts(place);
             [0, 1].map(|end| network.trace(element, end, parts).sqrt() as f32)
         };
         self.traces = network.elements.iter().enumerate().map(traces).collect();

@@ -32,8 +32,8 @@ impl Place {
     /// along and q across the normal and s the arm, the blocks are q I + (k − q) n nᵀ, s q [n]× and s² q (I − n nᵀ) beside
     /// torsion and bending.
     #[inline(always)]
-    pub(super) fn add(&self, block: &mut Triangle, parts: [f32; 4]) {
-        let [along, across, twisting, bending] = parts.map(f64::from);
+    pub(super) fn add(&self, block: &mut Triangle, parts: [f64; 4]) {
+        let [along, across, twisting, bending] = parts;
         let ([x, y, z], products, [shifting, armed, between, turning]) = (self.normal, self.products, self.weights);
         let (shift, shift_more) = (shifting * across, shifting * (along - across));
         let turn = armed * across + turning * bending;
@@ -66,11 +66,11 @@ pub(super) fn add_group(
     block: &mut Triangle,
     normal: [f32; 3],
     arm: [f64; 3],
-    parts: [f32; 4],
+    parts: [f64; 4],
     group: &Group,
     share: f64,
 ) {
-    let [along, across, twisting, bending] = parts.map(|part| share * f64::from(part));
+    let [along, across, twisting, bending] = parts.map(|part| share * part);
     let normal = Vector3::from(normal.map(f64::from));
     let of = |along: f64, across: f64| {
         Matrix3::from_diagonal_element(across) + normal * normal.transpose() * (along - across)

@@ -19,6 +19,8 @@ pub struct BoundaryState {
     pub orientation: Orientation,
     /// The reference point where it stands now \[m\].
     pub pivot: [f64; 3],
+    /// Where it stood before the present time step.
+    pub before: Stand,
     /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\]; of axes that take a force, the force
     /// that was given then \[N, N m\].
     pub start: [f64; 6],
@@ -72,6 +74,11 @@ pub struct BoundaryState {
 }
 
 impl BoundaryState {
+    /// Where it stands.
+    pub(crate) fn stand(&self) -> Stand {
+        Stand { displacement: self.displacement, orientation: self.orientation }
+    }
+
     /// Rates of force and moment after a time step of this length \[s\], 0 before the first \[N/s, N m/s\].
     pub(crate) fn rates(&self, step: f64) -> [[f64; 3]; 2] {
         let Self { force, moment, force_before, moment_before, .. } = self;
@@ -117,6 +124,15 @@ impl Pressed {
         }
         (self.stiffness, self.impedance, self.force) = (stiffness, impedance, force);
     }
+}
+
+/// Where a boundary stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stand {
+    /// Displacement since time 0 \[m\].
+    pub displacement: [f64; 3],
+    /// Orientation.
+    pub orientation: Orientation,
 }
 
 /// What moves the free axes of a boundary, and what it gave them. Zero where none is free.

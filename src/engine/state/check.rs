@@ -273,11 +273,12 @@ impl Particles {
 }
 
 impl Exchange {
-    /// Whether it has as many insertions, outlets and flow meters as another.
+    /// Whether it has as many insertions, outlets, boundaries and flow meters as another.
     fn check_same(&self, other: &Self) -> Result<(), StateFault> {
         let expected = "as many as the scene has";
         demand(self.feeds.len() == other.feeds.len(), "feeds", self.feeds.len(), expected)?;
         demand(self.outlets.len() == other.outlets.len(), "outlets", self.outlets.len(), expected)?;
+        demand(self.passed.len() == other.passed.len(), "passed", self.passed.len(), expected)?;
         demand(self.meters.len() == other.meters.len(), "meters", self.meters.len(), expected)
     }
 }
@@ -497,7 +498,7 @@ impl BoundaryState {
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
         let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
-        let Self { force_before, moment_before, .. } = self;
+        let Self { force_before, moment_before, before, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -518,6 +519,7 @@ impl BoundaryState {
             force_slope,
             force_before,
             moment_before,
+            &before.displacement,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,
@@ -537,7 +539,7 @@ impl BoundaryState {
             &inertial.applied_impulse,
             &inertial.support_impulse,
         ];
-        let rows = [orientation.0, start_orientation.0];
+        let rows = [orientation.0, start_orientation.0, before.orientation.0];
         triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
             && rows.iter().flatten().all(|number| number.is_finite())
             && work.is_finite()

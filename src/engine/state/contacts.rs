@@ -100,9 +100,6 @@ pub const SILENT: u8 = 8;
 /// The offset outlives the parting of the bodies, as in the engine.
 pub const LASTING: u8 = 16;
 
-/// The centre was behind the face in the last evaluation.
-pub const REVERSE: u8 = 32;
-
 /// A living bond suppresses the normal force of the contact.
 pub const BONDED: u8 = 64;
 

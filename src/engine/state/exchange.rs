@@ -16,13 +16,15 @@ pub struct Exchange {
     pub outlets: Vec<ParticleCount>,
     /// What left the domain.
     pub outside: ParticleCount,
+    /// What came through each boundary and was taken away, in the scene's order.
+    pub passed: Vec<ParticleCount>,
     /// What passed, in the order of the scene's flow meters.
     pub meters: Vec<MeterCount>,
     /// What came less what went.
     pub net: NetExchange,
 }
 
-clone_in_place!(Exchange { travel, next, feeds, outlets, outside, meters, net });
+clone_in_place!(Exchange { travel, next, feeds, outlets, outside, passed, meters, net });
 
 /// A number of particles and their mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -129,7 +131,12 @@ impl NetExchange {
 impl Exchange {
     /// Counts from here. What is due, the generators and the numbers that were given stay.
     pub(super) fn begin_counting(&mut self) {
-        self.outlets.iter_mut().chain([&mut self.outside]).for_each(|tally| *tally = ParticleCount::default());
+        let outside = std::iter::once(&mut self.outside);
+        self.outlets
+            .iter_mut()
+            .chain(outside)
+            .chain(&mut self.passed)
+            .for_each(|tally| *tally = ParticleCount::default());
         for feed in &mut self.feeds {
             (feed.came, feed.dropped) = (ParticleCount::default(), 0.0);
         }
@@ -139,7 +146,8 @@ impl Exchange {
 
     /// Whether all numbers are finite, and those that are of 0 or above are.
     pub(super) fn is_sound(&self) -> bool {
-        let tallies = self.outlets.iter().chain([&self.outside]).chain(self.feeds.iter().map(|feed| &feed.came));
+        let tallies = self.outlets.iter().chain([&self.outside]).chain(&self.passed);
+        let tallies = tallies.chain(self.feeds.iter().map(|feed| &feed.came));
         let feeds =
             self.feeds.iter().flat_map(|feed| [feed.owed, feed.dropped, feed.radius, feed.travel, feed.present]);
         let meters = self.meters.iter().flat_map(|passed| [passed.mass, passed.mass_before, passed.mass_flow]);

@@ -21,7 +21,7 @@ mod plain;
 pub mod snapshot;
 
 pub use bonds::{BondList, Break};
-pub use boundaries::{BoundaryState, Orientation};
+pub use boundaries::{BoundaryState, Orientation, Stand};
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::{Clock, Underway};

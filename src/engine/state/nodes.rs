@@ -12,6 +12,9 @@ pub struct Nodes {
     /// Displacements since time 0 \[m\].
     #[serde(with = "super::plain")]
     pub displacement: Vec<Row>,
+    /// Displacements before the present time step \[m\].
+    #[serde(with = "super::plain")]
+    pub before: Vec<Row>,
     /// Velocities in the present time step \[m/s\].
     #[serde(with = "super::plain")]
     pub velocity: Vec<Row>,
@@ -46,6 +49,7 @@ pub struct Nodes {
 clone_in_place!(Nodes {
     boundary,
     displacement,
+    before,
     velocity,
     start,
     end,
@@ -65,6 +69,7 @@ impl Nodes {
         Self {
             boundary,
             displacement: rows(),
+            before: rows(),
             velocity: rows(),
             start: rows(),
             end: rows(),
@@ -79,10 +84,11 @@ impl Nodes {
     }
 
     /// All columns.
-    pub(super) fn columns(&self) -> [&[Row]; 10] {
-        let Self { boundary: _, displacement, velocity, start, end, target, target_rate, .. } = self;
+    pub(super) fn columns(&self) -> [&[Row]; 11] {
+        let Self { boundary: _, displacement, before, velocity, start, end, target, target_rate, .. } = self;
         let Self { listed, force, impulse, mean_force, fastest: _, .. } = self;
-        [displacement, velocity, start, end, target, target_rate, listed, force, impulse, mean_force].map(Vec::as_slice)
+        [displacement, velocity, start, end, target, target_rate, listed, force, impulse, mean_force, before]
+            .map(Vec::as_slice)
     }
 
     /// How far the node that has moved most since the neighbour lists were made is from where it was \[m\].

@@ -9,9 +9,6 @@ use nalgebra::Matrix6;
 /// Six freedoms of a body by six of another; of the first three alone where nothing turns.
 pub(super) type Block = Matrix6<f64>;
 
-/// A body whose own stiffness in some direction is below this share of that in another is loose.
-const LOOSE: f64 = 1e-9;
-
 /// −J in blocks, body by body.
 pub(super) struct Columns {
     /// How many freedoms each body has.
@@ -90,8 +87,8 @@ impl Columns {
     }
 
     /// How each body feels its own motion.
-    pub(super) fn own_blocks(&self) -> impl Iterator<Item = &Block> {
-        (0..self.blocks.len() as u32).filter_map(|body| self.block(body, body))
+    pub(super) fn own_blocks(&self) -> impl Iterator<Item = Block> {
+        (0..self.blocks.len() as u32).map(|body| self.block(body, body).copied().unwrap_or_default())
     }
 
     /// How many freedoms there are.
@@ -141,31 +138,5 @@ impl Columns {
             }
         }
         loads
-    }
-
-    /// Bodies that could move somewhere if all others stood still: numbers in the scene's order.
-    pub(super) fn loose(&self, network: &Network) -> Vec<u32> {
-        let is_loose = |body: &usize| self.block(*body as u32, *body as u32).is_none_or(|own| self.is_soft(own));
-        let mut all: Vec<u32> = (0..self.blocks.len()).filter(is_loose).map(|body| network.ids[body]).collect();
-        all.sort_unstable();
-        all
-    }
-
-    /// Whether a body's own stiffness is next to nothing in some direction: a pivot of its elimination vanishes.
-    fn is_soft(&self, own: &Block) -> bool {
-        let mut rest = *own;
-        let largest = (0..self.each).fold(0.0_f64, |most, k| most.max(own[(k, k)].abs()));
-        for pivot in 0..self.each {
-            if rest[(pivot, pivot)] <= LOOSE * largest {
-                return true;
-            }
-            for row in pivot + 1..self.each {
-                let factor = rest[(row, pivot)] / rest[(pivot, pivot)];
-                for column in pivot..self.each {
-                    rest[(row, column)] -= factor * rest[(pivot, column)];
-                }
-            }
-        }
-        false
     }
 }

@@ -9,7 +9,8 @@
 //! The columns of J are differences of the evaluation that time steps make, at rest and so slowly that dashpots have no
 //! effect. They include every law, formulation and surface, sticking and sliding contacts. Bodies that act on no
 //! common body are displaced together, so a packing of any size takes about a hundred evaluations. Sliding, and
-//! springs whose stiffness follows the overlap, make J unsymmetric; it is solved by iteration. At the end all bodies are
+//! springs whose stiffness follows the overlap, make J unsymmetric; it is solved by iteration. Free directions make J singular:
+//! bodies that bear nothing are left out, others stay where they are along them. At the end all bodies are
 //! displaced by the solution, and the load that is left on them is reported.
 
 mod columns;
@@ -75,9 +76,10 @@ pub struct Stiffness {
     pub boundaries: Vec<BoundaryStiffness>,
     /// How many degrees of freedom were solved for.
     pub freedoms: usize,
-    /// Particles that nothing holds, by their numbers in the scene's order.
+    /// Particles that bear nothing and are left out, by their numbers in the scene's order: they touch nothing, or one other thing,
+    /// which is not a rattler.
     pub rattlers: Vec<u32>,
-    /// Particles that something holds, but not in every direction, likewise.
+    /// Particles that bear something and are free in some direction, in which they stay, likewise.
     pub loose: Vec<u32>,
     /// Largest difference of two mirrored entries over the largest entry: 0 if all contacts stick and all springs are linear.
     pub asymmetry: f64,
@@ -89,18 +91,12 @@ pub fn stiffness(simulation: &Simulation, boundaries: &[BoundaryIndex]) -> Resul
         return Err(StaticsError::Refused { what, expected });
     }
     let mut probe = Probe::of(simulation);
-    let network = Network::of(&probe);
     let way = way(simulation, probe.rest());
-    let columns = Columns::of(&mut probe, &network, way)?;
+    let Held { network, columns, factors, rattlers } = held(&mut probe, way)?;
     let freedoms = columns.freedoms();
-    let factors = Factors::of(&columns);
-    let mut found = Stiffness {
-        boundaries: Vec::new(),
-        freedoms,
-        rattlers: network.rattlers.clone(),
-        loose: columns.loose(&network),
-        asymmetry: columns.asymmetry(),
-    };
+    let mut loose: Vec<u32> = factors.loose().map(|body| network.ids[body]).collect();
+    loose.sort_unstable();
+    let mut found = Stiffness { boundaries: Vec::new(), freedoms, rattlers, loose, asymmetry: columns.asymmetry() };
     for &boundary in boundaries {
         let mut one = BoundaryStiffness { boundary, matrix: [[0.0; 3]; 3], residual: 0.0 };
         for axis in 0..3 {
@@ -125,6 +121,44 @@ pub fn stiffness(simulation: &Simulation, boundaries: &[BoundaryIndex]) -> Resul
         found.boundaries.push(one);
     }
     Ok(found)
+}
+
+/// What bears something of a packing.
+struct Held {
+    /// The bodies.
+    network: Network,
+    /// Their equations.
+    columns: Columns,
+    /// How these are solved.
+    factors: Factors,
+    /// Particles that bear nothing: numbers in the scene's order.
+    rattlers: Vec<u32>,
+}
+
+/// Leaves out loose bodies that touch one other thing alone, again and again: they follow it, and what they touch may be such a
+/// body then.
+fn held(probe: &mut Probe, way: f64) -> Result<Held, RunError> {
+    let mut rattlers = Vec::new();
+    loop {
+        let network = Network::of(probe);
+        let columns = Columns::of(probe, &network, way)?;
+        let factors = Factors::of(&columns, rounding(probe.rest()) / way);
+        let follow: Vec<usize> = factors.loose().filter(|&body| network.touches[body] == 1).collect();
+        if follow.is_empty() {
+            rattlers.extend(&network.rattlers);
+            rattlers.sort_unstable();
+            return Ok(Held { network, columns, factors, rattlers });
+        }
+        rattlers.extend(follow.iter().map(|&body| network.ids[body]));
+        probe.leave_out(follow.iter().map(|&body| network.slots[body]));
+    }
+}
+
+/// Rounding of the coordinates of the particles \[m\].
+fn rounding(state: &State) -> f64 {
+    let farthest =
+        state.particles.position.iter().flat_map(|row| &row[..3]).fold(0.0, |most: f64, x| most.max(x.abs()));
+    f64::EPSILON * farthest
 }
 
 /// How far bodies are displaced \[m\].

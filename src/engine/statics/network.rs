@@ -15,6 +15,8 @@ pub(super) struct Network {
     pub(super) each: usize,
     /// For each of them: itself and those that it acts on, ascending.
     pub(super) near: Vec<Vec<u32>>,
+    /// How many things each of them touches, or is bonded to.
+    pub(super) touches: Vec<u32>,
     /// Sets of bodies of which no two act on a common one.
     pub(super) sets: Vec<Vec<u32>>,
     /// Particles that nothing holds: numbers in the scene's order.
@@ -27,16 +29,16 @@ impl Network {
     /// That of a simulation.
     pub(super) fn of(probe: &Probe) -> Self {
         let (particles, neighbours) = (&probe.rest().particles, probe.neighbours());
-        let mut held = vec![false; particles.len()];
+        let mut touches = vec![0_u32; particles.len()];
         for &(first, second) in &neighbours {
-            held[first as usize] = true;
+            touches[first as usize] += 1;
             if let Some(second) = second {
-                held[second as usize] = true;
+                touches[second as usize] += 1;
             }
         }
         let free = || (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-        let slots: Vec<u32> = free().filter(|&slot| held[slot]).map(|slot| slot as u32).collect();
-        let mut rattlers: Vec<u32> = free().filter(|&slot| !held[slot]).map(|slot| particles.id[slot]).collect();
+        let slots: Vec<u32> = free().filter(|&slot| touches[slot] > 0).map(|slot| slot as u32).collect();
+        let mut rattlers: Vec<u32> = free().filter(|&slot| touches[slot] == 0).map(|slot| particles.id[slot]).collect();
         rattlers.sort_unstable();
         let mut place = vec![NONE; particles.len()];
         for (body, &slot) in slots.iter().enumerate() {
@@ -58,6 +60,7 @@ impl Network {
             radii: slots.iter().map(|&slot| particles.position[slot as usize][3]).collect(),
             each: if probe.turns() { 6 } else { 3 },
             sets: apart(&near),
+            touches: slots.iter().map(|&slot| touches[slot as usize]).collect(),
             ids: slots.iter().map(|&slot| particles.id[slot as usize]).collect(),
             slots,
             near,

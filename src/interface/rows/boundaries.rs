@@ -1,11 +1,12 @@
 //! Variables of each boundary and of its nodes.
 
-use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write};
+use super::exchange::{EXCHANGED, EXCHANGED_MASS};
+use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write, count};
 use crate::engine::simulation::Input;
 use crate::engine::state::State;
 use crate::interface::{Quantity, Value, Variability};
 use crate::laws::motion::ShownVariables;
-use crate::scene::{InputCourse, Scene};
+use crate::scene::{InputCourse, Outside, Scene};
 
 /// How the input of an axis is given: `FIRST` is 0 along axes and 3 about them.
 const fn given<const FIRST: usize>() -> Option<Write> {
@@ -65,6 +66,11 @@ fn is_served(scene: &Scene, at: At) -> bool {
     seen(scene, at, 0) == ShownVariables::Servo
 }
 
+/// Whether it takes away what comes through it.
+fn removes(scene: &Scene, at: At) -> bool {
+    scene.boundaries[at.boundary.index()].outside == Outside::Remove
+}
+
 /// Mass of a boundary: of its particles, or as the scene gives it; 0 for one that has none \[kg\].
 fn mass(scene: &Scene, at: At) -> f64 {
     let boundary = &scene.boundaries[at.boundary.index()];
@@ -84,7 +90,7 @@ fn moment_rate(state: &State, at: At) -> f64 {
 }
 
 /// Variables of each boundary, inputs first.
-pub(super) static OF_BOUNDARIES: [Row; 20] = [
+pub(super) static OF_BOUNDARIES: [Row; 22] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
@@ -275,6 +281,23 @@ pub(super) static OF_BOUNDARIES: [Row; 20] = [
         constant: Some(mass),
         read: |now, at| Value::Real(mass(now.simulation.scene(), at)),
         ..OUTPUT
+    },
+    Row {
+        name: "outside.count",
+        each: Each::Boundary,
+        description: "number of particles taken away since the start because they came through {boundary}",
+        exists: removes,
+        read: |now, at| count(now.exchanged(|exchange| exchange.passed[at.boundary.index()].count)),
+        ..EXCHANGED
+    },
+    Row {
+        name: "outside.mass",
+        each: Each::Boundary,
+        description: "mass of the particles taken away since the start because they came through {boundary}",
+        minimum: Some(0.0),
+        exists: removes,
+        read: |now, at| Value::Real(now.exchanged(|exchange| exchange.passed[at.boundary.index()].mass)),
+        ..EXCHANGED_MASS
     },
 ];
 

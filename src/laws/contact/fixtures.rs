@@ -1,7 +1,7 @@
 //! A contact and a pair of materials to try laws on.
 
 use super::cohesion;
-use super::normal::{eepa, hooke, hooke_stiffness, sticky};
+use super::normal::{eepa, hooke, hooke_stiffness, jkr, sticky};
 use super::rolling::rocking;
 use super::tangential::turned_history;
 use super::{
@@ -60,8 +60,8 @@ pub(crate) fn every_law() -> Vec<LawChoice> {
         NormalModel::of::<normal::hooke::Hooke>(speed),
         NormalModel::of::<normal::hooke_stiffness::HookeStiffness>(hooke_stiffness::Keys::default()),
         NormalModel::of::<normal::hooke_viscous::HookeViscous>(speed),
-        NormalModel::of::<normal::jkr::Jkr>(sticky::Keys::default()),
-        NormalModel::of::<normal::jkr::Jkr>(sticky::Keys { engine_exact: true, ..sticky::Keys::default() }),
+        NormalModel::of::<normal::jkr::Jkr>(jkr::Keys { tear_off: jkr::TearOff::WholeBranch, ..jkr::Keys::default() }),
+        NormalModel::of::<normal::jkr::Jkr>(jkr::Keys { engine_exact: true, ..jkr::Keys::default() }),
         NormalModel::of::<normal::dmt::Dmt>(sticky::Keys {
             damping: sticky::DampingKind::Velocity,
             ..sticky::Keys::default()

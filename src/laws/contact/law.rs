@@ -4,7 +4,7 @@
 use super::pressing_force;
 use super::{
     Adhesion, Booked, Carry, CoefficientPlaces, Coefficients, CohesionFunctions, Contact, HistoryPlaces, HistoryRow,
-    LawChoice, Needs, NormalForce, NormalFunctions, Onset, Reaction, Response, RollingFunctions, RollingStiffness,
+    LawChoice, Needs, NormalForce, NormalFunctions, Onset, Reaction, Response, RollingFunctions, RollingResponse,
     Scheme, SchemeMemory, Switches, TangentialFunctions, foresee_normal,
 };
 use crate::base::number::{Row, Vector};
@@ -240,7 +240,7 @@ impl Law {
 
     /// How dashpots begin.
     pub(crate) fn onset(&self) -> Onset {
-        self.normal().onset
+        self.choice.normal.onset()
     }
 
     /// Whether slip is that of the undeformed bodies, and torques at walls have their arms.
@@ -474,10 +474,10 @@ impl Law {
         (self.rolling().elastic_energy)(&row[self.places.rolling..], contact, &response, torque)
     }
 
-    /// Stiffness of the rolling spring \[N m\].
-    pub fn rolling_stiffness(&self, row: &[f64], contact: &Contact) -> RollingStiffness {
+    /// Springs and dashpots against rolling and twisting.
+    pub fn rolling_response(&self, row: &[f64], contact: &Contact) -> RollingResponse {
         let response = self.response(row, contact);
-        (self.rolling().stiffness)(&row[self.places.rolling..], contact, &response)
+        (self.rolling().response)(&row[self.places.rolling..], contact, &response)
     }
 
     /// Tangent normal stiffness, tangential stiffness \[N/m\] and damping coefficients \[kg/s\], for the stable time step:

@@ -43,7 +43,7 @@ pub use model::{
 pub use places::{CoefficientPlaces, HistoryPlaces};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
-pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingStiffness, Tangential};
+pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingResponse, Tangential};
 
 pub use crate::laws::kept::ModelKeys;
 

@@ -5,7 +5,7 @@ use super::batch::{self, Run};
 use super::functions::{self, CohesionFunction, NormalFunction, RollingFunction, TangentialFunction};
 use super::{
     Adhesion, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, HistoryRow, MaterialPair, Missing, Needs,
-    Normal, NormalForm, Objection, Onset, Response, Rolling, RollingStiffness, Tangential,
+    Normal, NormalForm, Objection, Onset, Response, Rolling, RollingResponse, Tangential,
 };
 use crate::base::document::{Document, Faults};
 use crate::base::number::Row;
@@ -149,8 +149,8 @@ pub struct NormalFunctions {
     pub(super) adhesion: Adhesion,
     /// [`NormalForm::LIMITS_ITSELF`].
     pub(super) limits_itself: bool,
-    /// How its dashpots begin.
-    pub(super) onset: Onset,
+    /// [`Normal::onset`].
+    onset: fn(Kept) -> Onset,
     /// [`Normal::DAMPED_AT_TOUCH`].
     pub(super) damped_at_touch: bool,
     /// Whether it keeps a number of each pair.
@@ -195,7 +195,7 @@ impl NormalRow {
                 does: NormalFunctions {
                     adhesion: M::Form::ADHESION,
                     limits_itself: M::Form::LIMITS_ITSELF,
-                    onset: M::ONSET,
+                    onset: |keys| M::onset(own(keys)),
                     damped_at_touch: M::DAMPED_AT_TOUCH,
                     has_pair_constant: M::Form::HAS_PAIR_CONSTANT,
                     objection: |keys| M::objection(own(keys)),
@@ -231,6 +231,11 @@ impl NormalModel {
     /// What speaks against its keys, if anything.
     pub(super) fn objection(&self) -> Option<Objection> {
         (self.row.does.objection)(self.keys)
+    }
+
+    /// How its dashpots begin.
+    pub(super) fn onset(&self) -> Onset {
+        (self.row.does.onset)(self.keys)
     }
 
     /// Whether slip is that of the undeformed bodies, and torques at walls have their arms.
@@ -337,8 +342,8 @@ pub struct RollingFunctions {
     is_engine_exact: fn(Kept) -> bool,
     /// [`Rolling::between`].
     between: fn(Kept, &MaterialPair) -> Result<Vec<f64>, Missing>,
-    /// [`Rolling::stiffness`].
-    pub(super) stiffness: fn(&[f64], &Contact, &Response) -> RollingStiffness,
+    /// [`Rolling::response`].
+    pub(super) response: fn(&[f64], &Contact, &Response) -> RollingResponse,
     /// [`Rolling::elastic_energy`].
     pub(super) elastic_energy: fn(&[f64], &Contact, &Response, Row) -> f64,
     /// [`Rolling::torque`] of one contact.
@@ -367,7 +372,7 @@ impl RollingRow {
                     takes_tangential_stiffness: M::TAKES_TANGENTIAL_STIFFNESS,
                     is_engine_exact: |keys| M::is_engine_exact(own(keys)),
                     between: |keys, pair| Ok(numbers(&M::between(pair, own(keys))?)),
-                    stiffness: |row, contact, response| M::read(row).stiffness(contact, response),
+                    response: |row, contact, response| M::read(row).response(contact, response),
                     elastic_energy: |row, contact, response, history| {
                         M::read(row).elastic_energy(contact, response, history)
                     },

@@ -30,7 +30,9 @@ pub trait Normal: Copy + Send + Sync + 'static {
         None
     }
     /// How γ_n and γ_t begin as the bodies touch.
-    const ONSET: Onset = Onset::Unweighed;
+    fn onset(_keys: &Self::Keys) -> Onset {
+        Onset::Unweighed
+    }
     /// Whether γ_t has its full strength as the bodies touch, where k_t is still 0: a spring that the dashpot stretches backwards then has
     /// no bound. Models that an engine combines with such springs do not declare it.
     const DAMPED_AT_TOUCH: bool = false;
@@ -154,13 +156,17 @@ pub trait Tangential: Coefficients {
     ) -> Friction<N>;
 }
 
-/// Stiffness of a rolling spring.
+/// Stiffnesses and damping coefficients of a contact against rolling and twisting.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RollingStiffness {
-    /// Against rolling \[N m\].
-    pub bending: f64,
-    /// Against twisting about the normal \[N m\].
-    pub torsion: f64,
+pub struct RollingResponse {
+    /// Spring against rolling \[N m\].
+    pub bending_stiffness: f64,
+    /// Dashpot against rolling \[N m s\].
+    pub bending_damping: f64,
+    /// Spring against twisting about the normal \[N m\].
+    pub torsional_stiffness: f64,
+    /// Dashpot against twisting about the normal \[N m s\].
+    pub torsional_damping: f64,
 }
 
 /// Resistance against rolling.
@@ -185,10 +191,9 @@ pub trait Rolling: Coefficients {
     fn is_engine_exact(_keys: &Self::Keys) -> bool {
         false
     }
-    /// Stiffness of its spring against bending and against twisting, that of its dashpot included, for the stable time
-    /// step \[N m\].
-    fn stiffness(&self, _contact: &Contact, _response: &Response) -> RollingStiffness {
-        RollingStiffness::default()
+    /// Its springs and dashpots below the limit, by the response of the normal model: for the stable time step.
+    fn response(&self, _contact: &Contact, _response: &Response) -> RollingResponse {
+        RollingResponse::default()
     }
     /// Energy of its spring \[J\].
     fn elastic_energy(&self, _contact: &Contact, _response: &Response, _history: Row) -> f64 {

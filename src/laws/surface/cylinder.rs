@@ -6,8 +6,8 @@ use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Positive, Triple};
 use serde::Deserialize;
 
-/// How far a cylinder without end reaches \[m\].
-const FAR: f64 = 1e9;
+/// How far a cylinder without end reaches: beyond the numbers of any scene, and its square is still a number \[m\].
+pub(super) const FAR: f64 = 1e30;
 
 /// Which ends of a cylinder or a cone are closed by a disc.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]

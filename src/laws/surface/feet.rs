@@ -26,11 +26,25 @@ pub struct Foot {
     pub distance: f64,
     /// Unit normal from the foot to the centre, in the axes of the surface.
     pub normal: Vector,
-    /// How often the normal force counts: once, and less than no times at a saddle.
+    /// How often the contact counts: once, and less than no times at a saddle.
     pub weight: f64,
-    /// Whether the centre is behind the face; where the foot is on no face, never.
-    pub behind: bool,
+    /// What the overlap changes by for a way along the normal, over that way: 1, and less beside an axis where a sphere touches
+    /// all around it. The normal force has the same share.
+    pub slope: f64,
 }
+
+/// Share of the radius of a sphere in which its centre may come from one side of a surface to the other in one time step: a
+/// particle goes half of it at most, a surface [`SLOW`] of it.
+pub const DEEP: f64 = 0.8;
+
+/// Share of the smallest radius that a surface goes in a time step without a look at all particles.
+pub const SLOW: f64 = 0.25;
+
+/// Halvings of the way of a centre before what is still as near as a half counts as passed.
+const HALVINGS: u32 = 12;
+
+/// What rounding may take from a half of a way, with room.
+const ROOM: f64 = 1.125;
 
 /// A feature of negative weight between two faces that both carry the sphere. It has no friction of its own; that of the
 /// faces becomes less.
@@ -51,6 +65,8 @@ pub struct Feet {
     pub list: Vec<Foot>,
     /// The saddles among them.
     pub saddles: Vec<Saddle>,
+    /// Whether the centre is behind a part that does not count from there, and nearer to it than [`DEEP`] of the radius.
+    pub behind: bool,
     /// Room for who finds them.
     pub(crate) room: [Vec<u32>; 2],
 }
@@ -60,6 +76,12 @@ impl Feet {
     pub fn clear(&mut self) {
         self.list.clear();
         self.saddles.clear();
+        self.behind = false;
+    }
+
+    /// Whether the centre of a sphere with this radius \[m\] may just have come through the surface.
+    pub fn are_deep(&self, radius: f64) -> bool {
+        self.behind || self.list.iter().any(|foot| foot.distance < DEEP * radius)
     }
 
     /// The foot on a feature.
@@ -96,15 +118,13 @@ pub struct OnPlanes {
     pub touching: u32,
     /// A bit for each that does not touch its plane. Of the rest nothing is known: all parts are to be looked at.
     pub away: u32,
-    /// A bit for each whose centre is behind the part.
-    pub behind: u32,
 }
 
 impl OnPlanes {
     /// No spheres.
     pub fn none() -> Self {
         let rows = [[0.0; 4]; TOGETHER];
-        Self { count: 0, sphere: rows, feature: [NO_PLANE; TOGETHER], foot: rows, touching: 0, away: 0, behind: 0 }
+        Self { count: 0, sphere: rows, feature: [NO_PLANE; TOGETHER], foot: rows, touching: 0, away: 0 }
     }
 }
 
@@ -118,6 +138,11 @@ pub trait Features: Debug + Send + Sync {
 
     /// Finds the feet on these parts that are nearer to a centre than `radius` \[m\].
     fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet);
+
+    /// Whether the straight way of a centre, as the surface sees it, leads through it \[m\].
+    fn is_passed(&self, way: [Vector; 2]) -> bool {
+        is_passed(self, way, HALVINGS, &mut Vec::new())
+    }
 
     /// The feature of the first of these parts, all that are within reach of a centre \[m\], if they lie in one plane that goes on
     /// to the end of this reach.
@@ -137,4 +162,42 @@ pub trait Features: Debug + Send + Sync {
 
     /// The largest distance of its points from a point; infinite where it has no end \[m\].
     fn extent(&self, point: Vector) -> f64;
+}
+
+/// Whether a sphere with this radius \[m\] touches a surface somewhere on the straight way of its centre \[m\], and at neither end.
+pub fn is_skipped(surface: &dyn Features, [from, to]: [Vector; 2], radius: f64) -> bool {
+    let mut parts = Vec::new();
+    let mut touches = |centre: Vector, reach: f64| {
+        parts.clear();
+        surface.near(centre, reach, &mut parts);
+        !parts.is_empty()
+    };
+    let mut waiting = vec![([from, to], HALVINGS)];
+    if touches(from, radius) || touches(to, radius) {
+        return false;
+    }
+    while let Some(([from, to], halvings)) = waiting.pop() {
+        let (half, middle) = (0.5 * (to - from).length(), (from + to) * 0.5);
+        if !touches(middle, half + radius) {
+            continue;
+        }
+        if touches(middle, radius) {
+            return true;
+        }
+        if halvings > 0 && half > SLOW * radius {
+            waiting.extend([[middle, to], [from, middle]].map(|way| (way, halvings - 1)));
+        }
+    }
+    false
+}
+
+/// Whether the way of a centre leads through a surface, by what is near to the middle of ever smaller parts of it.
+fn is_passed(surface: &(impl Features + ?Sized), [from, to]: [Vector; 2], halvings: u32, parts: &mut Vec<u32>) -> bool {
+    let (half, middle) = (0.5 * (to - from).length(), (from + to) * 0.5);
+    parts.clear();
+    surface.near(middle, ROOM * half, parts);
+    if parts.is_empty() || half == 0.0 || halvings == 0 {
+        return !parts.is_empty() && half > 0.0;
+    }
+    is_passed(surface, [from, middle], halvings - 1, parts) || is_passed(surface, [middle, to], halvings - 1, parts)
 }

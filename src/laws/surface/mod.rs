@@ -18,7 +18,7 @@ pub(crate) mod rectangle;
 pub(crate) mod revolution;
 
 pub use facets::Facets;
-pub use feet::{Features, Feet, Foot, NO_PLANE, OnPlanes, Saddle, TOGETHER};
+pub use feet::{DEEP, Features, Feet, Foot, NO_PLANE, OnPlanes, SLOW, Saddle, TOGETHER, is_skipped};
 pub use group::{Group, Selection};
 pub use mesh::{Deforming, NodeWeights};
 pub use plane::Plane;
@@ -128,6 +128,11 @@ pub trait Surface: Debug + Send + Sync {
     /// What it looks like at time 0; nothing for a group, which looks like its particles. A surface without end is shown as far
     /// as these points are beside it \[m\].
     fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+        None
+    }
+
+    /// Two edges of it that are nearer than this \[m\] and were probably meant as one, in words.
+    fn crack(&self, _within: f64) -> Option<String> {
         None
     }
 

@@ -89,9 +89,13 @@ impl Features for Plane {
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let distance = self.height(centre.to_array());
         if distance <= radius {
-            let (normal, behind) = (self.normal.into(), distance < 0.0);
-            feet.list.push(Foot { feature: 0, distance, normal, weight: 1.0, behind });
+            feet.list.push(Foot { feature: 0, distance, normal: self.normal.into(), weight: 1.0, slope: 1.0 });
         }
+    }
+
+    /// Everything behind the plane is near it: only the way out of its front leads through.
+    fn is_passed(&self, [from, to]: [Vector; 2]) -> bool {
+        self.height(from.to_array()) >= 0.0 && self.height(to.to_array()) < 0.0
     }
 
     fn meet(&self, _one: u32, _other: u32) -> bool {

@@ -3,8 +3,19 @@
 //! In the half plane through the axis and the centre of a sphere, q away from the axis and z along it, the nearest point of
 //! each turned segment is that of the segment itself. So the rule of [`super::feet`] holds in two dimensions: segments
 //! count +1, corners of k segments 1 − k.
+//!
+//! A sphere around the axis may also touch the far side of a ring, with the overlap δ' beside δ on the near one. Its force
+//! is that of one overlap h of both, whose gradient leads from the near normal to the axis:
+//!
+//! ```text
+//! h = δ (1 + (r³ − r²)/2),  r = δ'/δ      ∇h = (1 + r²/2 − r³) n + (3r²/2 − r) n'
+//! ```
+//!
+//! h is δ where the far side is out of touch and on the axis, where the parts of n and n' across it cancel. The energy is
+//! that of h, so the force is continuous and conservative.
 
 use super::Surface;
+use super::cylinder::FAR;
 use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
 use crate::base::number::Vector;
@@ -13,9 +24,6 @@ use std::f64::consts::TAU;
 
 /// Facets around the axis, where the surface is shown.
 const AROUND: usize = 64;
-
-/// Below this share of the profile's size a distance from the axis has no direction.
-const ON_AXIS: f64 = 1e-14;
 
 /// A profile turned about an axis. It is touched from both sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +40,8 @@ pub(super) struct Revolution {
     corners: Vec<[f64; 2]>,
     /// The corners at the ends of each segment.
     segments: Vec<[u32; 2]>,
-    /// Size of the profile \[m\].
-    size: f64,
+    /// The segments that end in each corner, ascending.
+    at_corner: Vec<Vec<u32>>,
 }
 
 /// The nearest point of a segment.
@@ -47,8 +55,6 @@ struct Nearest {
     corner: Option<u32>,
     /// Along the segment from its first corner \[m\].
     along: f64,
-    /// Whether the centre is on the side to the left of the segment.
-    behind: bool,
 }
 
 impl Revolution {
@@ -72,17 +78,25 @@ impl Revolution {
             }
             last = Some(place);
         }
-        let size = corners.iter().map(|[q, z]| q.abs().max(z.abs())).fold(0.0, f64::max);
-        Self { key, material, origin, axis, corners, segments, size }
+        let ends = |corner| (0..).zip(&segments).filter(move |(_, ends)| ends.contains(&corner));
+        let at_corner = (0..corners.len() as u32).map(|corner| ends(corner).map(|(segment, _)| segment).collect());
+        Self { key, material, origin, axis, at_corner: at_corner.collect(), corners, segments }
     }
 
-    /// A centre in the half plane: q, z, and the direction away from the axis, if it has one.
-    fn in_profile(&self, centre: Vector) -> ([f64; 2], Option<Vector>) {
+    /// A centre in the half plane: q, z, and the direction away from the axis; on the axis any.
+    #[inline(always)]
+    fn in_profile(&self, centre: Vector) -> ([f64; 2], Vector) {
         let apart = centre - self.origin;
         let z = apart.dot(self.axis);
-        let across = apart - self.axis * z;
-        let q = across.length();
-        ([q, z], (q > ON_AXIS * self.size).then(|| across * (1.0 / q)))
+        let out = apart - self.axis * z;
+        let q = out.length();
+        ([q, z], if q >= f64::MIN_POSITIVE { out * (1.0 / q) } else { self.any_way_out() })
+    }
+
+    /// A direction across the axis.
+    #[cold]
+    fn any_way_out(&self) -> Vector {
+        across(self.axis)[0]
     }
 
     /// The nearest point of a segment.
@@ -96,7 +110,7 @@ impl Revolution {
         let at = |corner: [f64; 2], place: u32, along: f64| {
             let apart = [q - corner[0], z - corner[1]];
             let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
-            Nearest { apart, distance, corner: Some(place), along, behind: false }
+            Nearest { apart, distance, corner: Some(place), along }
         };
         if along <= 0.0 {
             return at(a, from, 0.0);
@@ -106,73 +120,106 @@ impl Revolution {
         }
         // The distance from the line itself: a wall along or across the axis then has the bits of a cylinder or a plane.
         let across = apart[0] * unit[1] - apart[1] * unit[0];
-        Nearest {
-            apart: [unit[1] * across, -unit[0] * across],
-            distance: across.abs(),
-            corner: None,
-            along,
-            behind: across < 0.0,
-        }
+        Nearest { apart: [unit[1] * across, -unit[0] * across], distance: across.abs(), corner: None, along }
     }
 
-    /// A direction of the half plane in space; on the axis, along it.
-    fn in_space(&self, [q, z]: [f64; 2], outwards: Option<Vector>) -> Vector {
-        match outwards {
-            Some(outwards) => outwards * q + self.axis * z,
-            None => self.axis * if z < 0.0 { -1.0 } else { 1.0 },
-        }
+    /// Whether a segment is nowhere near a centre: the box around it is further than `reach` \[m\].
+    fn is_apart(&self, [q, z]: [f64; 2], [from, to]: [u32; 2], reach: f64) -> bool {
+        let (a, b) = (self.corners[from as usize], self.corners[to as usize]);
+        let beyond = |place: f64, a: f64, b: f64| (a.min(b) - place).max(place - a.max(b));
+        beyond(q, a[0], b[0]) > reach || beyond(z, a[1], b[1]) > reach
     }
 
-    /// The segments that end in a corner.
-    fn at_corner(&self, corner: u32) -> impl Iterator<Item = usize> + '_ {
-        (0..self.segments.len()).filter(move |segment| self.segments[*segment].contains(&corner))
+    /// The foot of a sphere with this radius \[m\], whose centre is this one in the half plane, on a feature of which this is the
+    /// nearest point.
+    fn foot(&self, (place, outwards): ([f64; 2], Vector), radius: f64, at: (u32, &Nearest, f64)) -> Foot {
+        let (feature, nearest, weight) = at;
+        let Nearest { apart, distance, .. } = *nearest;
+        let unit =
+            |apart: [f64; 2], distance: f64| if distance > 0.0 { apart.map(|it| it / distance) } else { [1.0, 0.0] };
+        let near = unit(apart, distance);
+        let foot = |distance: f64, [q, z]: [f64; 2], slope: f64| Foot {
+            feature,
+            distance,
+            normal: outwards * q + self.axis * z,
+            weight,
+            slope,
+        };
+        // Beyond the axis the sphere reaches as far as its radius goes beyond the distance from it.
+        let far = if place[0] < radius { self.far_side(place, feature) } else { None };
+        let Some(far) = far.filter(|far| far.distance < radius && distance < radius) else {
+            return foot(distance, near, 1.0);
+        };
+        let [depth, beyond] = [radius - distance, radius - far.distance];
+        let ratio = (beyond / depth).min(1.0);
+        let other = unit([-far.apart[0], far.apart[1]], far.distance);
+        let [share, rest] = [1.0 + ratio * ratio * (0.5 - ratio), ratio * (1.5 * ratio - 1.0)];
+        let slope = [0, 1].map(|axis| share * near[axis] + rest * other[axis]);
+        let steep = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+        let overlap = depth * (1.0 + 0.5 * ratio * ratio * (ratio - 1.0));
+        let normal = if steep > 0.0 { slope.map(|part| part / steep) } else { near };
+        foot(radius - overlap, normal, steep)
+    }
+
+    /// The nearest point of a feature on the other side of the axis, if the feature has one of its own there.
+    fn far_side(&self, [q, z]: [f64; 2], feature: u32) -> Option<Nearest> {
+        match feature.checked_sub(self.segments.len() as u32) {
+            Some(corner) => Some(self.at([-q, z], corner)).filter(|_| self.corners[corner as usize][0] > 0.0),
+            None => Some(self.nearest([-q, z], self.segments[feature as usize])).filter(|far| far.corner.is_none()),
+        }
     }
 }
 
 impl Features for Revolution {
     fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>) {
         let (place, _) = self.in_profile(centre);
-        if self.segments.iter().any(|segment| self.nearest(place, *segment).distance <= reach) {
-            parts.push(0);
-        }
+        let within = |segment: &[u32; 2]| {
+            !self.is_apart(place, *segment, reach) && self.nearest(place, *segment).distance <= reach
+        };
+        parts.extend((0..).zip(&self.segments).filter(|(_, segment)| within(segment)).map(|(number, _)| number));
     }
 
     fn counts(&self) -> [usize; 2] {
-        [1, self.segments.len() + self.corners.len()]
+        [self.segments.len(), self.segments.len() + self.corners.len()]
     }
 
-    fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
+    fn feet(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
         let (place, outwards) = self.in_profile(centre);
-        let foot = |feature: usize, nearest: &Nearest, weight: i32| {
-            let Nearest { apart, distance, .. } = *nearest;
-            let unit = if distance > 0.0 { apart.map(|part| part / distance) } else { [1.0, 0.0] };
-            let normal = self.in_space(unit, outwards);
-            Foot { feature: feature as u32, distance, normal, weight: f64::from(weight), behind: nearest.behind }
-        };
-        let count = self.segments.len();
-        for (number, segment) in self.segments.iter().enumerate() {
-            let nearest = self.nearest(place, *segment);
+        let count = self.segments.len() as u32;
+        let Feet { list, room: [corners, _], .. } = feet;
+        corners.clear();
+        for &segment in parts {
+            let ends = self.segments[segment as usize];
+            let nearest = self.nearest(place, ends);
             if nearest.corner.is_none() && nearest.distance <= radius {
-                feet.list.push(foot(number, &nearest, 1));
+                list.push(self.foot((place, outwards), radius, (segment, &nearest, 1.0)));
+            }
+            for end in ends {
+                // Segments follow each other: mostly it is the last one.
+                if !corners.contains(&end) {
+                    corners.push(end);
+                }
             }
         }
-        for corner in 0..self.corners.len() as u32 {
+        if !corners.is_sorted() {
+            corners.sort_unstable();
+        }
+        let corners = std::mem::take(corners);
+        for &corner in &corners {
             let (mut weight, mut here) = (1, None);
             let (mut inside, mut count_inside) = ([None; 2], 0);
-            for segment in self.at_corner(corner) {
-                let nearest = self.nearest(place, self.segments[segment]);
+            for &segment in &self.at_corner[corner as usize] {
+                let ends = self.segments[segment as usize];
+                let nearest = self.nearest(place, ends);
                 match nearest.corner {
                     Some(end) if end == corner => here = Some(nearest),
                     _ => {
                         weight -= 1;
                         if nearest.corner.is_none() && nearest.distance <= radius {
-                            let from_end = if self.segments[segment][0] == corner {
-                                nearest.along
-                            } else {
-                                self.length(segment) - nearest.along
-                            };
+                            let from_end =
+                                if ends[0] == corner { nearest.along } else { self.length(ends) - nearest.along };
                             if let Some(place) = inside.get_mut(count_inside) {
-                                *place = Some((segment as u32, from_end));
+                                *place = Some((segment, from_end));
                             }
                             count_inside += 1;
                         }
@@ -186,12 +233,13 @@ impl Features for Revolution {
             if nearest.distance > radius {
                 continue;
             }
-            let feature = count + corner as usize;
-            feet.list.push(foot(feature, &nearest, weight));
+            let feature = count + corner;
+            feet.list.push(self.foot((place, outwards), radius, (feature, &nearest, f64::from(weight))));
             if let ([Some((one, x)), Some((other, y))], 2, true) = (inside, count_inside, weight < 0) {
-                feet.add_saddle(feature as u32, [one, other], [x, y]);
+                feet.add_saddle(feature, [one, other], [x, y]);
             }
         }
+        feet.room[0] = corners;
     }
 
     fn meet(&self, one: u32, other: u32) -> bool {
@@ -211,9 +259,9 @@ impl Features for Revolution {
 }
 
 impl Revolution {
-    /// Length of a segment \[m\].
-    fn length(&self, segment: usize) -> f64 {
-        let [a, b] = self.segments[segment].map(|corner| self.corners[corner as usize]);
+    /// Length of a segment with these ends \[m\].
+    fn length(&self, ends: [u32; 2]) -> f64 {
+        let [a, b] = ends.map(|corner| self.corners[corner as usize]);
         ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt()
     }
 
@@ -222,7 +270,7 @@ impl Revolution {
         let [a, b] = self.corners[corner as usize];
         let apart = [q - a, z - b];
         let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
-        Nearest { apart, distance, corner: Some(corner), along: 0.0, behind: false }
+        Nearest { apart, distance, corner: Some(corner), along: 0.0 }
     }
 }
 
@@ -252,12 +300,15 @@ impl Surface for Revolution {
         true
     }
 
-    fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
+    fn facets(&self, beside: &[Vector]) -> Option<Facets> {
         let (directions, mut facets) = (across(self.axis), Facets::default());
+        let beside = beside.iter().map(|place| (*place - self.origin).dot(self.axis));
+        let [low, high] = beside.fold([0.0_f64; 2], |[low, high], z| [low.min(z), high.max(z)]);
         // The points of each corner of the profile: one on the axis, or one for each facet around it.
         let mut starts = Vec::with_capacity(self.corners.len());
         for [q, z] in &self.corners {
-            let middle = self.origin + self.axis * *z;
+            let z = if z.abs() < FAR { *z } else { z.clamp(low, high) };
+            let middle = self.origin + self.axis * z;
             starts.push(facets.points.len() as u32);
             let count = if *q == 0.0 { 1 } else { AROUND };
             facets.points.extend((0..count).map(|place| {
@@ -281,8 +332,46 @@ impl Surface for Revolution {
         let (place, outwards) = self.in_profile(point);
         let distance = |segment: &usize| self.nearest(place, self.segments[*segment]).distance;
         let segment = (0..self.segments.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-        let [along, up] = across(self.axis).map(|across| outwards.map_or(1.0, |outwards| outwards.dot(across)));
+        let [along, up] = across(self.axis).map(|across| outwards.dot(across));
         let turn = libm::atan2(up, along).rem_euclid(TAU) / TAU;
         segment * AROUND + ((turn * AROUND as f64) as usize).min(AROUND - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A vessel of so many rings.
+    fn vessel(rings: u32) -> Revolution {
+        let corner = |k: u32| [0.05 + 0.02 * libm::sin(0.4 * f64::from(k)), 0.01 * f64::from(k)];
+        let profile: Vec<_> = [[0.0, 0.0]].into_iter().chain((0..rings).map(corner)).collect();
+        Revolution::of("revolution", MaterialIndex(0), (Vector::zero(), Vector::new(0.0, 0.6, 0.8)), &profile)
+    }
+
+    #[test]
+    fn feet_of_the_segments_within_reach_are_those_of_all() {
+        let vessel = vessel(62);
+        let all: Vec<u32> = (0..vessel.segments.len() as u32).collect();
+        let (mut near, mut found, mut expected, mut most, mut touched) =
+            (Vec::new(), Feet::default(), Feet::default(), 0, 0);
+        for number in 0..20_000_u32 {
+            let part = |ratio: f64| (f64::from(number) * ratio).fract();
+            let centre = Vector::new(part(0.754_877_67) - 0.5, part(0.569_840_29) - 0.5, part(0.430_159_71) - 0.5)
+                * 0.2
+                + vessel.axis * (0.6 * part(0.32));
+            let radius = 0.002 + 0.01 * part(0.618_033_99);
+            near.clear();
+            found.clear();
+            expected.clear();
+            vessel.near(centre, radius + 0.001, &mut near);
+            most = most.max(near.len());
+            vessel.feet(centre, radius, &near, &mut found);
+            vessel.feet(centre, radius, &all, &mut expected);
+            assert_eq!(found.list, expected.list);
+            assert_eq!(found.saddles, expected.saddles);
+            touched += found.list.len();
+        }
+        assert!(most < 8 && touched > 1000, "{most} segments near, {touched} touched");
     }
 }

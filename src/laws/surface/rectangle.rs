@@ -93,9 +93,7 @@ impl Features for Rectangle {
     fn feet(&self, centre: Vector, radius: f64, _parts: &[u32], feet: &mut Feet) {
         let (distance, normal) = self.nearest(centre);
         if distance <= radius {
-            // Where the foot is on the rim the normal leans, and the centre may go round.
-            let behind = normal == -self.normal;
-            feet.list.push(Foot { feature: 0, distance, normal, weight: 1.0, behind });
+            feet.list.push(Foot { feature: 0, distance, normal, weight: 1.0, slope: 1.0 });
         }
     }
 

@@ -7,7 +7,8 @@ use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Particle, Run, Scene, SceneDraft, Shape, Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Run, Scene, SceneDraft,
+    Shape, Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -108,6 +109,7 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
         nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         body: Body::default(),
+        outside: Outside::default(),
     });
     let without = Arc::new(without.build().ok()?);
     let cost = |scene: &Arc<Scene>| {

@@ -80,7 +80,7 @@ pub struct Report {
 pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Result<Report, Refusal> {
     let interface = Interface::of(scene);
     let chosen = interface.check_names(scene);
-    chosen.map_err(|source| Refusal::Chosen { scene: scene_name.to_owned(), source })?;
+    chosen.map_err(|source| Refusal::Chosen { scene: scene_name.to_owned(), source: Box::new(source) })?;
     let schedule = scene.run.end.map(|end| Schedule::new(scene, scene_name, end)).transpose()?;
     let (mut simulation, left_behind) = begin(scene, scene_name, from)?;
     if let Some(schedule) = &schedule {
@@ -249,6 +249,8 @@ fn exchange(scene: &Scene) -> Vec<String> {
     if scene.domain.is_some() && scene.outside == Outside::Remove {
         uses.push("domain: takes away what leaves it".to_owned());
     }
+    let through = scene.boundaries.iter().filter(|boundary| boundary.outside == Outside::Remove);
+    uses.extend(through.map(|boundary| format!("boundary {}: takes away what comes through it", boundary.name)));
     uses
 }
 
@@ -289,7 +291,8 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> String {
     let chosen = format!("{chosen}, accuracy {}, scheme {}", scene.run.accuracy.name(), scene.run.scheme.name());
     let limit = simulation.limit();
     if !limit.safe.is_finite() {
-        return format!("{step:.4e} s ({chosen}); nothing is stiff, no bound");
+        let most = if matches!(scene.run.step, Step::Automatic { .. }) { " at most" } else { "" };
+        return format!("{step:.4e} s{most} ({chosen}); nothing is stiff, no bound");
     }
     let by = limit.by.map_or_else(String::new, |by| format!(", limited by {}", simulation.words(&by)));
     format!("{step:.4e} s ({chosen}), {:.3} of the stable one, {:.4e} s{by}", step / limit.safe, limit.safe)

@@ -5,7 +5,6 @@ use crate::base::quantity::NonNegative;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
 use crate::laws::contact::PairProperties;
-use crate::scene::Output;
 use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
 use std::sync::Arc;
 use std::time::Duration;
@@ -111,13 +110,15 @@ fn unused(scene: &Scene) -> Vec<Unused> {
     for bond in 0..scene.bonds.len() {
         unused.extend(without_breakage(scene, bond));
     }
-    let books: [(&str, bool, fn(&mut Output)); 2] = [
-        ("energy", scene.output.energy, |output| output.energy = false),
-        ("losses", scene.output.losses, |output| output.losses = false),
-    ];
-    for (key, _, drop) in books.into_iter().filter(|(_, kept, _)| *kept && !is_read(scene)) {
+    for (key, is_kept) in [("energy", scene.output.energy), ("losses", scene.output.losses)] {
+        if !is_kept || is_read(scene) {
+            continue;
+        }
         let mut without = SceneDraft::clone(scene);
-        drop(&mut without.output);
+        match key {
+            "energy" => without.output.energy = false,
+            _ => without.output.losses = false,
+        }
         let what = format!("[output] {key}: the book is kept, and no row of history.csv has it, only summary.json");
         unused.push(Unused { what, without });
     }

@@ -53,7 +53,11 @@ impl fmt::Display for StiffnessReport {
                 one.residual
             )?;
         }
-        for (what, list) in ["held by nothing", "loose in some direction"].iter().zip(&self.unheld) {
+        for (what, list) in
+            ["held by nothing, or by one contact, and left out", "loose in some direction, and held along it"]
+                .iter()
+                .zip(&self.unheld)
+        {
             if !list.is_empty() {
                 let named: Vec<_> = list.iter().take(NAMED).map(u32::to_string).collect();
                 let more = if list.len() > NAMED { ", .." } else { "" };

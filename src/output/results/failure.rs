@@ -107,8 +107,8 @@ pub enum Refusal {
     Chosen {
         /// File name of the scene.
         scene: String,
-        /// Which.
-        source: ChosenError,
+        /// Which; in a place of its own, since it is large.
+        source: Box<ChosenError>,
     },
     /// More outputs than anybody can mean.
     #[error(

@@ -9,6 +9,7 @@
 
 use super::failure::Refusal;
 use super::frame_files::Frame;
+use crate::base::number::binade;
 use crate::engine::simulation::divide;
 use crate::engine::state::clock::MOST_STEPS;
 use crate::scene::{Scene, Step};
@@ -29,6 +30,9 @@ const SAME: f64 = 1e-9;
 /// Two times closer than this part of themselves differ by rounding alone: they are one, too.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Powers of two among which one is looked for that holds a whole number of intervals.
+const MOST_DOUBLINGS: u32 = 31;
+
 /// A saved time may be off by this part of the shortest interval.
 const NEAR: f64 = 1e-3;
 
@@ -40,22 +44,27 @@ const ARRIVED: f64 = 1e-6;
 struct Series {
     /// Interval \[s\].
     interval: f64,
-    /// Outputs in a second, where that is a whole number: dividing by it gives the decimal numbers a reader expects.
-    per_second: Option<f64>,
+    /// Outputs in a power of two of seconds, where that is a whole number, and that power \[s\]: dividing gives the decimal numbers a
+    /// reader expects, in any units.
+    whole: Option<[f64; 2]>,
 }
 
 impl Series {
     /// Times at this interval \[s\].
     fn every(interval: f64) -> Self {
-        let rate = (1.0 / interval).round();
-        let whole = rate >= 1.0 && (rate * interval - 1.0).abs() < ROUNDING;
-        Self { interval, per_second: whole.then_some(rate) }
+        let unit = binade(1.0 / interval);
+        let whole = (0..=MOST_DOUBLINGS).find_map(|doublings| {
+            let times = f64::from(1_u32 << doublings);
+            let count = (times / (interval * unit)).round();
+            ((count * (interval * unit) - times).abs() < ROUNDING * times).then_some([count, times / unit])
+        });
+        Self { interval, whole }
     }
 
     /// The time of output `count` \[s\].
     fn time(self, count: u64) -> f64 {
-        match self.per_second {
-            Some(rate) => count as f64 / rate,
+        match self.whole {
+            Some([whole, unit]) => count as f64 / whole * unit,
             None => count as f64 * self.interval,
         }
     }

@@ -97,7 +97,7 @@ impl<'a> Session<'a> {
         let scene_name = || order.scene_name.to_owned();
         let interface = Interface::of(order.scene);
         let chosen = interface.check_names(order.scene);
-        chosen.map_err(|source| Refusal::Chosen { scene: scene_name(), source })?;
+        chosen.map_err(|source| Refusal::Chosen { scene: scene_name(), source: Box::new(source) })?;
         let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
         let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
         let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;

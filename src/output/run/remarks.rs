@@ -4,7 +4,7 @@ use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
-use crate::scene::{AxisMotion, ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -14,6 +14,10 @@ const USUAL_MODULI: [f64; 2] = [5e6, 1e9];
 
 /// Cohesion energy density over effective modulus from which contacts at rest are visibly pulled together.
 const DEEP_COHESION: f64 = 0.03;
+
+/// Width of a crack between triangles over the smallest radius, below which a sphere over it touches both sides as if each were
+/// there alone.
+const OF_A_CRACK: f64 = 0.1;
 
 /// Overlap over radius above which contact laws are hardly valid.
 const DEEP_OVERLAP: f64 = 0.05;
@@ -32,6 +36,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(idle(scene));
     remarks.extend(columns(scene));
     remarks.extend(passed_through(scene));
+    remarks.extend(cracks(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(overlap(simulation));
@@ -39,6 +44,15 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(full(scene, simulation));
     remarks.extend(missed(scene, simulation));
     remarks
+}
+
+/// On edges of meshes that are nearly one.
+fn cracks(scene: &Scene) -> Vec<String> {
+    let within = OF_A_CRACK * scene.radii().fold(f64::INFINITY, f64::min);
+    let crack = |boundary: &Boundary| Some((boundary.name.clone(), boundary.shape.crack(within)?));
+    let told = scene.boundaries.iter().filter_map(crack);
+    told.map(|(name, crack)| format!("[boundary.{name}] mesh: {crack}; weld_distance above that makes them one"))
+        .collect()
 }
 
 /// On a given step near the stable one.

@@ -16,7 +16,7 @@ type Wrong = (&'static str, Mistake);
 /// Sizes, amount, velocity \[m/s\] and scatter \[m/s\] of what comes.
 type Read = (Sizes, Amount, [f64; 3], f64);
 
-/// What happens to a particle outside the domain.
+/// What happens to a particle outside the domain, or that came through a boundary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outside {

@@ -2,7 +2,7 @@
 
 use crate::base::document::Mistake;
 use crate::base::quantity::{BoundaryIndex, MaterialIndex};
-use crate::scene::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Polygon, Sizes};
+use crate::scene::exchange::{Amount, BeyondKeys, InsertionKeys, MeterKeys, OutletKeys, Outside, Polygon, Sizes};
 use crate::scene::{Boundary, ParticleShape, SceneDraft};
 
 /// `[insertion.<name>]`: particles that come.
@@ -200,7 +200,8 @@ impl SceneDraft {
 
     /// Whether particles go.
     pub fn removes(&self) -> bool {
-        !self.outlets.is_empty() || self.domain.is_some() && self.outside == crate::scene::exchange::Outside::Remove
+        let domain = self.domain.is_some() && self.outside == Outside::Remove;
+        domain || !self.outlets.is_empty() || self.boundaries.iter().any(|it| it.outside == Outside::Remove)
     }
 
     /// Whether there are particles, now or later.

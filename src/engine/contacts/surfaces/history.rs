@@ -65,7 +65,7 @@ pub(super) fn source(
         return None;
     }
     let own = past.entry(entries, feature);
-    if own.is_some() || weight <= 0.0 {
+    if own.is_some() || weight < 0.0 {
         return own;
     }
     inherited(feature, present, (past, entries), features, law)

@@ -10,7 +10,7 @@ mod nodes;
 mod plane;
 mod sphere;
 
-use super::ahead::{Link, SearchLimits};
+use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
 use super::pass::Pass;
 use super::records::ContactRecord;
@@ -18,14 +18,14 @@ use crate::base::lanes::{Shared, Width};
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;
+use crate::engine::boundaries::passing::Passing;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
-use crate::engine::contacts::coefficients::{CoefficientTable, Partners};
+use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
-use crate::laws::contact::Response;
 use crate::laws::surface::{self, Deforming};
-use crate::scene::{Boundary, Scene, Shape};
+use crate::scene::{Boundary, Outside, Scene, Shape};
 use features::{ColumnBuffer, FeatureContacts};
 use plane::{AtPlane, Plane, PlaneList};
 use sphere::{Load, ParticleLoads};
@@ -39,6 +39,8 @@ const PIECE: usize = 2 * CHUNK;
 pub(crate) struct SurfacePass {
     /// The surfaces, in the order of their lists.
     surfaces: Vec<AtSurface>,
+    /// How particles came to where they are, as surfaces see it.
+    passing: Passing,
     /// Working space of a step.
     workspace: Mutex<Workspace>,
 }
@@ -51,6 +53,8 @@ pub(super) struct AtSurface {
     name: String,
     /// What is touched.
     touched: Touched,
+    /// Whether what came through it is taken away.
+    removes: bool,
     /// Index of its material.
     material: u32,
     /// Point about which the moment is taken, at time 0 \[m\].
@@ -102,6 +106,10 @@ struct Work<'a> {
     nodes: &'a [Nodes],
     /// Particles.
     particles: ParticleLoads<'a>,
+    /// How they came to where they are.
+    passing: &'a Passing,
+    /// Whether a boundary went so far in the present time step that what it went over may not be near it any more.
+    far: bool,
     /// The threads.
     context: &'a Context<'a>,
 }
@@ -128,6 +136,7 @@ impl AtSurface {
             index,
             name: boundary.name.clone(),
             touched,
+            removes: boundary.outside == Outside::Remove,
             material: boundary.shape.material().map_or(0, |material| material.0),
             reference: boundary.reference.into(),
             conveying,
@@ -217,6 +226,8 @@ impl AtSurface {
         }
         match behind {
             None => Ok(()),
+            // It goes in the next time step.
+            Some(_) if self.removes => Ok(()),
             Some(slot) => Err(RunError::Behind {
                 id: state.particles.id[slot as usize],
                 boundary: self.name.clone(),
@@ -234,7 +245,7 @@ impl SurfacePass {
             AtSurface::of(scene, index, (&scene.boundaries[boundary as usize], law as usize))
         };
         let surfaces: Vec<AtSurface> = meetings.iter().enumerate().map(surface).collect();
-        (!surfaces.is_empty()).then(|| Self { surfaces, workspace: Mutex::default() })
+        (!surfaces.is_empty()).then(|| Self { surfaces, passing: Passing::of(scene), workspace: Mutex::default() })
     }
 }
 
@@ -254,12 +265,15 @@ impl Pass for SurfacePass {
         workspace.contacts.resize_with(pieces * count, FeatureContacts::default);
         workspace.spare.resize_with(count, ColumnBuffer::default);
         let particles = state.particles.len();
+        let far = context.step > 0.0 && self.passing.went_far(state);
         let work = Work {
             walls: &state.walls,
             entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
             particles: ParticleLoads::of(&mut state.particles),
+            passing: &self.passing,
+            far,
             context,
         };
         let (loads, contacts) = (Shared::new(&mut workspace.loads), Shared::new(&mut workspace.contacts));
@@ -337,15 +351,11 @@ impl Pass for SurfacePass {
         }
     }
 
-    fn impacts(&self, radius: f64, mass: f64, speed: f64, tell: &mut dyn FnMut(Response)) {
+    fn impacts(&self, state: &State, meeting: &Meeting, tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {
+        let (first, None) = meeting.materials else { return };
         for surface in &self.surfaces {
-            let AtSurface { table, law, material, .. } = surface;
-            // Against a surface the effective radius and mass are the particle's own, twice those of an equal pair.
-            let (radius, mass) = (2.0 * radius, 2.0 * mass);
-            table
-                .stiffest(&law.law, Partners::Boundary(*material), radius, mass, speed)
-                .into_iter()
-                .for_each(&mut *tell);
+            let found = surface.table.impact(&surface.law.law, [first, surface.material], meeting);
+            found.into_iter().for_each(|parts| tell(Some(surface.list(state).boundary), parts));
         }
     }
 

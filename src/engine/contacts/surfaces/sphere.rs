@@ -2,6 +2,7 @@
 
 use crate::base::lanes::{Lane, Shared, vector};
 use crate::base::number::{Number, Vector, add, subtract};
+use crate::engine::boundaries::passing::MovedParticles;
 use crate::engine::contacts::batches::{ContactGeometry, Lost};
 use crate::engine::state::{Particles, Row};
 use crate::laws::contact::{Contact, Needs};
@@ -93,6 +94,8 @@ pub(super) struct ParticleLoads<'a> {
     angular_velocity: &'a [Row],
     /// Materials.
     pub(super) material: &'a [u32],
+    /// 0, or the boundary that carries the particle and 1.
+    owner: &'a [u32],
     /// Forces.
     force: Shared<Row>,
     /// Torques.
@@ -113,6 +116,7 @@ impl<'a> ParticleLoads<'a> {
             velocity: &particles.velocity,
             angular_velocity: &particles.angular_velocity,
             material: &particles.material,
+            owner: &particles.owner,
             force: Shared::new(&mut []),
             torque: Shared::new(&mut []),
         }
@@ -129,6 +133,11 @@ impl<'a> ParticleLoads<'a> {
             let spin = if TORQUE { N::load_rows(self.angular_velocity.as_ptr(), slots) } else { [N::zero(); 4] };
             [N::load_rows(self.velocity.as_ptr(), slots), spin]
         }
+    }
+
+    /// How they moved in a time step of this length \[s\].
+    pub(super) fn moved(&self, step: f64) -> MovedParticles<'a> {
+        MovedParticles { position: self.position, velocity: self.velocity, owner: self.owner, step }
     }
 
     /// Position, velocity and angular velocity of a particle.

@@ -113,6 +113,7 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
         moved.rotation = other.rotation;
         moved.orientation = other.orientation;
         moved.start_orientation = other.orientation;
+        moved.before = moved.stand();
         let [x, y, z] = other.displacement;
         let [a, b, c] = other.rotation;
         for (axis, place) in [x, y, z, a, b, c].into_iter().enumerate() {

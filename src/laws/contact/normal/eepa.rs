@@ -14,7 +14,9 @@ coefficients! {
     /// ```text
     /// n = 1:    k₁ = 2 E* R*           k_t = 2 E* √(R* δ)
     /// n = 3/2:  k₁ = 4/3 E* √R*        k_t = 8 G* √(R* δ)
-    /// k₂ = k₁ (k₂/k₁)                  γ_n = γ_t = √(4 m* k₁/(1 + (π/ln e)²))
+    /// k₂ = k₁ (k₂/k₁)
+    /// γ_n = γ_t = 2 |β| √(m* k₁)                       n = 1;  β = ln e/√(ln² e + π²)
+    /// γ_n = γ_t = 2 √(5/6) |β| √(3/2 m* k₁ √δ)          n = 3/2
     ///
     /// δ_p ← max(δ_p, δ (1 − k₁/k₂)^(1/n))
     /// F = k₁ δⁿ                        loading: where k₂ (δⁿ − δ_pⁿ) is not below it
@@ -36,7 +38,7 @@ coefficients! {
     /// | k₂/k₁    | stiffness of unloading over loading           | 1      | `unloading_stiffness_ratio` |
     /// | γ        | surface energy                                | J/m²   | `surface_energy`            |
     /// | f₀       | constant attraction while the bodies touch    | N      | `pull_off_force`            |
-    /// | e        | sets the damping; the restitution is lower    | 1      | `restitution`               |
+    /// | e        | restitution, lower where k₂ is above k₁       | 1      | `restitution`               |
     ///
     /// With `adhesion = "fixed"` (n = χ = 1) k_a is `adhesion_stiffness_ratio` times k₁ and δ_p is the largest overlap:
     ///
@@ -48,7 +50,8 @@ coefficients! {
     /// Everything is forgotten when the bodies part. Give the time step for k₂ at the largest load.
     ///
     /// With `engine_exact`, as the engine does: a = 0 at walls, so that surface energy does not act there; k_n for the
-    /// other sub-models is k₁, whatever n; `limit_force` does not see a fixed k_a and cuts it off.
+    /// other sub-models is k₁, and γ_n that of n = 1, whatever n: numbers that depend on the units; `limit_force` does not see a
+    /// fixed k_a and cuts it off.
     ///
     /// Source: J. P. Morrissey, PhD thesis, University of Edinburgh (2013); S. C. Thakur, J. P. Morrissey, J. Sun, J. F.
     /// Chen & J. Y. Ooi, *Granul. Matter* 16 (2014) 383–400; LIGGGHTS, model `edinburgh`.
@@ -107,15 +110,25 @@ pub struct Keys {
     pub engine_exact: bool,
 }
 
+impl Keys {
+    /// Whether loading is Hertz's.
+    fn is_hertzian(&self) -> bool {
+        self.overlap_exponent > 1.25
+    }
+}
+
 impl Normal for Eepa {
     const NAME: &'static str = "eepa";
     type Keys = Keys;
     type Form = Self;
-    const ONSET: Onset = Onset::Constant;
     const DAMPED_AT_TOUCH: bool = true;
 
+    fn onset(keys: &Keys) -> Onset {
+        if keys.is_hertzian() && !keys.engine_exact { Onset::FourthRoot } else { Onset::Constant }
+    }
+
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
-        let (modulus, linear) = (pair.effective_youngs_modulus()?, keys.overlap_exponent == 1.0);
+        let (modulus, linear) = (pair.effective_youngs_modulus()?, !keys.is_hertzian());
         let tangential = match (friction.stiffness, linear) {
             (false, _) => 0.0,
             (true, true) => 2.0 * modulus,
@@ -177,12 +190,12 @@ impl<N: Number> Eepa<N> {
         x * N::select(self.overlap_exponent.greater(N::splat(1.25)), x.sqrt(), N::splat(1.0))
     }
 
-    /// x^(1/n) of an x of 0 or above.
+    /// x^(1/n) of an x of 0 or above, by the effective radius: the cube root is that of a number without unit.
     #[inline(always)]
-    fn root(&self, x: N) -> N {
+    fn root(&self, x: N, radius: N) -> N {
         let x = x.max(N::zero());
-        let root = x.cube_root();
-        N::select(self.overlap_exponent.greater(N::splat(1.25)), root * root, x)
+        let root = (x / (radius * radius.sqrt())).cube_root();
+        N::select(self.overlap_exponent.greater(N::splat(1.25)), radius * (root * root), x)
     }
 
     /// x^χ of an x of 0 or above.
@@ -236,7 +249,7 @@ impl<N: Number> Eepa<N> {
             let elastic = unloading * raised - pressed;
             let (pull, half) = (self.pull_on_patch * self.patch(contact, found.plastic), N::splat(0.5) * pressed);
             let halved = pull.greater(half);
-            let least = self.root((pressed - pull) / unloading);
+            let least = self.root((pressed - pull) / unloading, contact.radius);
             let least = N::select(halved, N::splat(0.5) * found.plastic, least);
             let pull = N::select(halved, half, pull);
             let stiffness = N::select(least.greater(N::zero()), pull / self.adhering(least), N::zero());
@@ -249,7 +262,7 @@ impl<N: Number> Eepa<N> {
             let sticks = N::select(below, N::select(swings, N::zero(), N::splat(1.0)), N::zero());
             let again = N::both(sticks.greater(N::zero()), overlap.greater(before));
             open = N::both(open, again);
-            let anew = self.root(before_raised + stiffness / unloading * before_adhering);
+            let anew = self.root(before_raised + stiffness / unloading * before_adhering, contact.radius);
             found.plastic = N::select(open, anew, found.plastic);
             turn += 1;
         }
@@ -284,12 +297,17 @@ impl NormalForm for Eepa {
 
     #[inline(always)]
     fn response_at<N: Number>(law: Eepa<N>, contact: &Contact<N>, _roots: Roots<N>) -> Response<N> {
+        /// ⁵⁄₆ of the slope ³⁄₂ k₁ √δ, over k₁ √δ.
+        const OF_SLOPE: f64 = 1.25;
         let loading = law.loading(contact.radius);
-        let damping = (law.damping * contact.mass * loading).sqrt();
+        let one = N::splat(1.0);
         let bent = law.overlap_exponent.greater(N::splat(1.25));
-        let scaled = loading * N::select(bent, contact.overlap.sqrt(), N::splat(1.0));
+        let own = law.engine.greater(N::splat(0.5));
+        let scaled = N::select(own, loading, loading * N::select(bent, contact.overlap.sqrt(), one));
+        let weight = N::select(own, one, N::select(bent, N::splat(OF_SLOPE), one));
+        let damping = (law.damping * contact.mass * (weight * scaled)).sqrt();
         Response {
-            normal_stiffness: N::select(law.engine.greater(N::splat(0.5)), loading, scaled),
+            normal_stiffness: scaled,
             normal_damping: damping,
             tangential_stiffness: law.tangential_modulus * (contact.radius * contact.overlap).sqrt(),
             tangential_damping: damping,
@@ -345,8 +363,8 @@ impl NormalForm for Eepa {
 mod tests {
     use super::*;
     use crate::base::quantity::{NonNegative, Restitution};
-    use crate::laws::contact::PairProperties;
     use crate::laws::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
+    use crate::laws::contact::{NoKeys, PairProperties};
 
     /// E* = 1 Pa, k₂/k₁ = 4, elastic dashpot, surface energy or attraction as given.
     fn law(keys: Keys, surface_energy: f64) -> Eepa {
@@ -373,6 +391,22 @@ mod tests {
             normal.force
         };
         overlaps.iter().map(force).collect()
+    }
+
+    #[test]
+    fn damps_a_hertzian_contact_as_hertz_does_and_the_engine_whatever_the_exponent() {
+        let properties = PairProperties { restitution: Restitution::new(0.5), ..properties() };
+        let damping = |keys: Keys| {
+            let law = with_pair(&properties, |pair| Eepa::between(pair, &keys, ALL)).unwrap();
+            Eepa::response(law, &contact()).normal_damping
+        };
+        let hertz = with_pair(&properties, |pair| super::super::hertz::Hertz::between(pair, &NoKeys {}, ALL)).unwrap();
+        let expected = super::super::hertzian::Hertzian::response(hertz, &contact()).normal_damping;
+        assert_close(damping(keys(1.5, 2.0)), expected, 1e-14);
+        // k₁ of n = 3/2 in place of a stiffness: m* = 4 kg, E* = 1 Pa, R* = ¼ m
+        let log = libm::log(0.5);
+        let engine = (4.0 * log * log / (log * log + PI * PI) * 4.0 * (4.0 / 3.0 * 0.5)).sqrt();
+        assert_close(damping(Keys { engine_exact: true, ..keys(1.5, 2.0) }), engine, 1e-14);
     }
 
     #[test]

@@ -31,7 +31,10 @@ impl Normal for Hertz {
     const NAME: &'static str = "hertz";
     type Keys = NoKeys;
     type Form = Hertzian;
-    const ONSET: Onset = Onset::FourthRoot;
+
+    fn onset(_keys: &NoKeys) -> Onset {
+        Onset::FourthRoot
+    }
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         let log = libm::log(pair.restitution()?);

@@ -28,7 +28,10 @@ impl Normal for HertzStiffness {
     const NAME: &'static str = "hertz_stiffness";
     type Keys = NoKeys;
     type Form = Hertzian;
-    const ONSET: Onset = Onset::SquareRoot;
+
+    fn onset(_keys: &NoKeys) -> Onset {
+        Onset::SquareRoot
+    }
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         Ok(Hertzian::new(

@@ -48,15 +48,19 @@ pub struct Keys {
 
 /// k_n of effective Young's modulus \[Pa\], squared velocity \[m²/s²\], effective radius \[m\] and mass \[kg\].
 pub(super) fn stiffness(youngs_modulus: f64, squared_velocity: f64, radius: f64, mass: f64) -> f64 {
-    let modulus = radius.sqrt() * youngs_modulus;
-    16.0 / 15.0 * modulus * libm::pow(15.0 * mass * squared_velocity / (16.0 * modulus), 0.2)
+    let stiffness = 16.0 / 15.0 * radius * youngs_modulus;
+    // The fifth root of a number without unit: the same bits in any system of units whose factors are powers of two.
+    stiffness * libm::pow(mass * squared_velocity / (stiffness * radius * radius), 0.2)
 }
 
 impl Normal for Hooke {
     const NAME: &'static str = "hooke";
     type Keys = Keys;
     type Form = Self;
-    const ONSET: Onset = Onset::Constant;
+
+    fn onset(_keys: &Keys) -> Onset {
+        Onset::Constant
+    }
 
     fn between(pair: &MaterialPair, keys: &Keys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let velocity = keys.characteristic_velocity.get();

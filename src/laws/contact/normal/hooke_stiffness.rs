@@ -54,7 +54,10 @@ impl Normal for HookeStiffness {
     const NAME: &'static str = "hooke_stiffness";
     type Keys = Keys;
     type Form = Self;
-    const ONSET: Onset = Onset::Constant;
+
+    fn onset(_keys: &Keys) -> Onset {
+        Onset::Constant
+    }
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let normal_stiffness = pair.normal_stiffness()?;

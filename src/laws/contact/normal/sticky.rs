@@ -17,7 +17,7 @@ pub enum DampingKind {
     Velocity,
 }
 
-/// `[contact.<law>.normal.<model>]` of `jkr` and `dmt`.
+/// `[contact.<law>.normal.dmt]`; `jkr` has these keys, too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keys {

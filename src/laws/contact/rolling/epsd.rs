@@ -3,7 +3,7 @@
 use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
-    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingStiffness, coefficients,
+    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
 };
 
 coefficients! {
@@ -60,6 +60,15 @@ fn stiffness<N: Number>(rolling_friction: N, contact: &Contact<N>, response: &Re
     N::splat(2.25) * response.normal_stiffness * length * length
 }
 
+/// C \[N m s\] of η_r and k_r \[N m\].
+#[inline(always)]
+fn damping<N: Number>(fraction: N, stiffness: N, contact: &Contact<N>) -> N {
+    /// Moment of inertia about the point of contact over that of a point mass at the centre.
+    const ABOUT_CONTACT: f64 = 1.4;
+    let inertia = N::splat(ABOUT_CONTACT) * contact.rolling_inertia;
+    N::splat(2.0) * fraction * (inertia * stiffness).sqrt()
+}
+
 impl Rolling for Epsd {
     const NAME: &'static str = "epsd";
     type Keys = Keys;
@@ -76,11 +85,10 @@ impl Rolling for Epsd {
         Ok(Self::new(pair.rolling_friction()?, pair.rolling_viscous_damping()?, torsion, engine, set_up))
     }
 
-    fn stiffness(&self, contact: &Contact, response: &Response) -> RollingStiffness {
-        // With a dashpot of fraction η the stable step is that of a spring (√(1 + η²) + η)² times as stiff.
-        let stretch = (1.0 + self.damping * self.damping).sqrt() + self.damping;
-        let bending = stiffness(self.rolling_friction, contact, response) * stretch * stretch;
-        RollingStiffness { bending, torsion: self.torsion * bending }
+    fn response(&self, contact: &Contact, response: &Response) -> RollingResponse {
+        let stiffness = stiffness(self.rolling_friction, contact, response);
+        let parts = [stiffness, damping(self.damping, stiffness, contact)];
+        rocking::response(contact, parts, self.torsion, self.engine)
     }
 
     fn elastic_energy(&self, contact: &Contact, response: &Response, history: Row) -> f64 {
@@ -96,13 +104,10 @@ impl Rolling for Epsd {
         history: [N; 4],
         step: N,
     ) -> (Vector<N>, [N; 4]) {
-        /// Moment of inertia about the point of contact over that of a point mass at the centre.
-        const ABOUT_CONTACT: f64 = 1.4;
         let stiffness = stiffness(law.rolling_friction, contact, &normal.response);
-        let inertia = N::splat(ABOUT_CONTACT) * contact.rolling_inertia;
         let spring = Spring {
             stiffness,
-            damping: N::splat(2.0) * law.damping * (inertia * stiffness).sqrt(),
+            damping: damping(law.damping, stiffness, contact),
             limit: law.rolling_friction * contact.radius * normal.seen.abs(),
             torsion: law.torsion,
             engine: law.engine,
@@ -178,6 +183,21 @@ mod tests {
         assert_eq!(of(law(0.0, 0.0)), STIFFNESS * 2.0);
         let arms = (0.25 - 0.5 / 16384.0) / (0.25 - 1.0 / 16384.0);
         assert_close(of(law(0.0, 1.0)), STIFFNESS * 2.0 * arms, 1e-15);
+    }
+
+    #[test]
+    fn spring_and_dashpot_are_told_apart_and_at_a_wall_as_the_engine_sees_the_spin() {
+        let damping = 2.0 * 0.5 * (1.4 * 0.5 * STIFFNESS).sqrt();
+        let of = |law: Epsd, contact: &Contact| {
+            let found = law.response(contact, &normal_force().response);
+            [found.bending_stiffness, found.bending_damping, found.torsional_stiffness, found.torsional_damping]
+        };
+        assert_eq!(of(law(0.0, 0.0), &contact()), [STIFFNESS, damping, 0.0, 0.0]);
+        assert_eq!(of(law(1.0, 0.0), &contact()), [STIFFNESS, damping, STIFFNESS, damping]);
+        let wall = Contact { per_reach: 0.0, ..contact() };
+        let arms = (0.25 - 0.5 / 16384.0) / (0.25 - 1.0 / 16384.0);
+        assert_eq!(of(law(0.0, 1.0), &wall), [STIFFNESS * arms, damping * arms, 0.0, 0.0]);
+        assert_eq!(of(law(0.0, 0.0), &wall), [STIFFNESS, damping, 0.0, 0.0]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
-    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingStiffness, coefficients,
+    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
 };
 
 coefficients! {
@@ -58,9 +58,8 @@ impl Rolling for Epsd2 {
         Ok(Self::new(pair.rolling_friction()?, torsion, engine, set_up))
     }
 
-    fn stiffness(&self, contact: &Contact, response: &Response) -> RollingStiffness {
-        let bending = stiffness(contact, response);
-        RollingStiffness { bending, torsion: self.torsion * bending }
+    fn response(&self, contact: &Contact, response: &Response) -> RollingResponse {
+        rocking::response(contact, [stiffness(contact, response), 0.0], self.torsion, self.engine)
     }
 
     fn elastic_energy(&self, contact: &Contact, response: &Response, history: Row) -> f64 {

@@ -2,7 +2,7 @@
 
 use crate::base::number::{Number, Vector};
 use crate::base::quantity::Positive;
-use crate::laws::contact::{Contact, HistoryRow, Needs};
+use crate::laws::contact::{Contact, HistoryRow, Needs, RollingResponse};
 use serde::Deserialize;
 
 /// What a rolling spring remembers: its torque.
@@ -36,6 +36,26 @@ impl Keys {
     }
 }
 
+/// What spring and dashpot of these coefficients \[N m\], \[N m s\] are to the stable step, by 1 or 0 for `torsion` and `engine`.
+pub(super) fn response(
+    contact: &Contact,
+    [stiffness, damping]: [f64; 2],
+    torsion: f64,
+    engine: f64,
+) -> RollingResponse {
+    let at_wall = engine > 0.5 && contact.per_reach <= 0.0;
+    let stretched = if at_wall { spin_at_wall(contact) } else { 1.0 };
+    let [bending_stiffness, bending_damping] = [stiffness, damping].map(|part| part * stretched);
+    let [torsional_stiffness, torsional_damping] = [bending_stiffness, bending_damping].map(|part| part * torsion);
+    RollingResponse { bending_stiffness, bending_damping, torsional_stiffness, torsional_damping }
+}
+
+/// How many times as fast as the body's the engine sees a spin at a wall: as if the arm were (R − δ/2)/(R − δ) times as long.
+#[inline(always)]
+fn spin_at_wall<N: Number>(contact: &Contact<N>) -> N {
+    (contact.radius - N::splat(0.5) * contact.overlap) / (contact.radius - contact.overlap)
+}
+
 /// A spring against rolling at this moment.
 #[derive(Clone, Copy)]
 pub(super) struct Spring<N> {
@@ -60,11 +80,9 @@ impl<N: Number> Spring<N> {
         let (half, one, normal) = (N::splat(0.5), N::splat(1.0), contact.normal);
         let engine = self.engine.greater(half);
         let rolls_only = half.greater(self.torsion);
-        // The engine sees a spin at a wall as if the arm were (R − δ/2)/(R − δ) times as long.
         let of_engine = N::select(engine, one, N::zero());
         let at_wall = N::select(contact.per_reach.greater(N::zero()), N::zero(), of_engine).greater(half);
-        let stretched = (contact.radius - half * contact.overlap) / (contact.radius - contact.overlap);
-        let spin = contact.relative_spin * N::select(at_wall, stretched, one);
+        let spin = contact.relative_spin * N::select(at_wall, spin_at_wall(contact), one);
         let spin = Vector::select(rolls_only, spin - normal * spin.dot(normal), spin);
         let moved = step.greater(N::zero());
         let before = Vector::of_row(history);

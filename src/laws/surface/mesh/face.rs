@@ -161,6 +161,12 @@ impl<N: Number> Face<N> {
 }
 
 impl Face {
+    /// Whether a centre at this height over the triangle is nearer than `reach` to its plane, and its foot to the triangle \[m\].
+    #[inline(always)]
+    pub(super) fn is_within(&self, centre: Vector, reach: f64, height: f64) -> bool {
+        height.abs() < reach && self.beyond(centre).iter().all(|beyond| *beyond < reach)
+    }
+
     /// Whether the foot of a centre in the plane of the triangle is inside it.
     pub(super) fn is_over(&self, centre: Vector) -> bool {
         self.beyond(centre).iter().all(|beyond| *beyond <= 0.0)

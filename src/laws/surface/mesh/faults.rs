@@ -36,6 +36,38 @@ fn junction(topology: &Topology) -> Option<String> {
     None
 }
 
+/// Share of a free edge within which a free vertex of another one makes a crack: one edge of two triangles was meant.
+const CRACK: f64 = 0.01;
+
+/// A free vertex so near to a free edge of another triangle that both count for a sphere on the crack between them, though they are
+/// not one: nearer than `within` \[m\]. Told in words.
+pub(super) fn crack(topology: &Topology, within: f64) -> Option<String> {
+    let at = |vertex: u32| topology.vertices[vertex as usize];
+    let free: Vec<usize> = (0..topology.edges.len()).filter(|edge| topology.at_edge[*edge].len() == 1).collect();
+    let mut rim: Vec<(u32, usize)> =
+        free.iter().flat_map(|&edge| topology.edges[edge].map(|end| (end, edge))).collect();
+    rim.sort_by(|a, b| at(a.0).x.total_cmp(&at(b.0).x).then(a.cmp(b)));
+    for &edge in &free {
+        let [a, b] = topology.edges[edge];
+        let (from, way) = (at(a), at(b) - at(a));
+        let reach = within.min(CRACK * way.length());
+        let (low, high) = (at(a).x.min(at(b).x) - reach, at(a).x.max(at(b).x) + reach);
+        let start = rim.partition_point(|(vertex, _)| at(*vertex).x < low);
+        for &(vertex, other) in rim[start..].iter().take_while(|(vertex, _)| at(*vertex).x <= high) {
+            let share = ((at(vertex) - from).dot(way) / way.dot(way)).clamp(0.0, 1.0);
+            let apart = (at(vertex) - from - way * share).length();
+            if ![a, b].contains(&vertex) && apart <= reach {
+                let [one, two] = [edge, other].map(|edge| topology.numbers[topology.at_edge[edge][0] as usize]);
+                let [one, two] = [one.min(two), one.max(two)];
+                return Some(format!(
+                    "free edges of triangles {one} and {two} are {apart:.1e} m apart: a sphere over this crack touches both"
+                ));
+            }
+        }
+    }
+    None
+}
+
 /// Two triangles in one plane that cover one another in part. Found along the axis on which the surface is longest.
 fn coincident(topology: &Topology) -> Option<String> {
     let places: Vec<[Vector; 3]> =
@@ -108,6 +140,21 @@ mod tests {
             of(&[large, small]),
             "a vertex at [1.0, 0.0, 0.0] m on an edge of triangle 1 that does not end there"
         );
+    }
+
+    #[test]
+    fn edges_that_are_nearly_one_are_a_crack_and_neighbours_of_a_fine_rim_are_none() {
+        let lower = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let upper = |gap: f64| [[1.0 + gap, 0.0, 0.0], [1.0 + gap, 1.0, 0.0], [gap, 1.0, 0.0]];
+        let told = |gap: f64, within: f64| crack(&Topology::of(&[lower, upper(gap)]).unwrap(), within);
+        let expected = "free edges of triangles 1 and 2 are 3.5e-3 m apart: a sphere over this crack touches both";
+        assert_eq!(told(5e-3, 0.1).as_deref(), Some(expected));
+        assert_eq!(told(5e-3, 1e-3), None, "it is wide for the spheres of the scene");
+        assert_eq!(told(0.05, 0.1), None, "a slot");
+        let fan = |k: u32| [[0.0, 0.0, 0.0], [1.0, 0.05 * f64::from(k), 0.0], [1.0, 0.05 * f64::from(k + 1), 0.0]];
+        assert_eq!(crack(&Topology::of(&[0, 1, 2, 3].map(fan)).unwrap(), 0.1), None);
+        let welded = Topology::welded(&[lower, upper(5e-3)], Some(6e-3)).unwrap();
+        assert_eq!((welded.vertices.len(), crack(&welded, 0.1)), (4, None));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::planes::Look;
 use super::{Mesh, Sides};
 use crate::base::lanes::{self, Width};
 use crate::base::number::Vector;
-use crate::laws::surface::feet::{Features, Feet, Foot, OnPlanes};
+use crate::laws::surface::feet::{DEEP, Features, Feet, Foot, OnPlanes};
 
 impl Mesh {
     /// The nearest point of an edge.
@@ -82,6 +82,7 @@ impl Features for Mesh {
             let height = face.height(centre);
             let counts = self.sides == Sides::Both || height > 0.0;
             if !counts || height.abs() > radius {
+                feet.behind |= !counts && face.is_within(centre, DEEP * radius, height);
                 continue;
             }
             let rest = radius * radius - height * height;
@@ -136,9 +137,9 @@ impl Mesh {
     /// The foot of a centre at this height over a triangle, inside of which it lies.
     #[inline(always)]
     fn on_face(&self, triangle: u32, height: f64) -> Foot {
-        let (normal, behind) = (self.faces.at(triangle).normal, height < 0.0);
-        let normal = if behind { -normal } else { normal };
-        Foot { feature: self.face(triangle), distance: height.abs(), normal, weight: 1.0, behind }
+        let normal = self.faces.at(triangle).normal;
+        let normal = if height < 0.0 { -normal } else { normal };
+        Foot { feature: self.face(triangle), distance: height.abs(), normal, weight: 1.0, slope: 1.0 }
     }
 
     /// The feet on these parts where some are on edges and vertices, or near them.
@@ -146,15 +147,16 @@ impl Mesh {
     pub(super) fn feet_at_bends(&self, centre: Vector, radius: f64, parts: &[u32], feet: &mut Feet) {
         let bend = |feature: u32, apart: Vector, distance: f64, weight: f64| {
             let normal = apart * (1.0 / distance);
-            Foot { feature, distance, normal, weight, behind: false }
+            Foot { feature, distance, normal, weight, slope: 1.0 }
         };
-        let Feet { list, room: [touched, vertices], .. } = feet;
+        let Feet { list, behind, room: [touched, vertices], .. } = feet;
         touched.clear();
         for &triangle in parts {
             let face = self.faces.at(triangle);
             let height = face.height(centre);
             let counts = self.sides == Sides::Both || height > 0.0;
             if !counts || height.abs() > radius {
+                *behind |= !counts && face.is_within(centre, DEEP * radius, height);
                 continue;
             }
             let Stand::Near { over, edges } = face.stand(centre, radius * radius - height * height) else { continue };

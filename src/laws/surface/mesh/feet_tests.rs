@@ -92,14 +92,13 @@ fn one_triangle_of_a_plane_tells_what_all_of_them_do() {
             (spheres.count, spheres.sphere[place]) = (place + 1, centre.row_with(radius));
             spheres.feature[place] = mesh.face(last);
             mesh.on_planes(&mut spheres, if width.offered() { width } else { Width::Least });
-            let [touches, away, behind] =
-                [spheres.touching, spheres.away, spheres.behind].map(|bits| bits >> place & 1);
+            let [touches, away] = [spheres.touching, spheres.away].map(|bits| bits >> place & 1);
             if touches == 0 && away == 0 {
                 continue;
             }
             let [x, y, z, distance] = spheres.foot[place];
-            let (feature, normal, behind) = (spheres.feature[place], Vector::new(x, y, z), behind != 0);
-            let found = (touches != 0).then_some(Foot { feature, distance, normal, weight: 1.0, behind });
+            let (feature, normal) = (spheres.feature[place], Vector::new(x, y, z));
+            let found = (touches != 0).then_some(Foot { feature, distance, normal, weight: 1.0, slope: 1.0 });
             told += 1;
             whole.clear();
             mesh.feet_at_bends(centre, radius, &parts, &mut whole);

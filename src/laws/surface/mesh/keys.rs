@@ -24,6 +24,8 @@ pub(crate) struct Keys {
     offset: Option<Triple>,
     /// Which sides of the triangles count: 1, where the normals point, or 2.
     sides: Option<u8>,
+    /// Corners no further apart than this are one vertex \[m\].
+    weld_distance: Option<Positive>,
 }
 
 impl Keys {
@@ -64,10 +66,20 @@ impl Keys {
             triangles.extend(self.triangles("mesh.joined", file, around)?);
         }
         let mut refuse = |found: String, expected: &str| around.refuse_file("mesh.file", &self.file, &found, expected);
-        let mut topology = match Topology::of(&triangles) {
+        let mut topology = match Topology::welded(&triangles, self.weld_distance.map(Positive::get)) {
             Ok(topology) => topology,
             Err(triangle) => {
-                refuse(format!("triangle {triangle} without area"), "triangles of some area");
+                let found = format!("triangle {triangle} without area");
+                match self.weld_distance {
+                    Some(distance) => {
+                        let distance = distance.get();
+                        refuse(
+                            format!("{found} once its corners are welded over {distance:?} m"),
+                            "a shorter weld_distance",
+                        );
+                    }
+                    None => refuse(found, "triangles of some area"),
+                }
                 return None;
             }
         };

@@ -209,4 +209,8 @@ impl Surface for Mesh {
     fn facet_at(&self, point: Vector) -> usize {
         self.nearest_triangle(point)
     }
+
+    fn crack(&self, within: f64) -> Option<String> {
+        faults::crack(&self.topology, within)
+    }
 }

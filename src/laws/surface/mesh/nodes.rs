@@ -48,6 +48,30 @@ impl NodeWeights {
     }
 }
 
+/// Whether a centre on its straight way goes through a triangle whose corners go from the first of these places to the second
+/// meanwhile \[m\].
+fn leads_through(way: [Vector; 2], corners: [[Vector; 3]; 2]) -> bool {
+    let height = |place: usize| {
+        let [a, b, c] = corners[place];
+        (way[place] - a)
+            .dot(crate::laws::surface::direction((b - a).cross(c - a).to_array()).map_or(Vector::zero(), Vector::from))
+    };
+    let [before, after] = [height(0), height(1)];
+    if (before > 0.0) == (after > 0.0) || before == 0.0 {
+        return false;
+    }
+    let share = before / (before - after);
+    let between = |from: Vector, to: Vector| from + (to - from) * share;
+    let centre = between(way[0], way[1]);
+    let arms = [0, 1, 2].map(|corner| between(corners[0][corner], corners[1][corner]) - centre);
+    let normal = (arms[1] - arms[0]).cross(arms[2] - arms[0]);
+    let area = normal.dot(normal);
+    [[0, 1], [1, 2], [2, 0]].iter().all(|[one, other]| arms[*one].cross(arms[*other]).dot(normal) >= -EDGE * area)
+}
+
+/// What a centre may be beside a triangle and goes through it all the same: no way leads between two of them.
+const EDGE: f64 = 1e-6;
+
 /// A mesh that changes its shape.
 #[derive(Clone, Debug)]
 pub struct Deforming {
@@ -108,6 +132,16 @@ impl Deforming {
     /// Its features as they are now.
     pub fn features(&self) -> &dyn Features {
         &self.mesh
+    }
+
+    /// Whether the straight way of a centre leads through the mesh \[m\], whose nodes came straight from these displacements meanwhile \[m\].
+    pub fn is_passed(&self, way: [Vector; 2], before: &[Row]) -> bool {
+        let came = |vertex: u32| self.first[vertex as usize] + Vector::from(before[vertex as usize]);
+        self.mesh
+            .topology
+            .triangles
+            .iter()
+            .any(|triangle| leads_through(way, [triangle.map(came), self.mesh.topology.corners(triangle)]))
     }
 
     /// Adds what the nodes around a foot on a feature give to the motion there.

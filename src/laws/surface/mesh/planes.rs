@@ -4,7 +4,7 @@
 use super::{Mesh, Sides};
 use crate::base::lanes::{Kernel, Lane, columns_from, rows_from};
 use crate::base::number::Vector;
-use crate::laws::surface::feet::OnPlanes;
+use crate::laws::surface::feet::{DEEP, OnPlanes};
 
 /// A sphere that is further from the plane of a triangle than its radius by this share of it touches no other triangle of this
 /// plane either: they may be nearer by what their angles make.
@@ -42,18 +42,19 @@ impl Kernel for Look<'_> {
             let (face, sphere) = (mesh.faces.in_lanes::<N>(&triangles), columns_from::<N>(&spheres.sphere, from));
             let (centre, radius) = (Vector::of_row(sphere), sphere[3]);
             let height = face.height(centre);
-            let (distance, behind) = (height.abs(), N::zero().greater(height));
-            let normal = Vector::select(behind, -face.normal, face.normal);
+            let distance = height.abs();
+            let normal = Vector::select(N::zero().greater(height), -face.normal, face.normal);
             rows_from(normal.row_with(distance), &mut spheres.foot, from);
             let away = N::bits(distance.greater(radius * N::splat(1.0 + ROOM)));
-            let unclear = N::bits(N::either(distance.greater(radius), face.is_beside(centre, radius)));
+            let deep = (radius * N::splat(DEEP)).greater(distance);
+            let beside = N::either(distance.greater(radius), face.is_beside(centre, radius));
+            let unclear = N::bits(N::either(deep, beside));
             let counts = match mesh.sides {
                 Sides::Both => u32::MAX,
                 Sides::Front => N::bits(height.greater(N::zero())),
             };
             spheres.away |= (away & known) << from;
             spheres.touching |= (!away & !unclear & counts & known) << from;
-            spheres.behind |= N::bits(behind) << from;
             from += N::WIDTH;
         }
     }

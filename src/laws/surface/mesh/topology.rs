@@ -37,7 +37,12 @@ impl Topology {
     /// Welds triangles; those that are there twice are left out. An error is the number of a triangle without area, counted
     /// from 1.
     pub(super) fn of(corners: &[[[f64; 3]; 3]]) -> Result<Self, usize> {
-        let mut welder = Welder::of(corners);
+        Self::welded(corners, None)
+    }
+
+    /// The same, welding what is no further apart than this \[m\]; by default as little as says [`WELD_OF_SIZE`].
+    pub(super) fn welded(corners: &[[[f64; 3]; 3]], distance: Option<f64>) -> Result<Self, usize> {
+        let mut welder = Welder::of(corners, distance);
         let mut topology = Self::default();
         let mut known = BTreeMap::new();
         let mut edges = BTreeMap::new();
@@ -172,8 +177,8 @@ struct Welder {
 }
 
 impl Welder {
-    /// For these triangles.
-    fn of(triangles: &[[[f64; 3]; 3]]) -> Self {
+    /// For these triangles, by the distance that is given, if one is \[m\].
+    fn of(triangles: &[[[f64; 3]; 3]], distance: Option<f64>) -> Self {
         let (mut low, mut high, mut shortest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3], f64::INFINITY);
         for corners in triangles {
             for (place, corner) in corners.iter().enumerate() {
@@ -186,7 +191,7 @@ impl Welder {
             }
         }
         let size = (Vector::from(high) - Vector::from(low)).length();
-        let tolerance = (WELD_OF_SIZE * size).min(WELD_OF_EDGE * shortest);
+        let tolerance = distance.unwrap_or((WELD_OF_SIZE * size).min(WELD_OF_EDGE * shortest));
         Self { vertices: Vec::new(), cells: BTreeMap::new(), tolerance }
     }
 

@@ -172,6 +172,16 @@ fn a_schedule_passes_the_rows_where_it_once_stood_still() {
 }
 
 #[test]
+fn times_are_the_same_in_any_units_of_powers_of_two() {
+    for interval in [0.1, 0.002, 0.3, 1.0 / 3.0, 2.5e-4, 0.7, 1.25] {
+        for scale in [-30, -20, 6, 20].map(|power| 2.0_f64.powi(power)) {
+            let [here, there] = [interval, scale * interval].map(super::Series::every);
+            assert!((1..1000).all(|count| there.time(count) == scale * here.time(count)), "{interval} s by {scale}");
+        }
+    }
+}
+
+#[test]
 fn intervals_are_those_of_the_scene_and_not_what_rounding_leaves_of_times() {
     for interval in [1e-3, 3.3e-4, 0.1] {
         let all = points(&schedule(interval, None, 100.0 * interval), 0.0);

@@ -13,7 +13,7 @@ use crate::laws::contact::Material;
 use crate::laws::surface::{Files, Selection, Shape, ShapeContext, Surface};
 use crate::scene::Source;
 use crate::scene::file::tables::BoundaryTable;
-use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion, SceneDraft};
+use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion, Outside, SceneDraft};
 
 /// All boundaries.
 pub(super) fn boundaries(
@@ -44,8 +44,8 @@ pub(super) fn boundaries(
         // What moves and turns by forces does so about its mass centre.
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
-        let nodes = boundary.nodes;
-        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body };
+        let (nodes, outside) = (boundary.nodes, boundary.outside);
+        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside };
         alone(&boundary, faults);
         boundaries.push(boundary);
     }
@@ -81,6 +81,10 @@ fn alone(boundary: &Boundary, faults: &mut Faults) {
         );
         let expected = "\"ramp\", \"smooth\" or \"hold\"".to_owned();
         faults.add(&table, "input", Mistake::Unexpected { found, expected });
+    }
+    if boundary.outside == Outside::Remove && !shape.members().is_empty() {
+        let (found, expected) = ("\"remove\" at a group of particles", "a surface, or \"stop\"".to_owned());
+        faults.add(&table, "outside", Mistake::Unexpected { found: found.to_owned(), expected });
     }
     body::lacks(boundary, &table, faults);
 }

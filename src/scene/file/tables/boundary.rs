@@ -4,6 +4,7 @@ use super::body::{Inertia, Supports};
 use crate::base::quantity::{Positive, Triple};
 use crate::laws::motion::{self, InputCourse, NodeMotion};
 use crate::laws::surface::{MakeShape, ShapeRow};
+use crate::scene::exchange::Outside;
 use serde::Deserialize;
 
 /// `[boundary.<name>]`
@@ -23,6 +24,9 @@ pub(in crate::scene::file) struct BoundaryTable {
     pub(in crate::scene::file) nodes: NodeMotion,
     /// How driven axes and nodes go to their new value.
     pub(in crate::scene::file) input: Option<InputCourse>,
+    /// What happens to particles that came through it.
+    #[serde(default)]
+    pub(in crate::scene::file) outside: Outside,
     /// Point of reference of the moment \[m\].
     pub(in crate::scene::file) reference: Option<Triple>,
     /// Mass of a surface \[kg\].

@@ -4,7 +4,7 @@ use super::together::Together;
 use crate::base::number::Vector;
 use crate::engine::contacts::surfaces::history::{CurrentContacts, PreviousContacts};
 use crate::engine::contacts::surfaces::nodes::Held;
-use crate::engine::state::contacts::{REVERSE, SLIDING, TOUCHING};
+use crate::engine::state::contacts::{SLIDING, TOUCHING};
 use crate::engine::state::{History, Row, WallContacts};
 use crate::laws::surface::{Feet, Foot, Saddle};
 use std::ops::Range;
@@ -32,8 +32,8 @@ pub(in crate::engine::contacts::surfaces) struct FeatureContacts {
     pub(super) foot: Vec<Row>,
     /// How often its normal force counts, and its share of friction; empty where each counts once.
     pub(super) weight: Vec<[f64; 2]>,
-    /// [`REVERSE`] where the centre is behind the face.
-    pub(super) side: Vec<u8>,
+    /// Particles (slots) that may just have come through the surface.
+    pub(super) deep: Vec<u32>,
     /// The saddles, each with its particle.
     pub(super) saddles: Vec<(u32, Saddle)>,
     /// What it has beside where nodes move one by one.
@@ -54,7 +54,7 @@ impl FeatureContacts {
         self.pair_constant.clear();
         self.foot.clear();
         self.weight.clear();
-        self.side.clear();
+        self.deep.clear();
         self.saddles.clear();
         self.held.clear();
     }
@@ -63,13 +63,13 @@ impl FeatureContacts {
     /// share of friction.
     #[inline]
     pub(super) fn push(&mut self, slot: u32, foot: &Foot, normal: Vector, share: f64) {
-        if foot.weight != 1.0 || share != 1.0 || !self.weight.is_empty() {
-            self.weigh([foot.weight, share]);
+        let weight = foot.weight * foot.slope;
+        if weight != 1.0 || share != 1.0 || !self.weight.is_empty() {
+            self.weigh([weight, share]);
         }
         self.particle.push(slot);
         self.feature.push(foot.feature);
         self.foot.push(normal.row_with(foot.distance));
-        self.side.push(if foot.behind { REVERSE } else { 0 });
     }
 
     /// Adds the first of the contacts that were found of particles together, but for what is remembered of them. Each counts once.
@@ -80,7 +80,6 @@ impl FeatureContacts {
         self.particle.extend_from_slice(&found.slot[..count]);
         self.feature.extend_from_slice(&found.spheres.feature[..count]);
         self.foot.extend_from_slice(&found.spheres.foot[..count]);
-        self.side.extend_from_slice(&found.side[..count]);
     }
 
     /// Gives weights to the contact that is added next.
@@ -127,12 +126,10 @@ impl FeatureContacts {
 }
 
 /// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
-pub(super) fn finish(flags: &mut [u8], side: &[u8], weight: &[[f64; 2]]) {
-    for (flags, side) in flags.iter_mut().zip(side) {
-        *flags = *flags & (TOUCHING | SLIDING) | side;
-    }
-    for (flags, _) in flags.iter_mut().zip(weight).filter(|(_, [weight, _])| *weight <= 0.0) {
-        *flags &= REVERSE;
+pub(super) fn finish(flags: &mut [u8], weight: &[[f64; 2]]) {
+    flags.iter_mut().for_each(|flags| *flags &= TOUCHING | SLIDING);
+    for (flags, _) in flags.iter_mut().zip(weight).filter(|(_, [weight, _])| *weight < 0.0) {
+        *flags = 0;
     }
 }
 

@@ -18,9 +18,9 @@ use super::sphere::{Load, ParticleLoads};
 use super::{AtSurface, Range, Work};
 use crate::base::lanes::Width;
 use crate::base::number::Vector;
+use crate::engine::boundaries::passing::Passed;
 use crate::engine::contacts::batches::Entries;
 use crate::engine::state::WallContacts;
-use crate::engine::state::contacts::REVERSE;
 use crate::laws::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
 use at_feet::AtFeet;
 use columns::finish;
@@ -57,13 +57,13 @@ impl AtSurface {
         // Triangles lie all over the memory; those that were touched are most of what is looked at first.
         at.features.prefetch(past.feature);
         contacts.clear(self.kept_rows);
-        self.find(&at, list, &work.particles, (slots, work.context.width), &past, contacts);
+        self.find(&at, list, &work.particles, (slots.clone(), work.context.width), &past, contacts);
         contacts.complete(&past, from..to, self.kept_rows);
         if contacts.kept.is_none() {
             self.remember(&at, &past, contacts);
         }
-        let behind = went_through(&past, contacts);
-        let FeatureContacts { particle, number, foot, weight, side, pair_constant, held, .. } = contacts;
+        let behind = self.came_through(&at, work, slots, contacts);
+        let FeatureContacts { particle, number, foot, weight, pair_constant, held, .. } = contacts;
         let (count, particles) = (particle.len(), work.particles);
         let entries = match contacts.kept {
             Some(_) => entries.from(0, pair_constant),
@@ -77,7 +77,7 @@ impl AtSurface {
         let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
         let load = self.run(&self.batches(bodies, entries, (work.context.step, work.context.width)), 0..count);
         // SAFETY: as above.
-        finish(unsafe { entries.flags.part(0, count) }, side, weight);
+        finish(unsafe { entries.flags.part(0, count) }, weight);
         Load { behind, ..load }
     }
 
@@ -126,12 +126,43 @@ impl AtSurface {
         let centre = at.frame.inside(Vector::from(position));
         feet.clear();
         at.features.feet(centre, position[3] + if sticks { constant } else { 0.0 }, parts(list, place), feet);
+        if feet.are_deep(position[3]) {
+            contacts.deep.push(slot);
+        }
         if sticks {
             self.keep_touched(at, (slot, position[3]), past, feet);
         }
         let here = SphereContacts { at, particles, slot, constant, feet };
         feet.list.iter().for_each(|foot| self.add(&here, foot, contacts));
         contacts.saddles.extend(feet.saddles.iter().map(|saddle| (slot, *saddle)));
+    }
+
+    /// The first particle of a range of slots whose centre came through the surface in the present time step, if one did.
+    fn came_through(
+        &self,
+        at: &MovingSurface,
+        work: &Work,
+        slots: Range<usize>,
+        contacts: &FeatureContacts,
+    ) -> Option<u32> {
+        let (boundary, passing) = (work.walls[self.index].boundary as usize, &work.passing);
+        if work.context.step == 0.0 || contacts.deep.is_empty() && !work.far {
+            return None;
+        }
+        let moved = work.particles.moved(work.context.step);
+        let way = |slot: usize| passing.way((boundary, work.boundaries), moved, slot);
+        let surface = match &at.moving {
+            Some(moving) => Passed::Nodes(moving.shape, moving.nodes),
+            None => Passed::Features(at.features),
+        };
+        if work.far {
+            let touches = |slot: &usize| {
+                moved.owner[*slot] != boundary as u32 + 1 && passing.meet(work.particles.material[*slot], self.material)
+            };
+            let over = |slot: &usize| surface.is_over(way(*slot), moved.position[*slot][3]);
+            return slots.filter(touches).find(over).map(|slot| slot as u32);
+        }
+        contacts.deep.iter().copied().find(|slot| surface.is_through(way(*slot as usize)))
     }
 
     /// Adds a contact.
@@ -206,28 +237,6 @@ impl AtSurface {
         let row = self.table.row(particles.material[slot], self.material);
         SphereOnSurface { at: here.at, body, row, constant: here.constant }.friction(&self.law.law, foot, here.feet)
     }
-}
-
-/// A particle (slot) whose centre came from one side of a face to the other.
-fn went_through(past: &PreviousContacts, contacts: &FeatureContacts) -> Option<u32> {
-    // SAFETY: the entries are those of this piece.
-    let before = unsafe { past.entries.flags.part(0, past.particle.len()) };
-    if contacts.kept.is_some() {
-        let mut both = before.iter().zip(&contacts.side);
-        // All are looked at, many at a time: mostly there is none.
-        if both.clone().fold(0, |changed, (before, now)| changed | (before ^ now)) & REVERSE == 0 {
-            return None;
-        }
-        return both.position(|(before, now)| (before ^ now) & REVERSE != 0).map(|contact| contacts.particle[contact]);
-    }
-    let (mut entries, mut last) = (0..0, None);
-    let through = |(&slot, (&feature, now)): (&u32, (&u32, &u8))| {
-        if last != Some(slot) {
-            (entries, last) = (past.of(slot, entries.end), Some(slot));
-        }
-        past.entry(&entries, feature).is_some_and(|entry| (before[entry] ^ now) & REVERSE != 0).then_some(slot)
-    };
-    contacts.particle.iter().zip(contacts.feature.iter().zip(&contacts.side)).find_map(through)
 }
 
 /// What a particle touches. What few contacts need is found from it, out of line.

@@ -25,7 +25,7 @@ impl AtSurface {
         let mut together = contacts.together.take().unwrap_or_default();
         let entry = together.take(&at.frame, (slots, planes), particles, (past, entry));
         let spheres = &mut together.spheres;
-        (spheres.touching, spheres.away, spheres.behind) = (0, 0, 0);
+        (spheres.touching, spheres.away) = (0, 0);
         at.features.on_planes(spheres, width);
         let (touching, mut open, mut count) = (spheres.touching, !spheres.away, 0);
         open &= u32::MAX >> (TOGETHER - slots.len());

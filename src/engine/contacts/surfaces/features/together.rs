@@ -4,7 +4,6 @@ use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::contacts::surfaces::history::PreviousContacts;
 use crate::engine::contacts::surfaces::sphere::ParticleLoads;
-use crate::engine::state::contacts::REVERSE;
 use crate::laws::surface::{NO_PLANE, OnPlanes, TOGETHER};
 
 /// Room for particles that are looked at together.
@@ -14,13 +13,11 @@ pub(super) struct Together {
     pub(super) spheres: OnPlanes,
     /// The particle of each contact that was found (slot).
     pub(super) slot: [u32; TOGETHER],
-    /// [`REVERSE`] where its centre is behind the face.
-    pub(super) side: [u8; TOGETHER],
 }
 
 impl Default for Together {
     fn default() -> Self {
-        Self { spheres: OnPlanes::none(), slot: [0; TOGETHER], side: [0; TOGETHER] }
+        Self { spheres: OnPlanes::none(), slot: [0; TOGETHER] }
     }
 }
 
@@ -56,11 +53,10 @@ impl Together {
     /// Puts the contact of a place behind those that were found, of which there are so many.
     #[inline(always)]
     pub(super) fn put(&mut self, frame: &Frame, place: usize, slot: u32, count: usize) {
-        let Self { spheres, slot: slots, side } = self;
+        let Self { spheres, slot: slots } = self;
         let foot = spheres.foot[place];
         spheres.foot[count] = frame.outside(Vector::from(foot)).row_with(foot[3]);
         spheres.feature[count] = spheres.feature[place];
         slots[count] = slot;
-        side[count] = if spheres.behind >> place & 1 != 0 { REVERSE } else { 0 };
     }
 }

@@ -11,6 +11,10 @@ use crate::engine::state::{Row, State};
 use crate::laws::contact::{MOST_HISTORY, Reaction};
 use crate::laws::surface::{Feet, Foot};
 
+/// Stiffness of a contact that a sphere has all around an axis over that along its normal, in any direction, at most: near the axis
+/// the force turns by 8 F δ⁻¹ for each length, and no law's F is above k δ.
+const AROUND: f64 = 8.0;
+
 impl AtSurface {
     /// Hands out the contacts of the last evaluation: entry of the list, foot, its share of friction, contact.
     fn each(&self, state: &State, motion: Motion, hand: impl FnMut(usize, &Foot, f64, &ContactGeometry)) {
@@ -73,7 +77,12 @@ impl AtSurface {
                 let row = self.row(state, list.particle[entry]);
                 let deep = ahead.at_boundary(law, row, contact, speed, list.boundary).unwrap_or(*contact);
                 let bodies = (list.particle[entry], None, Some(list.boundary));
-                tell(Link::of_contact(bodies, (law, row), &deep, [*first_arm, 0.0]));
+                let mut link = Link::of_contact(bodies, (law, row), &deep, [*first_arm, 0.0]);
+                if foot.slope != 1.0 {
+                    link.stiffness[0] *= AROUND;
+                    link.stiffness[1] += link.stiffness[0];
+                }
+                tell(link);
             }
         });
     }
@@ -91,7 +100,7 @@ impl AtSurface {
             let (row, flags) = (self.row(state, slot), list.flags[entry]);
             let (reaction, sliding) = records::react(law, row, contact, &list.history, entry, flags);
             let along = contact.normal * reaction.force.dot(contact.normal);
-            let force = along * foot.weight + (reaction.force - along) * share;
+            let force = along * (foot.weight * foot.slope) + (reaction.force - along) * share;
             let point = Vector::from(particles.position[slot as usize]) - contact.normal * geometry.first_arm;
             let (ids, boundary) = ((particles.id[slot as usize], None), Some(list.boundary));
             tell(ContactRecord::new(ids, boundary, point, contact, &Reaction { force, ..reaction }, sliding));

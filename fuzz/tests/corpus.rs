@@ -1,0 +1,75 @@
+//! Every target over its corpus, and over changes of it for some seconds: no panic, no signal, no hang, no number that is not finite where
+//! nothing was said. `tools/fuzz` looks for longer.
+
+#![allow(
+    clippy::print_stderr,
+    clippy::print_stdout,
+    reason = "a unit in this process has silenced panics; the test's output tells"
+)]
+
+use cograin_fuzz::{Mutator, TARGETS, Target};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::abort;
+use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+/// Changed inputs of each target are tried for so long.
+const TIME: Duration = Duration::from_secs(10);
+
+/// One input takes no longer.
+const LONGEST: Duration = Duration::from_secs(60);
+
+/// Tries inputs of a target; a thread beside it ends the process where one hangs.
+fn try_all(target: &Target) {
+    let (now, (begins, begun)) = (&Mutex::new(String::new()), channel());
+    std::thread::scope(move |scope| {
+        scope.spawn(move || {
+            loop {
+                match begun.recv_timeout(LONGEST) {
+                    Ok(()) => {}
+                    Err(RecvTimeoutError::Disconnected) => break,
+                    Err(RecvTimeoutError::Timeout) => {
+                        eprintln!("{}: {} takes more than {LONGEST:?}", target.name, now.lock().unwrap());
+                        abort();
+                    }
+                }
+            }
+        });
+        let run = |name: &str, bytes: &[u8]| {
+            name.clone_into(&mut now.lock().unwrap());
+            begins.send(()).unwrap();
+            if catch_unwind(AssertUnwindSafe(|| (target.run)(bytes))).is_err() {
+                let file =
+                    std::env::temp_dir().join(format!("cograin_{}_{}", target.name, name.replace([' ', '/'], "_")));
+                std::fs::write(&file, bytes).unwrap();
+                eprintln!("{} fails on {name}: {}", target.name, file.display());
+                panic!("a target fails");
+            }
+        };
+        let entries = target.entries();
+        assert!(entries.len() > 3, "there is a corpus of {}", target.name);
+        for (path, bytes) in &entries {
+            run(&path.display().to_string(), bytes);
+        }
+        let (mutator, begun) = (Mutator::of(target), Instant::now());
+        let mut seed = 0;
+        while begun.elapsed() < TIME {
+            seed += 1;
+            run(&format!("seed {seed}"), &mutator.changed(mutator.entry(seed), seed));
+        }
+        println!("{}: {} entries of the corpus and {seed} changes", target.name, entries.len());
+    });
+}
+
+/// One test a target.
+macro_rules! tests {
+    ($($name:ident)*) => { $(
+        #[test]
+        fn $name() {
+            try_all(TARGETS.iter().find(|target| target.name == stringify!($name)).unwrap());
+        }
+    )* };
+}
+
+tests! { scene particles mesh state calls }
