@@ -22,6 +22,9 @@ use crate::base::number::Vector;
 use crate::base::quantity::MaterialIndex;
 use std::f64::consts::TAU;
 
+/// What rounding may take from a square, with room.
+const ROUNDING: f64 = 1.0 + 1e-9;
+
 /// Facets around the axis, where the surface is shown.
 const AROUND: usize = 64;
 
@@ -91,6 +94,13 @@ impl Revolution {
         let out = apart - self.axis * z;
         let q = out.length();
         ([q, z], if q >= f64::MIN_POSITIVE { out * (1.0 / q) } else { self.any_way_out() })
+    }
+
+    /// Whether a corner is within reach of a centre, or may be by rounding.
+    #[inline(always)]
+    fn is_within(&self, [q, z]: [f64; 2], corner: u32, reach: f64) -> bool {
+        let [a, b] = self.corners[corner as usize];
+        (q - a) * (q - a) + (z - b) * (z - b) <= ROUNDING * reach * reach
     }
 
     /// A direction across the axis.
@@ -195,8 +205,7 @@ impl Features for Revolution {
                 list.push(self.foot((place, outwards), radius, (segment, &nearest, 1.0)));
             }
             for end in ends {
-                // Segments follow each other: mostly it is the last one.
-                if !corners.contains(&end) {
+                if self.is_within(place, end, radius) && !corners.contains(&end) {
                     corners.push(end);
                 }
             }
