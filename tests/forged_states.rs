@@ -225,7 +225,9 @@ fn a_thousand_forged_checkpoints_are_refused_by_another_scene_or_make_a_step() {
 #[test]
 fn a_run_from_a_forged_checkpoint_ends_with_whole_books_or_in_words() {
     let scene = scene_with(
-        &SCENE.replace("[run]", "[run]\nend = 3.2e-5").replace("energy = true", "energy = true\nlosses = true"),
+        &SCENE
+            .replace("[run]", "[run]\nend = 3.2e-5")
+            .replace("energy = true", "energy = true\nlosses = true\nhistory_interval = 1e-6"),
     );
     let mut simulation = Simulation::new(Arc::clone(&scene)).unwrap();
     simulation.advance(3.0e-5).unwrap();
@@ -248,29 +250,33 @@ fn a_run_from_a_forged_checkpoint_ends_with_whole_books_or_in_words() {
             inputs: None,
             stop: &stop,
         };
-        let Ok(summary) = cograin::run::run(order, &mut |_| ()) else { return Ending::Refused };
+        let summary = match cograin::run::run(order, &mut |_| ()) {
+            Ok(summary) => summary,
+            Err(failure) => return Err(failure.to_string()),
+        };
         let summary: serde_json::Value = serde_json::from_str(&summary.to_json()).unwrap();
         for book in ["energy", "losses", "momentum"] {
             assert!(summary[book].is_object() && !summary[book].to_string().contains("null"), "{summary:#}");
         }
-        Ending::Stepped
+        Ok(())
     };
-    assert_eq!(run(&whole), Ending::Stepped);
+    assert_eq!(run(&whole), Ok(()));
     let numbers = [f64::NAN, f64::INFINITY, f64::MAX, -1e300, 1e200, 1e-300, 5e-324, 0.0];
     let mut chance = ChaCha8Rng::seed_from_u64(33);
     let mut endings = BTreeMap::new();
-    for number in 0..800 {
+    for number in 0..400 {
         let mut forged = whole.clone();
         let state = &mut forged[lines..];
         let place = CHECKSUM + 8 + chance.next_u32() as usize % (state.len() - CHECKSUM - 16);
         state[place..place + 8].copy_from_slice(&numbers[number % numbers.len()].to_le_bytes());
         let checksum = xxh3_64(&state[CHECKSUM + 8..]);
         state[CHECKSUM..CHECKSUM + 8].copy_from_slice(&checksum.to_le_bytes());
-        let ending = catch_unwind(AssertUnwindSafe(|| run(&forged)));
-        *endings.entry(ending.unwrap_or_else(|_| panic!("checkpoint {number}, place {place}"))).or_insert(0) += 1;
+        let ended = catch_unwind(AssertUnwindSafe(|| run(&forged)));
+        let ended = ended.unwrap_or_else(|_| panic!("checkpoint {number}, place {place}"));
+        *endings.entry(ended.is_ok()).or_insert(0) += 1;
     }
     std::fs::remove_dir_all(&folder).unwrap();
-    assert!(endings[&Ending::Refused] > 100 && endings[&Ending::Stepped] > 10, "{endings:?}");
+    assert!(endings[&false] > 50 && endings[&true] > 10, "{endings:?}");
 }
 
 #[test]

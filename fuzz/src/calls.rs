@@ -72,7 +72,7 @@ const REALS: [f64; 24] = [
     1e-7,
 ];
 
-/// Lengths of communication steps: none that asks for more than a second of work.
+/// Lengths of communication steps: none that asks for much work.
 const LENGTHS: [f64; 16] = [
     1e-6,
     2e-6,
@@ -88,7 +88,7 @@ const LENGTHS: [f64; 16] = [
     f64::INFINITY,
     1e300,
     f64::MAX,
-    1e-4,
+    2e-5,
     1.5e-6,
 ];
 

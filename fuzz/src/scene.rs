@@ -34,7 +34,7 @@ fn files(text: &str) -> BTreeMap<String, Vec<u8>> {
     named.filter(|(name, _)| text.contains(name.as_str())).map(|(name, bytes)| (name, bytes.to_vec())).collect()
 }
 
-/// Whether a text asks for many of something: particles of a lattice, segments, insertions.
+/// Whether a text asks for many of something: particles of a lattice, segments, insertions, and spheres that fill a region.
 fn asks_for_much(text: &str) -> bool {
     let of_one = |line: &str| {
         let key = line.split('=').next().unwrap_or("").trim();
@@ -44,10 +44,9 @@ fn asks_for_much(text: &str) -> bool {
                 digits.len() > 4 || digits.parse().is_ok_and(|number: u64| number > MOST)
             })
     };
-    // Counts stand in lines that hold no point of decimals.
-    text.lines()
-        .filter(|line| ["count", "number", "segments", "layers"].iter().any(|word| line.contains(word)))
-        .any(of_one)
+    let counts = ["count", "number", "segments", "layers"];
+    text.contains("solid_fraction")
+        || text.lines().filter(|line| counts.iter().any(|word| line.contains(word))).any(of_one)
 }
 
 /// Reads a text, starts its scene and makes some steps.

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 const TIME: Duration = Duration::from_secs(10);
 
 /// One input takes no longer.
-const LONGEST: Duration = Duration::from_secs(60);
+const LONGEST: Duration = Duration::from_secs(120);
 
 /// Keeps an input, and says where.
 fn keep(target: &Target, name: &str, bytes: &[u8]) -> String {
