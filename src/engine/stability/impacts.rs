@@ -54,8 +54,6 @@ struct Candidate {
 struct MovedSurface {
     /// Accelerations that unit loads give it: of where it is touched \[1/kg\], and angular \[1/(kg m²)\].
     answers: [f64; 2],
-    /// 1/mass \[1/kg\].
-    per_mass: f64,
     /// The acceleration that its present load gives it \[m/s²\].
     acceleration: f64,
 }
@@ -131,13 +129,10 @@ impl System<'_> {
                 continue;
             }
             let contact = contact_of(a, None);
-            let meeting = |closing: f64, per_mass: f64| Meeting {
-                materials: (a.material, None),
-                contact,
-                energy: 0.5 * closing * closing / per_mass,
-            };
+            let materials = (a.material, None);
             let times = if a.is_sphere { AT_SURFACES } else { 1.0 };
-            let standing = meeting(closing(a.radius), a.per_striking_mass);
+            let energy = 0.5 * closing(a.radius) * closing(a.radius) / a.per_striking_mass;
+            let standing = Meeting { materials, contact, energy };
             for pass in self.passes {
                 pass.impacts(self.state, &standing, &mut |boundary, parts| {
                     if boundary.is_some_and(|boundary| surfaces[boundary as usize].is_none()) {
@@ -150,7 +145,11 @@ impl System<'_> {
                 let Some(surface) = surface else { continue };
                 let gained = acceleration.max(surface.acceleration);
                 let closing = 2.0 * speed + (4.0 * gained * a.radius).sqrt();
-                let meeting = meeting(closing, a.per_striking_mass + surface.per_mass);
+                // Dashpots take the mass of both, which is what answers where they touch; twice it, for the surface may not turn.
+                let mass = 2.0 / (a.shift + surface.answers[0]);
+                let (radius, section_radius) = (2.0 * contact.radius, 2.0 * contact.section_radius);
+                let contact = Contact { mass, radius, section_radius, ..contact };
+                let meeting = Meeting { materials, contact, energy: 0.5 * mass * closing * closing };
                 for pass in self.passes {
                     pass.impacts(self.state, &meeting, &mut |boundary, parts| {
                         if boundary == Some(index as u32) {
@@ -169,7 +168,7 @@ impl System<'_> {
             let body = body.as_ref().filter(|body| body.is_free() && body.is_surface())?;
             let (moved, extent) = (&self.state.boundaries[index], extents.get(index).copied().unwrap_or(0.0));
             let answers = answers(&body.mobility(moved), extent, self.fields.amplification_of(body));
-            Some(MovedSurface { answers, per_mass: 1.0 / body.mass, acceleration: body.acceleration(moved, extent) })
+            Some(MovedSurface { answers, acceleration: body.acceleration(moved, extent) })
         };
         self.bodies.iter().enumerate().map(surface).collect()
     }
