@@ -172,8 +172,10 @@ fn an_interruption_acts_between_time_steps() {
     interrupted(&scene, &other, &["--resume", file.to_str().unwrap()], Duration::from_millis(1500));
     interrupted(&scene, &out, &["--resume"], Duration::from_millis(1500));
     for folder in [&out, &other] {
-        assert!(state(folder).clock.steps > before.clock.steps + 1000, "it has gone on");
-        assert!(summary(folder)["momentum"]["relative_residual"].as_f64().unwrap() < 1e-12);
+        let steps = state(folder).clock.steps;
+        assert!(steps > before.clock.steps + 1000, "it has gone on");
+        // Each time step rounds the sum of impulses once.
+        assert!(summary(folder)["momentum"]["relative_residual"].as_f64().unwrap() < steps as f64 * f64::EPSILON);
     }
     assert_eq!(fs::read_to_string(out.join("history.csv")).unwrap().lines().count(), 2);
 }

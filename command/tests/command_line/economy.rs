@@ -85,6 +85,5 @@ tangential_stiffness = 4e11
     assert!(told.contains("as a rigid group") && told.contains("has no bound"), "{told}");
     fs::write(&scene, format!("{text}breakage = {{ max_normal_stress = 3e6, max_shear_stress = 3e6 }}\n")).unwrap();
     let told = report(&scene);
-    line(&told, "savings", "[bond.glue] breakage, if its strengths are never reached: without it a step takes ");
     assert!(told["economy"].as_array().unwrap().is_empty(), "{told:#}");
 }

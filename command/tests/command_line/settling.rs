@@ -127,7 +127,7 @@ fn what_trembles_for_ever_is_told_with_the_reason() {
     let place = Place::new("trembling");
     let scene = place.at("scene.toml");
     let text = "gravity = [0.0, 0.0, -9.81]\n[run]\nthreads = 1\n[material.a]\ndensity = 2500.0\nyoungs_modulus = 1e6\n\
-                poissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 0.2\n\
+                poissons_ratio = 0.3\n[pair.a.a]\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 1.0\n\
                 [contact.c.normal.hertz]\n[contact.c.tangential.history]\n[contact.c.rolling.cdt]\n\
                 [particles.p]\nmaterial = \"a\"\nlist = [\n\
                 { position = [0.0, 0.0, 0.01], radius = 0.01 },\n{ position = [0.0105, 0.001, 0.0271], radius = 0.01 },\n\

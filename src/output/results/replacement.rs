@@ -56,14 +56,14 @@ pub(crate) fn take_up(folder: &Path) -> Result<(), OutputError> {
         if kind_of(&replacing.join(CHECKPOINT))? != Kind::Own {
             return Err(OutputError::not_own(&replacing, "others", "the first files of a run"));
         }
-        for path in own_results(folder)? {
+        for path in last_first(own_results(folder)?) {
             fs::remove_file(&path).map_err(OutputError::at(&path))?;
         }
         rename(folder, REPLACING, MOVING)?;
     }
     let moving = folder.join(MOVING);
     if is_own_folder(&moving)? {
-        for path in own_results(&moving)? {
+        for path in last_first(own_results(&moving)?) {
             let place = folder.join(path.file_name().unwrap_or_default());
             if fs::symlink_metadata(&place).is_ok() {
                 return Err(OutputError::not_own(&place, "a file", "no file where the run's own is to stand"));
@@ -97,6 +97,12 @@ pub(crate) fn own_results(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
         }
     }
     Ok(own)
+}
+
+/// Results in an order in which some may go and the rest is still known as a run's, whatever ends the program: frames from the last one
+/// on, then the list by which they are known, whose name stands before theirs.
+fn last_first(results: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
+    results.into_iter().rev()
 }
 
 /// The first file with the name of a result that no run has written, if there is any.
@@ -274,6 +280,26 @@ mod tests {
     }
 
     #[cfg(unix)]
+    /// Once the list of frames was gone, those that a kill had left were taken for somebody else's.
+    #[test]
+    fn results_are_a_runs_however_many_of_them_are_gone() {
+        let named = |number| {
+            format!("<DataSet timestep=\"0.0\" part=\"0\" file=\"{}\"/>", super::super::frame_name("particles", number))
+        };
+        let list = format!("{}{}{}", collection::HEAD, named(0), named(1));
+        let frames: Vec<String> = (0..4).map(|number| super::super::frame_name("particles", number)).collect();
+        let mut files: Vec<(&str, &str)> = frames.iter().map(|frame| (frame.as_str(), "frame")).collect();
+        files.extend([("particles.pvd", list.as_str()), ("history.csv", "time,a\n")]);
+        let path = folder("going", &files);
+        let all: Vec<_> = last_first(own_results(&path).unwrap()).collect();
+        assert_eq!(all.len(), files.len());
+        for (gone, file) in all.iter().enumerate() {
+            assert_eq!(own_results(&path).unwrap().len(), files.len() - gone);
+            fs::remove_file(file).unwrap();
+        }
+        fs::remove_dir_all(&path).unwrap();
+    }
+
     #[test]
     fn what_no_run_has_made_is_neither_followed_nor_removed_nor_overwritten() {
         let checkpoint = "cograin checkpoint 1\n";
