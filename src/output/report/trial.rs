@@ -85,7 +85,11 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
     let mut at_once = 1.0;
     while begun.elapsed() < patience {
-        let piece = at_once * simulation.state().clock.step;
+        // Where nothing limits the step, any interval is a single one.
+        let piece = match simulation.stable_step().is_finite() {
+            true => at_once * simulation.state().clock.step,
+            false => simulation.scene().run.end.unwrap_or(1.0),
+        };
         let point = schedule.map(|(schedule, _)| schedule.after(time));
         let interval = match point {
             Some(None) => break,
