@@ -46,8 +46,10 @@ pub(crate) struct Meter {
     pub(super) contact_steps: f64,
     /// Bonds summed over the time steps of the session.
     pub(super) bond_steps: f64,
-    /// Contacts at the last look.
+    /// Contacts at the last count.
     pub(super) contacts: usize,
+    /// Time steps made at the last count.
+    counted: u64,
     /// Largest overlap over radius at any look.
     pub(super) largest_overlap: f64,
     /// How long parts of communication steps are.
@@ -64,26 +66,36 @@ impl Meter {
             contact_steps: 0.0,
             bond_steps: 0.0,
             contacts: simulation.contact_count(),
+            counted: simulation.state().clock.steps,
             largest_overlap: simulation.largest_overlap(),
             pace: Pace::default(),
         }
     }
 
-    /// Makes a part of a communication step and counts it. Returns whether its end is reached.
+    /// Makes a part of a communication step. At its end the step is counted: parts depend on the clock, means must not. Returns whether
+    /// the end is reached.
     pub(crate) fn part(&mut self, simulation: &mut Simulation, interval: f64) -> Result<bool, RunError> {
-        let (begun, before) = (Instant::now(), simulation.state().clock.steps);
+        let begun = Instant::now();
         let result = self.pace.part(simulation, interval);
         self.stepping += begun.elapsed();
-        let contacts = simulation.contact_count();
-        let steps = (simulation.state().clock.steps - before) as f64;
-        self.contact_steps += 0.5 * steps * (self.contacts + contacts) as f64;
-        self.contacts = contacts;
-        self.bond_steps += steps * intact_bonds(simulation) as f64;
+        if let Ok(true) = result {
+            self.count(simulation);
+        }
         result
     }
 
-    /// Looks at the overlaps.
+    /// Counts the time steps since the last count.
+    fn count(&mut self, simulation: &Simulation) {
+        let (steps, contacts) = (simulation.state().clock.steps, simulation.contact_count());
+        let made = (steps - self.counted) as f64;
+        self.contact_steps += 0.5 * made * (self.contacts + contacts) as f64;
+        self.bond_steps += made * intact_bonds(simulation) as f64;
+        (self.counted, self.contacts) = (steps, contacts);
+    }
+
+    /// Counts what is left, and looks at the overlaps.
     pub(crate) fn look(&mut self, simulation: &Simulation) {
+        self.count(simulation);
         self.largest_overlap = self.largest_overlap.max(simulation.largest_overlap());
     }
 }
