@@ -10,6 +10,7 @@ mod bond_order;
 mod bonded_block;
 mod bonded_exchange;
 mod bonds;
+mod cell;
 mod books;
 mod coefficients;
 mod derivatives;

@@ -7,6 +7,7 @@ use crate::base::lanes::Width;
 use crate::base::threads::Workers;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
+use crate::engine::cell::Cell;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
@@ -46,6 +47,7 @@ impl Simulation {
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
+            cell: Cell::of(&scene),
             flow,
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),

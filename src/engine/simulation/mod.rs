@@ -28,6 +28,7 @@ pub use crate::engine::contacts::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::engine::run_error::{Cause, RunError};
 pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use advance::divide;
+pub use crate::engine::cell::Fabric;
 pub use coefficients::TuneError;
 pub use derivatives::{Input, NoDerivative};
 pub use observe::ElasticEnergy;
@@ -43,6 +44,7 @@ use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::{RigidBody, nodes};
+use crate::engine::cell::Cell;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;
@@ -73,6 +75,8 @@ pub struct Simulation {
     passing: Passing,
     /// Which contacts bonds suppress.
     suppression: Suppression,
+    /// The periodic cell, where the scene has one.
+    cell: Option<Cell>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.

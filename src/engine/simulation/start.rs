@@ -12,9 +12,12 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, mut neighbours, contacts, walls, bonds, exchange, .. } = reached;
+        let State { particles, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
         neighbours.made_at = 0;
         let mut state = State { particles, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+        if let (Some(begun), Some(ended)) = (&mut state.cell, cell) {
+            begun.stay(ended);
+        }
         if let Some(exchange) = &mut state.exchange {
             flow::begin_anew(&scene, exchange);
         }
@@ -65,6 +68,9 @@ impl Simulation {
         for (moved, given) in self.state.nodes.iter_mut().zip(&inputs.nodes) {
             moves |= nodes::put(moved, given);
         }
+        if let (Some(cell), Some(given)) = (&self.cell, &inputs.cell) {
+            moves |= cell.put(&mut self.state, given);
+        }
         if moves {
             rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
@@ -84,6 +90,9 @@ impl Simulation {
         }
         for (moved, given) in self.state.nodes.iter_mut().zip(&other.state.nodes) {
             nodes::take_inputs(moved, given);
+        }
+        if let (Some(cell), Some(given)) = (&mut self.state.cell, &other.state.cell) {
+            (cell.target, cell.target_rate) = (given.target, given.target_rate);
         }
         take_rates(&mut self.state, &other.state);
     }

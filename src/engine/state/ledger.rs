@@ -20,6 +20,8 @@ pub enum Source {
     Applied,
     /// Springs and dashpots from bodies to the ground.
     Support,
+    /// The streaming motion of a periodic cell that is deformed.
+    Cell,
 }
 
 impl Source {
@@ -27,9 +29,9 @@ impl Source {
     pub const PASSES: usize = 3;
     /// All kinds, those of passes first.
     pub const ALL: [Self; Self::COUNT] =
-        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support];
+        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support, Self::Cell];
     /// How many there are.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 8;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -41,6 +43,7 @@ impl Source {
             Self::Gravity => "gravity",
             Self::Applied => "applied",
             Self::Support => "support",
+            Self::Cell => "cell",
         }
     }
 }

@@ -53,6 +53,9 @@ impl Simulation {
     /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
     /// outside has been checked by [`Description::check`].
     pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
+        if scene.cell.is_some() || reached.cell.is_some() {
+            return Err(RunError::CellElsewhere);
+        }
         let mut numbers = Numbers::of(&scene, from);
         let mut state = assemble::state(&scene);
         let mut left = from.differences(&scene);
