@@ -211,7 +211,11 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     for (component, [row, column]) in STRAIN_PLACES.into_iter().enumerate() {
         if cell.motion[component] != CellMotion::Fixed && !(periodic[row] && periodic[column]) {
             let name = STRAINS[component];
-            found.push(at_cell("motion", format!("{name}, where the cell does not repeat"), "components of edges that repeat"));
+            found.push(at_cell(
+                "motion",
+                format!("{name}, where the cell does not repeat"),
+                "components of edges that repeat",
+            ));
         }
     }
     if let Some(component) = cell.shear.filter(|&component| component < 3) {
@@ -233,9 +237,15 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
             edges.map(|(edge, _)| Vector::from(*edge)).any(|edge| !lies(edge))
         };
         let message = match boundary.shifting_plane() {
-            None => "expected planes that do not turn beside [cell], found another boundary; other shapes have no images yet",
-            Some(plane) if crosses(plane.normal) => "expected a plane along the edges that repeat, found one that crosses them",
-            Some(_) if cell.moves() => "expected no boundary beside a [cell] that is deformed, found one, which would not be deformed with it",
+            None => {
+                "expected planes that do not turn beside [cell], found another boundary; other shapes have no images yet"
+            }
+            Some(plane) if crosses(plane.normal) => {
+                "expected a plane along the edges that repeat, found one that crosses them"
+            }
+            Some(_) if cell.moves() => {
+                "expected no boundary beside a [cell] that is deformed, found one, which would not be deformed with it"
+            }
             Some(_) => continue,
         };
         found.push(refused(table, boundary.shape.key(), message));
@@ -243,9 +253,17 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
     for bond in &scene.bonds {
         let table = format!("bond.{}", bond.name);
         if bond.plane.is_some() {
-            found.push(refused(table, "between", "expected bonds between particles beside [cell], found bonds at a plane"));
+            found.push(refused(
+                table,
+                "between",
+                "expected bonds between particles beside [cell], found bonds at a plane",
+            ));
         } else if matches!(bond.keys.create, Creation::Always) {
-            found.push(refused(table, "create", "expected bonds that are made at a time beside [cell], found \"always\""));
+            found.push(refused(
+                table,
+                "create",
+                "expected bonds that are made at a time beside [cell], found \"always\"",
+            ));
         }
     }
     let tables = [
@@ -261,9 +279,17 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
         }
     }
     if scene.domain.is_some() {
-        found.push(refused("domain".to_owned(), "", "expected no [domain] beside [cell], whose particles come back into it, found one"));
+        found.push(refused(
+            "domain".to_owned(),
+            "",
+            "expected no [domain] beside [cell], whose particles come back into it, found one",
+        ));
     }
-    let named = scene.boundaries.iter().map(|it| ("boundary", &it.name)).chain(scene.probes.iter().map(|it| ("probe", &it.name)));
+    let named = scene
+        .boundaries
+        .iter()
+        .map(|it| ("boundary", &it.name))
+        .chain(scene.probes.iter().map(|it| ("probe", &it.name)));
     for (kind, name) in named.filter(|(_, name)| *name == "cell") {
         let (found_name, expected) = ("that of [cell]".to_owned(), "a name of its own".to_owned());
         found.push((format!("{kind}.{name}"), "", Mistake::Unexpected { found: found_name, expected }));

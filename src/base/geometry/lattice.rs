@@ -63,14 +63,19 @@ impl Lattice {
         [0, 1, 2].map(|edge| if self.periodic[edge] { parts[edge].floor() as i64 } else { 0 })
     }
 
-    /// Distance of a point from the nearest image of another \[m\]; in a cell that leans much, of one that is near.
+    /// Distance of a point from the nearest image of another \[m\].
     pub(crate) fn distance(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
+        let [x, y, z] = self.nearest(a, b);
+        (x * x + y * y + z * z).sqrt()
+    }
+
+    /// The vector to a point from the nearest image of another \[m\]; in a cell that leans much, from one that is near.
+    pub(crate) fn nearest(&self, a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         let apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
         let parts = self.parts([0, 1, 2].map(|axis| self.origin[axis] + apart[axis]));
         let whole = [0, 1, 2].map(|edge| if self.periodic[edge] { parts[edge].round() as i64 } else { 0 });
         let shift = self.displacement(whole);
-        let square = |axis: usize| (apart[axis] - shift[axis]) * (apart[axis] - shift[axis]);
-        (square(0) + square(1) + square(2)).sqrt()
+        [0, 1, 2].map(|axis| apart[axis] - shift[axis])
     }
 
     /// Hands out the displacements of the images of a point in the cell that stand behind it ([`is_behind`]) and are no further than
@@ -146,11 +151,16 @@ mod tests {
     #[test]
     fn heights_are_the_volume_over_the_area_of_the_faces() {
         let cell = tilted();
-        let cross = |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
         let area = |a, b| cross(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
         let [a, b, c] = cell.edges;
         let expected = [area(b, c), area(c, a), area(a, b)].map(|area| cell.volume() / area);
-        expected.iter().zip(cell.heights()).for_each(|(wanted, height)| assert!((height - wanted).abs() < 1e-14, "{height} {wanted}"));
+        expected
+            .iter()
+            .zip(cell.heights())
+            .for_each(|(wanted, height)| assert!((height - wanted).abs() < 1e-14, "{height} {wanted}"));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What probes see: found by looking, never in a time step.
 
+use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
 use crate::engine::simulation::Simulation;
@@ -116,7 +117,14 @@ fn contacts(simulation: &Simulation, sights: &mut [Sight]) {
     let particles = &simulation.state().particles;
     for (place, ids, force) in pairs {
         let [Some(a), Some(b)] = ids.map(|index| particles.slot_of(index)) else { continue };
-        let apart = Vector::from(particles.position[a]) - Vector::from(particles.position[b]);
+        let apart = match (&simulation.scene().cell, &simulation.state().cell) {
+            (Some(cell), Some(lies)) => {
+                let lattice = Lattice { edges: lies.edges, ..cell.lattice };
+                let [a, b] = [a, b].map(|slot| Vector::from(particles.position[slot]).to_array());
+                Vector::from(lattice.nearest(a, b))
+            }
+            _ => Vector::from(particles.position[a]) - Vector::from(particles.position[b]),
+        };
         let distance = apart.length();
         sights[place] = Sight {
             force: force.to_array(),

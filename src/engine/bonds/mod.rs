@@ -128,7 +128,11 @@ impl BondPass {
         let list = &state.bonds[self.index];
         let hand = |a: u32, b: u32, distance: f64| {
             let ids = [particles.id[a as usize], particles.id[b as usize]];
-            if near_pair(distance, self.create_distance) && !are_images(particles, a, b) && self.may_bond(ids[0], ids[1]) && !is_bonded(list, a, b) {
+            if near_pair(distance, self.create_distance)
+                && !are_images(particles, a, b)
+                && self.may_bond(ids[0], ids[1])
+                && !is_bonded(list, a, b)
+            {
                 pairs.push([a, b]);
             }
         };
@@ -266,11 +270,11 @@ impl Pass for BondPass {
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let carried = self.carried(state, bond);
             let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
-            let other = Vector::from(particles.position[j as usize]).to_array();
+            let [position, other] = [i, j].map(|slot| Vector::from(particles.position[slot as usize]).to_array());
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
             let force = whole_force(list, bond, &carried);
             let (law, second) = (self.index as u32, Some(second));
-            tell(BondRecord { law, first, second, other, force, carried, dissipated });
+            tell(BondRecord { law, first, second, position, other, force, carried, dissipated });
         }
     }
 }

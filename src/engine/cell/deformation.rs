@@ -156,8 +156,15 @@ mod tests {
     fn strains_are_logarithms_of_stretches_and_engineering_shears() {
         let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let [a, b, c] = edges(&unit, &AFTER);
-        assert_eq!([a[0].ln(), b[1].ln(), c[2].ln()].map(|strain| (strain * 1e12).round()), [0.12e12, -0.09e12, 0.025e12]);
-        assert!((b[0] / b[1] - 0.27).abs() < 1e-15 && (c[0] / c[2] + 0.1).abs() < 1e-15 && (c[1] / c[2] - 0.18).abs() < 1e-15);
+        assert_eq!(
+            [a[0].ln(), b[1].ln(), c[2].ln()].map(|strain| (strain * 1e12).round()),
+            [0.12e12, -0.09e12, 0.025e12]
+        );
+        assert!(
+            (b[0] / b[1] - 0.27).abs() < 1e-15
+                && (c[0] / c[2] + 0.1).abs() < 1e-15
+                && (c[1] / c[2] - 0.18).abs() < 1e-15
+        );
     }
 
     #[test]

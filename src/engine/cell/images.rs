@@ -182,7 +182,8 @@ impl Lists {
             let kept = list.flags.iter().enumerate().filter(|(_, flags)| **flags != 0);
             kept.map(|(entry, _)| (entry as u32, pair(list.first[entry], list.second[entry]))).collect()
         });
-        let bonds = state.bonds.iter().map(|list| list.first.iter().zip(&list.second).map(|(&a, &b)| pair(a, b)).collect());
+        let bonds =
+            state.bonds.iter().map(|list| list.first.iter().zip(&list.second).map(|(&a, &b)| pair(a, b)).collect());
         let walls = state.walls.iter().map(|list| list.particle.iter().map(|&slot| id[slot as usize]).collect());
         Self { contacts: contacts.collect(), bonds: bonds.collect(), walls: walls.collect() }
     }
@@ -261,28 +262,21 @@ pub(crate) fn follow(state: &mut State, new_slot: &[u32]) {
     }
 }
 
-/// Puts the images where they belong, moving as their particles do relative to the streaming motion. Returns the farthest that one
-/// went \[m\].
-pub(crate) fn place(lattice: &Lattice, cell: &CellState, particles: &mut Particles) -> f64 {
+/// Puts the images where they belong, moving as their particles do relative to the streaming motion.
+pub(crate) fn place(lattice: &Lattice, cell: &CellState, particles: &mut Particles) {
     let Particles { position, velocity, angular_velocity, orientation, .. } = particles;
-    let mut farthest = 0.0_f64;
     for ((&image, &original), &shift) in cell.images.iter().zip(&cell.originals).zip(&cell.displaced) {
         let (image, original) = (image as usize, original as usize);
-        let (displacement, from) = (lattice.displacement(shift), position[image]);
-        let mut square = 0.0;
+        let displacement = lattice.displacement(shift);
         for axis in 0..3 {
-            let place = position[original][axis] + displacement[axis];
-            square += (place - from[axis]) * (place - from[axis]);
-            position[image][axis] = place;
+            position[image][axis] = position[original][axis] + displacement[axis];
         }
-        farthest = farthest.max(square);
         velocity[image] = velocity[original];
         angular_velocity[image] = angular_velocity[original];
         if let Some(turned) = orientation.get(original).copied() {
             orientation[image] = turned;
         }
     }
-    farthest.sqrt()
 }
 
 /// Adds the loads of images to their particles, and takes them from the images. Returns the sum over images of force times

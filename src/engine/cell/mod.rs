@@ -47,15 +47,6 @@ pub(crate) struct Cell {
     other: Vec<Row>,
 }
 
-/// How far a time step carried particles \[m\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Way {
-    /// In space.
-    pub(crate) absolute: f64,
-    /// Relative to what is near.
-    pub(crate) relative: f64,
-}
-
 impl Cell {
     /// That of a scene, if it has one.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
@@ -169,16 +160,20 @@ impl Cell {
         })
     }
 
-    /// Deforms the cell and carries particles and images along, after the drift. Returns how far they went.
-    pub(crate) fn advance(&mut self, state: &mut State, progress: &Progress, context: &Context) -> Result<Way, RunError> {
-        let Some(mut cell) = state.cell.take() else { return Ok(Way::default()) };
+    /// Deforms the cell and carries particles and images along, after the drift. Returns the strain: no two points at a distance of 1 were
+    /// carried towards each other by more.
+    pub(crate) fn advance(
+        &mut self,
+        state: &mut State,
+        progress: &Progress,
+        context: &Context,
+    ) -> Result<f64, RunError> {
+        let Some(mut cell) = state.cell.take() else { return Ok(0.0) };
         let result = self.deform(&mut cell, state, progress, context);
         let lattice = self.images.lattice(&cell);
-        let placed = images::place(&lattice, &cell, &mut state.particles);
+        images::place(&lattice, &cell, &mut state.particles);
         state.cell = Some(cell);
-        let mut way = result?;
-        way.absolute = way.absolute.max(placed);
-        Ok(way)
+        result
     }
 
     /// Deforms the cell in a time step.
@@ -188,7 +183,7 @@ impl Cell {
         state: &mut State,
         progress: &Progress,
         context: &Context,
-    ) -> Result<Way, RunError> {
+    ) -> Result<f64, RunError> {
         let step = progress.step;
         let after = self.strains(cell, progress, self.images.lattice(cell).volume());
         let change = Change::between(&cell.strain, &after);
@@ -196,7 +191,7 @@ impl Cell {
         if !(largest <= LARGEST_STEP) {
             return Err(RunError::CellStep { strain: largest, step, time: state.clock.time });
         }
-        let (kinetic, carried) = carry(state, &cell.origin, &change, step, context);
+        let kinetic = carry(state, &cell.origin, &change, step, context);
         cell.strain = after;
         cell.edges = deformation::edges(&cell.reference, &after);
         cell.gradient = if change.is_none() { Square::default() } else { change.gradient(&after, step) };
@@ -213,8 +208,7 @@ impl Cell {
         if height < self.largest {
             return Err(RunError::CellNarrow { height, radius: self.largest, time: state.clock.time });
         }
-        let near = 2.0 * self.largest + state.neighbours.skin;
-        Ok(Way { absolute: carried, relative: change.farthest() * near })
+        Ok(change.farthest())
     }
 
     /// Gives passes the velocities that include the streaming motion.
@@ -306,12 +300,12 @@ fn book_streaming(ledger: &mut Ledger, work: f64) {
     ledger.turnover += work.abs();
 }
 
-/// Carries the particles along, after the drift. Returns −M and the farthest that one was carried \[m\].
-fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> (Square, f64) {
+/// Carries the particles along, after the drift. Returns −M \[J\].
+fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> Square {
     let (rows, half) = (Rows::of(&mut state.particles), 0.5 * step);
     let is_none = change.is_none();
     let of_piece = |piece: usize| {
-        let (mut sum, mut farthest) = (Square::default(), 0.0_f64);
+        let mut sum = Square::default();
         rows.each_free(piece, |body| {
             let [u, v, w, mass] = *body.velocity;
             let before = [u, v, w];
@@ -323,22 +317,17 @@ fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, conte
             }
             let from = [0, 1, 2].map(|axis| body.position[axis] - half * before[axis] - origin[axis]);
             let to = times(&change.forward, from);
-            let mut square = 0.0;
             for axis in 0..3 {
-                let place = origin[axis] + to[axis] + half * after[axis];
-                square += (place - body.position[axis]) * (place - body.position[axis]);
-                body.position[axis] = place;
+                body.position[axis] = origin[axis] + to[axis] + half * after[axis];
                 body.velocity[axis] = after[axis];
             }
-            farthest = farthest.max(square);
         });
-        (sum, farthest)
+        sum
     };
-    let (sum, square) = context.fold(rows.pieces(), of_piece, (Square::default(), 0.0), |(mut sum, most), (part, far)| {
+    context.fold(rows.pieces(), of_piece, Square::default(), |mut sum, part| {
         add(&mut sum, &part);
-        (sum, f64::max(most, far))
-    });
-    (sum, square.sqrt())
+        sum
+    })
 }
 
 /// Adds a matrix to a sum.

@@ -69,18 +69,22 @@ impl Cell {
     pub(crate) fn find_stiffness(&self, state: &mut State, passes: &[Box<dyn Pass>]) {
         let mut sums = Strains::default();
         for pass in passes {
-            pass.stiffness(state, &SearchLimits::default(), &mut |Link { first, second, normal, stiffness, .. }| {
-                let Some(second) = second else { return };
-                let [a, b] = [first, second].map(|slot| Vector::from(state.particles.position[slot as usize]));
-                let (branch, normal) = ((a - b).to_array(), normal.to_array());
-                for (sum, [row, column]) in sums.iter_mut().zip(STRAIN_PLACES) {
-                    let mut unit = Square::default();
-                    unit[row][column] = 1.0;
-                    let went = Vector::from(times(&unit, branch));
-                    let along = went.dot(normal.into());
-                    *sum += stiffness[0] * along * along + stiffness[1] * (went.dot(went) - along * along);
-                }
-            });
+            pass.stiffness(
+                state,
+                &SearchLimits::default(),
+                &mut |Link { first, second, normal, stiffness, .. }| {
+                    let Some(second) = second else { return };
+                    let [a, b] = [first, second].map(|slot| Vector::from(state.particles.position[slot as usize]));
+                    let (branch, normal) = ((a - b).to_array(), normal.to_array());
+                    for (sum, [row, column]) in sums.iter_mut().zip(STRAIN_PLACES) {
+                        let mut unit = Square::default();
+                        unit[row][column] = 1.0;
+                        let went = Vector::from(times(&unit, branch));
+                        let along = went.dot(normal.into());
+                        *sum += stiffness[0] * along * along + stiffness[1] * (went.dot(went) - along * along);
+                    }
+                },
+            );
         }
         let volume = self.volume(state);
         if let Some(cell) = &mut state.cell {

@@ -38,6 +38,8 @@ pub struct BondRecord {
     pub first: u32,
     /// Body j: index into the scene's particles; none where it is the law's plane.
     pub second: Option<u32>,
+    /// Where body i is \[m\].
+    pub position: [f64; 3],
     /// Where body j is, or the foot of the bond on the plane \[m\].
     pub other: [f64; 3],
     /// Force on body i, that of damping included \[N\].

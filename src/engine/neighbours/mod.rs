@@ -127,6 +127,11 @@ impl Search {
         self.reach
     }
 
+    /// Radius of the largest particle \[m\].
+    pub(crate) fn largest_radius(&self) -> f64 {
+        self.largest
+    }
+
     /// Radius of the smallest particle \[m\].
     pub(crate) fn smallest_radius(&self) -> f64 {
         self.smallest
@@ -176,7 +181,9 @@ impl Search {
         if used(state.neighbours.travel) <= skin {
             return false;
         }
-        state.neighbours.travel = farthest(state, context);
+        let travel = farthest(state, context);
+        // A cell that is deformed carries what is near along: by how much it comes nearer was summed up.
+        state.neighbours.travel = if state.cell.is_some() { travel.min(state.neighbours.travel) } else { travel };
         let used = used(state.neighbours.travel);
         if used <= skin {
             return false;

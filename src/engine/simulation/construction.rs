@@ -105,6 +105,7 @@ impl Simulation {
         self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
         self.first_step(&context)?;
         self.look_at_pressed();
+        self.look_at_cell();
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);

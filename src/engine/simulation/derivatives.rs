@@ -182,9 +182,15 @@ impl Simulation {
         let least = self.search.smallest_radius();
         let strain = ((part * self.mean_overlap().unwrap_or(least)).max(LEAST * least)) / (2.0 * least);
         let Some(cell) = &self.state.cell else { return strain };
-        let Some(servo) = self.scene.cell.as_ref().and_then(|cell| cell.motion[component].servo()) else { return strain };
+        let Some(servo) = self.scene.cell.as_ref().and_then(|cell| cell.motion[component].servo()) else {
+            return strain;
+        };
         let stress = strain * cell.stiffness[component];
-        if stress > 0.0 { stress } else { part * servo.stress.abs().max(cell.target[component].abs()).max(f64::MIN_POSITIVE) }
+        if stress > 0.0 {
+            stress
+        } else {
+            part * servo.stress.abs().max(cell.target[component].abs()).max(f64::MIN_POSITIVE)
+        }
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

@@ -183,11 +183,18 @@ impl Simulation {
         let is_due =
             |simulation: &Self| simulation.scene.boundaries.iter().zip(&simulation.state.boundaries).any(has_changed);
         let looks = self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_CELL);
-        if looks && let Some(cell) = self.cell.as_ref().filter(|cell| cell.serves()) {
-            cell.find_stiffness(&mut self.state, &self.passes);
+        if looks {
+            self.look_at_cell();
         }
         if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
             self.look_at_pressed();
+        }
+    }
+
+    /// Looks at how stiff a cell is whose strains reach stresses.
+    pub(super) fn look_at_cell(&mut self) {
+        if let Some(cell) = self.cell.as_ref().filter(|cell| cell.serves()) {
+            cell.find_stiffness(&mut self.state, &self.passes);
         }
     }
 

@@ -24,11 +24,11 @@ mod state_check;
 mod taken_over;
 mod time_step;
 
+pub use crate::engine::cell::Fabric;
 pub use crate::engine::contacts::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::engine::run_error::{Cause, RunError};
 pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
 pub use advance::divide;
-pub use crate::engine::cell::Fabric;
 pub use coefficients::TuneError;
 pub use derivatives::{Input, NoDerivative};
 pub use observe::ElasticEnergy;

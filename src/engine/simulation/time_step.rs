@@ -3,7 +3,6 @@
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::boundaries::{course, loads, nodes, rigid_body};
-use crate::engine::cell::Way;
 use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::ledger::Source;
@@ -62,12 +61,12 @@ impl Simulation {
         speed * step
     }
 
-    /// Deforms the periodic cell, where there is one. Returns how far that carried particles.
-    fn deform_cell(&mut self, progress: &Progress, context: &Context) -> Result<Way, RunError> {
-        let Some(cell) = &mut self.cell else { return Ok(Way::default()) };
-        let way = cell.advance(&mut self.state, progress, context);
+    /// Deforms the periodic cell, where there is one. Returns the strain.
+    fn deform_cell(&mut self, progress: &Progress, context: &Context) -> Result<f64, RunError> {
+        let Some(cell) = &mut self.cell else { return Ok(0.0) };
+        let strain = cell.advance(&mut self.state, progress, context);
         self.done("cell");
-        way
+        strain
     }
 
     /// Makes the second half of the kick, of particles and bodies that forces move. Returns the largest speed at the middle of the next

@@ -263,9 +263,13 @@ impl<'a> Network<'a> {
     /// An interaction; of a particle with an image of itself two with what stands still, which are together at least as stiff, as
     /// |a − b|² ≤ 2 |a|² + 2 |b|².
     pub(super) fn with_itself(&self, link: &Link) -> [Option<Link>; 2] {
+        if self.state.cell.is_none() {
+            return [Some(*link), None];
+        }
         let particles = &self.state.particles;
         let original = |slot: u32| particles.original(slot);
-        let Some(second) = link.second.filter(|&second| second != link.first && original(second) == original(link.first))
+        let Some(second) =
+            link.second.filter(|&second| second != link.first && original(second) == original(link.first))
         else {
             return [Some(*link), None];
         };

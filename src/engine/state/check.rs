@@ -230,7 +230,10 @@ impl Particles {
         demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), expected)?;
         self.check_places()?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| match self.owner[slot] {
-            IMAGE => self.slot.get(id as usize).is_some_and(|&slot| self.owner.get(slot as usize).is_some_and(|&it| it != IMAGE)),
+            IMAGE => self
+                .slot
+                .get(id as usize)
+                .is_some_and(|&slot| self.owner.get(slot as usize).is_some_and(|&it| it != IMAGE)),
             _ => self.slot.get(id as usize) == Some(&(slot as u32)),
         });
         demand_all(numbers, "id", "each particle in one slot")?;
@@ -326,7 +329,9 @@ impl CellState {
         let sound = self.images.iter().zip(&self.originals).map(|(&image, &original)| {
             let (image, original) = (image as usize, original as usize);
             let is_image = particles.owner.get(image) == Some(&IMAGE) && !std::mem::replace(&mut seen[image], true);
-            is_image && particles.owner.get(original).is_some_and(|&it| it != IMAGE) && particles.id[image] == particles.id[original]
+            is_image
+                && particles.owner.get(original).is_some_and(|&it| it != IMAGE)
+                && particles.id[image] == particles.id[original]
         });
         demand_all(sound, "images", "an image of the particle of its number, each once")
     }

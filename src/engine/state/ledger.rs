@@ -28,8 +28,16 @@ impl Source {
     /// Kinds that passes make, in the order in which they are added up.
     pub const PASSES: usize = 3;
     /// All kinds, those of passes first.
-    pub const ALL: [Self; Self::COUNT] =
-        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support, Self::Cell];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Contacts,
+        Self::Bonds,
+        Self::Walls,
+        Self::Damping,
+        Self::Gravity,
+        Self::Applied,
+        Self::Support,
+        Self::Cell,
+    ];
     /// How many there are.
     pub const COUNT: usize = 8;
 

@@ -1,9 +1,9 @@
 //! The momentum balance of the particles and bodies that move freely.
 
 use crate::engine::simulation::Simulation;
-use crate::engine::state::{IMAGE, State};
 use crate::engine::state::boundaries::Inertial;
 use crate::engine::state::exchange::NetExchange;
+use crate::engine::state::{IMAGE, State};
 use crate::scene::Scene;
 use serde::Serialize;
 

@@ -155,7 +155,7 @@ impl Summary {
     ) -> Self {
         let state = simulation.state();
         let session_steps = state.clock.steps - meter.steps_before;
-        let particles = state.particles.len();
+        let particles = state.particles.slots().count();
         let nanoseconds = meter.stepping.as_secs_f64() * 1e9;
         let share = |count: f64| (count > 0.0).then(|| nanoseconds / count);
         Self {

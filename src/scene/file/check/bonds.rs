@@ -194,12 +194,7 @@ fn from_file(file: &str, source: &Source, table: &str, faults: &mut Faults) -> O
 }
 
 /// Reports listed pairs that are not of the two sets, or further apart than the law allows.
-fn outside_sets(
-    bond: &Bond,
-    table: &str,
-    (particles, cell): (&[Particle], Option<&Cell>),
-    faults: &mut Faults,
-) {
+fn outside_sets(bond: &Bond, table: &str, (particles, cell): (&[Particle], Option<&Cell>), faults: &mut Faults) {
     let particle = |index: u32| &particles[index as usize];
     let strange = bond.pairs.iter().find(|[a, b]| !bond.joins(particle(*a).set, particle(*b).set));
     if let Some([a, b]) = strange {
@@ -216,8 +211,7 @@ fn outside_sets(
     };
     let far = |pair: &&[u32; 2]| bond.create_distance().is_some_and(|most| distance(**pair) >= most);
     if let Some([a, b]) = bond.pairs.iter().find(far) {
-        let found =
-            format!("{:.3e} between {} and {}", distance([*a, *b]), particle(*a).id.0, particle(*b).id.0);
+        let found = format!("{:.3e} between {} and {}", distance([*a, *b]), particle(*a).id.0, particle(*b).id.0);
         let expected = "listed pairs nearer than this distance".to_owned();
         faults.add(table, "create_distance", Mistake::Unexpected { found, expected });
     }
