@@ -325,6 +325,20 @@ fn a_pair_that_drifts_through_the_faces_does_what_it_does_in_the_open() {
 }
 
 #[test]
+fn gravity_along_an_edge_that_repeats_is_booked_and_a_probe_follows_the_fall() {
+    let [law, pair] = SMOOTH;
+    let probe = "[probe.grain]\nparticle = 1\n";
+    let text = scene(law, pair, &(spheres(&[([0.5, 0.5, 0.5], 0.01, [0.0; 3])]) + probe + &cell(cube(0.6), "")));
+    let mut simulation = start(&format!("gravity = [0.0, 0.0, -10.0]\n{text}"));
+    simulation.advance(1.0).unwrap();
+    assert!(simulation.state().cell.as_ref().unwrap().edges_away[0][2] < -5);
+    let place = cograin::averages::sights(&simulation)[0].position[2];
+    assert!((place - 0.5 + 5.0).abs() < 1e-9, "{place}");
+    let kinetic = simulation.kinetic_energy();
+    assert!(simulation.physical_residual().unwrap().abs() < 1e-9 * kinetic);
+}
+
+#[test]
 fn one_particle_flies_on_for_many_periods() {
     let [law, pair] = SMOOTH;
     let velocity = [120.0, -75.0, 33.0];
@@ -424,6 +438,11 @@ fn what_a_cell_does_not_go_with_is_refused() {
         ("motion = { driven = [\"xx\"], fixed = [\"xx\"] }", "", "xx twice"),
         ("motion = { shear = \"zz\" }", "", "expected xy, xz or yz"),
         ("periodic = []", "", "at least one edge"),
+        (
+            "motion = { driven = [\"xx\"] }",
+            "[force.push]\nparticles = { set = \"all\" }\nforce = [1.0, 0.0, 0.0]\n",
+            "neither gravity nor [force]",
+        ),
         ("", "[domain]\nbox = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]\n", "no [domain] beside [cell]"),
     ] {
         let found = with(more, rest);

@@ -16,6 +16,9 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Sine of an angle below which an edge lies in a plane.
 const ALONG: f64 = 1e-9;
 
+/// So many images of a particle along an edge are made at most.
+const MOST_IMAGES: f64 = 10.0;
+
 /// A periodic cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
@@ -221,6 +224,13 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     if let Some(component) = cell.shear.filter(|&component| component < 3) {
         found.push(at_cell("motion.shear", STRAINS[component].to_owned(), "xy, xz or yz"));
     }
+    // What is further away than pairs reach has no image; an image of each edge up to there is made.
+    let distance = scene.bonds.iter().filter_map(|bond| bond.create_distance()).fold(0.0, f64::max);
+    let reach = (2.0 * largest + scene.run.skin.unwrap_or(0.0)).max(distance);
+    if (0..3).any(|edge| periodic[edge] && heights[edge] * MOST_IMAGES < reach) {
+        let found_reach = format!("pairs that reach {reach:?} m in a cell with faces {heights:?} m apart");
+        found.push(at_cell("edges", found_reach, "a cell no narrower than a tenth of skin and create_distance"));
+    }
     found.extend(beside(scene, cell));
     found
 }
@@ -277,6 +287,10 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
             let message = format!("expected no [{kind}] beside [cell], found one; it has no images yet");
             found.push(refused(format!("{kind}.{name}"), "", &message));
         }
+    }
+    if cell.moves() && (scene.gravity != [0.0; 3] || !scene.forces.is_empty()) {
+        let message = "expected neither gravity nor [force] beside a [cell] that is deformed, found one: they would work on its streaming motion";
+        found.push(refused("cell".to_owned(), "motion", message));
     }
     if scene.domain.is_some() {
         found.push(refused(

@@ -60,7 +60,7 @@ fn three([x, y, z, _]: [f64; 4]) -> [f64; 3] {
 fn particle(simulation: &Simulation, slot: usize) -> Sight {
     let particles = &simulation.state().particles;
     Sight {
-        position: three(particles.position[slot]),
+        position: simulation.state().unwrapped(slot),
         velocity: three(particles.velocity[slot]),
         angular_velocity: three(particles.angular_velocity[slot]),
         force: three(particles.force[slot]),
@@ -77,7 +77,7 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
     for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
         let own = particles.velocity[slot][3];
         mass += own;
-        place += Vector::from(particles.position[slot]) * own;
+        place += Vector::from(simulation.state().unwrapped(slot)) * own;
         momentum += Vector::from(particles.velocity[slot]) * own;
         force += Vector::from(particles.force[slot]);
     }

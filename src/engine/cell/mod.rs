@@ -119,6 +119,17 @@ impl Cell {
         }
     }
 
+    /// Lets the mean stress begin with the present one.
+    pub(crate) fn begin_mean(&self, state: &mut State, context: &Context) {
+        let Some(mut cell) = state.cell.take() else { return };
+        let change = Change::between(&cell.strain, &cell.strain);
+        (cell.kinetic, _) = carry(state, &cell.origin, &change, 0.0, context);
+        let volume = self.images.lattice(&cell).volume();
+        let load = |part: &Square| -(product(&cell.kinetic, part) + product(&cell.virial, part));
+        cell.mean_stress = std::array::from_fn(|component| load(&change.of_start[component]) / volume);
+        state.cell = Some(cell);
+    }
+
     /// Puts driven components to the inputs of a state, particles with the cell. Returns whether that moved anything.
     pub(crate) fn put(&self, state: &mut State, given: &CellState) -> bool {
         let Some(mut cell) = state.cell.take() else { return false };
@@ -187,11 +198,12 @@ impl Cell {
         let step = progress.step;
         let after = self.strains(cell, progress, self.images.lattice(cell).volume());
         let change = Change::between(&cell.strain, &after);
-        let largest = change.strain.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
-        if !(largest <= LARGEST_STEP) {
+        let largest = change.strain.iter().map(|change| change.abs()).sum::<f64>();
+        if largest > LARGEST_STEP || !largest.is_finite() {
             return Err(RunError::CellStep { strain: largest, step, time: state.clock.time });
         }
-        let kinetic = carry(state, &cell.origin, &change, step, context);
+        let (kinetic, impulse) = carry(state, &cell.origin, &change, step, context);
+        (0..3).for_each(|axis| cell.impulse[axis] += impulse[axis]);
         cell.strain = after;
         cell.edges = deformation::edges(&cell.reference, &after);
         cell.gradient = if change.is_none() { Square::default() } else { change.gradient(&after, step) };
@@ -199,7 +211,6 @@ impl Cell {
         let work = book(cell, &change, (-1.0, &kinetic, &change.of_start), step);
         let virial = cell.virial;
         book(cell, &change, (-0.5, &virial, &change.of_start), step);
-        cell.kinetic_work += work;
         if let Some(ledger) = &mut state.ledger {
             book_streaming(ledger, work);
         }
@@ -300,12 +311,13 @@ fn book_streaming(ledger: &mut Ledger, work: f64) {
     ledger.turnover += work.abs();
 }
 
-/// Carries the particles along, after the drift. Returns −M \[J\].
-fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> Square {
+/// Carries the particles along, after the drift. Returns −M \[J\] and what that added to the momentum
+/// \[N s\].
+fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> (Square, [f64; 3]) {
     let (rows, half) = (Rows::of(&mut state.particles), 0.5 * step);
     let is_none = change.is_none();
     let of_piece = |piece: usize| {
-        let mut sum = Square::default();
+        let (mut sum, mut impulse) = (Square::default(), [0.0; 3]);
         rows.each_free(piece, |body| {
             let [u, v, w, mass] = *body.velocity;
             let before = [u, v, w];
@@ -320,13 +332,15 @@ fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, conte
             for axis in 0..3 {
                 body.position[axis] = origin[axis] + to[axis] + half * after[axis];
                 body.velocity[axis] = after[axis];
+                impulse[axis] += mass * (after[axis] - before[axis]);
             }
         });
-        sum
+        (sum, impulse)
     };
-    context.fold(rows.pieces(), of_piece, Square::default(), |mut sum, part| {
+    context.fold(rows.pieces(), of_piece, (Square::default(), [0.0; 3]), |(mut sum, mut impulse), (part, added)| {
         add(&mut sum, &part);
-        sum
+        impulse.iter_mut().zip(added).for_each(|(sum, part)| *sum += part);
+        (sum, impulse)
     })
 }
 

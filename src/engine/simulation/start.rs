@@ -1,6 +1,7 @@
 //! Where a simulation starts: as the scene was built, with driven axes moved, or in a state that another one reached.
 
 use super::{RunError, Simulation, assemble};
+use crate::base::threads::Context;
 use crate::engine::boundaries::{course, nodes, placing, rigid_body};
 use crate::engine::flow;
 use crate::engine::state::{BoundaryState, State};
@@ -114,6 +115,9 @@ impl Simulation {
                 boundary.force_before[axis] = boundary.force[axis];
                 boundary.moment_before[axis] = boundary.moment[axis];
             }
+        }
+        if let Some(cell) = &self.cell {
+            cell.begin_mean(&mut self.state, &Context { step: 0.0, width: self.width, threads: None });
         }
         for nodes in &mut self.state.nodes {
             nodes.mean_force.clone_from(&nodes.force);

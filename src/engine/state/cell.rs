@@ -59,8 +59,8 @@ pub struct CellState {
     pub mean_stress: Strains,
     /// Work done on the particles since time 0 \[J\].
     pub work: f64,
-    /// The part of it that changed velocities at once \[J\].
-    pub kinetic_work: f64,
+    /// Impulse of the streaming motion on the particles since time 0 \[N s\].
+    pub impulse: [f64; 3],
 }
 
 clone_in_place!(CellState {
@@ -85,13 +85,13 @@ clone_in_place!(CellState {
     volume_before,
     mean_stress,
     work,
-    kinetic_work
+    impulse
 });
 
 impl CellState {
     /// Counts work from here.
     pub(super) fn begin_counting(&mut self) {
-        (self.work, self.kinetic_work) = (0.0, 0.0);
+        (self.work, self.impulse) = (0.0, [0.0; 3]);
     }
 
     /// Takes over where another has come to, as the state without strain.

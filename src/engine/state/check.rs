@@ -317,7 +317,8 @@ impl CellState {
         let sixes = [self.strain, self.rate, self.start, self.end, self.target, self.target_rate];
         all_finite(sixes.as_flattened(), "cell")?;
         all_finite([self.stiffness, self.action, self.mean_stress].as_flattened(), "cell")?;
-        all_finite(&[self.volume_before, self.work, self.kinetic_work], "cell")?;
+        all_finite(&self.impulse, "cell")?;
+        all_finite(&[self.volume_before, self.work], "cell")?;
         let count = self.images.len();
         let columns = self.originals.len() == count && self.displaced.len() == count;
         demand(columns && count == particles.images(), "images", count, "an entry for each image")?;

@@ -39,6 +39,7 @@ pub use particles::{GONE, IMAGE, Particles};
 
 pub use crate::base::number::Row;
 
+use crate::base::geometry::Lattice;
 use in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -118,6 +119,15 @@ impl State {
     /// The same, to be changed.
     pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut Nodes> {
         self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
+    pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
+        let [x, y, z, _] = self.particles.position[slot];
+        let Some(cell) = &self.cell else { return [x, y, z] };
+        let lattice = Lattice { edges: cell.edges, ..Lattice::default() };
+        let [u, v, w] = lattice.displacement(cell.edges_away[self.particles.id[slot] as usize]);
+        [x + u, y + v, z + w]
     }
 
     /// Work of each boundary, and of the periodic cell, on the particles since time 0 \[J\].

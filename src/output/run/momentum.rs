@@ -129,6 +129,9 @@ fn account(scene: &Scene, state: &State) -> Account {
             }
         }
     }
+    if let Some(cell) = &state.cell {
+        boundaries.iter_mut().zip(cell.impulse).for_each(|(sum, part)| *sum += part);
+    }
     let net = state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net);
     Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, net, time: state.clock.time }
 }
