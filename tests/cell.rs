@@ -516,3 +516,32 @@ fn variables_of_a_cell_are_its_inputs_and_what_it_answers() {
     }
     assert_eq!(outputs.len(), 4 + 6 + 6 + 6 + 4);
 }
+
+#[test]
+fn another_scene_takes_over_what_a_cell_has_come_to() {
+    use cograin::simulation::Description;
+    use std::sync::Arc;
+    let bond = "[bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 0.02\nnormal_stiffness = 1e9\n\
+                tangential_stiffness = 5e8\n";
+    // At its start the second scene cuts springs of contacts that slide with the velocities of the end of a step.
+    for (law, bond, tolerance) in [(SMOOTH, "", 1e-12), (ROUGH, "", 1e-3), (ROUGH, bond, 1e-3)] {
+        let text = |motion: &str, end: &str| dense(law, &format!("{motion}\n{bond}")).replace("end = 1.0", end);
+        let mut first = start(&text("motion = { shear = \"xz\" }", "end = 1.0"));
+        for step in 1..=4 {
+            first.set_strain(4, 0.3 * f64::from(step));
+            first.advance(2e-3).unwrap();
+        }
+        first.advance(1e-5).unwrap();
+        let from = Description::of(first.scene(), "first.toml", first.time());
+        let second: Arc<cograin::scene::Scene> = Arc::new(text(DRIVEN, "end = 2.0").parse().unwrap());
+        let (second, left) = Simulation::taken_over(second, first.state(), &from).unwrap();
+        assert!(left.is_empty(), "{left:?}");
+        let (before, after) = (first.state().cell.as_ref().unwrap(), second.state().cell.as_ref().unwrap());
+        assert_eq!(after.strain, before.strain);
+        assert_eq!(after.target, before.strain);
+        assert_eq!(second.bonds().len(), first.bonds().len());
+        assert_eq!(second.contact_count(), first.contact_count());
+        let energies = [first.elastic_energy(), second.elastic_energy()];
+        assert!((energies[1] - energies[0]).abs() < tolerance * energies[0], "{energies:?}");
+    }
+}

@@ -12,6 +12,7 @@ use crate::base::geometry::lattice::{brought_back, counted_anew, is_behind};
 use crate::engine::state::cell::CellState;
 use crate::engine::state::{IMAGE, Particles, State};
 use crate::scene::{Bond, Scene};
+use std::collections::BTreeMap;
 
 /// What is rounded must not leave an image out.
 const HAIR: f64 = 1.0 + 1e-9;
@@ -123,7 +124,7 @@ impl Images {
 }
 
 /// By how many edges what stands in each slot is away from where its particle has come to without being brought back.
-fn whereabouts(cell: &CellState, particles: &Particles) -> Vec<[i64; 3]> {
+pub(crate) fn whereabouts(cell: &CellState, particles: &Particles) -> Vec<[i64; 3]> {
     let mut away: Vec<[i64; 3]> = particles.id.iter().map(|&id| cell.edges_away[id as usize]).collect();
     for (&image, shift) in cell.images.iter().zip(&cell.displaced) {
         away[image as usize] = less(away[image as usize], *shift);
@@ -158,6 +159,83 @@ impl Pair {
             shift => Some((0, (row[i as usize], shift.map(|count| -count)))),
         }
     }
+}
+
+/// Where the particles of pairs stand, images among them; those that are missing are made.
+pub(crate) struct ImageSlots {
+    /// Slot of each image.
+    slots: BTreeMap<Image, u32>,
+    /// Images to be made.
+    missing: Vec<Image>,
+    /// The slot of the next one.
+    next: u32,
+}
+
+impl ImageSlots {
+    /// Those of a state.
+    pub(crate) fn of(state: &State) -> Self {
+        let cell = state.cell.iter();
+        let images = cell.flat_map(|cell| cell.images.iter().zip(cell.originals.iter().zip(&cell.displaced)));
+        Self {
+            slots: images.map(|(&image, (&original, &shift))| ((original, shift), image)).collect(),
+            missing: Vec::new(),
+            next: state.particles.len() as u32,
+        }
+    }
+
+    /// The slots of two particles (their indices here, their slots there) that are to each other as they were in another state, whose
+    /// slots are away by so many edges.
+    pub(crate) fn pair(&mut self, state: &State, ids: [u32; 2], there: [u32; 2], away: &[[i64; 3]]) -> [u32; 2] {
+        let slot = &state.particles.slot;
+        let mut slots = ids.map(|id| slot[id as usize]);
+        let Some(cell) = &state.cell else { return slots };
+        let pair = Pair { ids, apart: less(away[there[0] as usize], away[there[1] as usize]) };
+        if let Some((place, image)) = pair.image(cell, slot) {
+            slots[place] = *self.slots.entry(image).or_insert_with(|| {
+                self.missing.push(image);
+                self.next += 1;
+                self.next - 1
+            });
+        }
+        slots
+    }
+
+    /// Makes what is missing. The lists are made anew afterwards.
+    pub(crate) fn make(self, state: &mut State) {
+        let Some(cell) = &mut state.cell else { return };
+        let first = state.particles.len() as u32;
+        cell.images.extend((0..self.missing.len() as u32).map(|place| first + place));
+        cell.originals.extend(self.missing.iter().map(|(original, _)| *original));
+        cell.displaced.extend(self.missing.iter().map(|(_, shift)| *shift));
+        let originals: Vec<u32> = self.missing.iter().map(|(original, _)| *original).collect();
+        state.particles.add_images(&originals);
+    }
+}
+
+/// Takes over a cell as it has come to in another state, whose particles are these here (their rows, which are their indices). Returns
+/// the row here of what stands in each slot there, images among them.
+pub(crate) fn take_over(state: &mut State, reached: &State, here: impl Fn(u32) -> Option<u32>) -> Vec<Option<u32>> {
+    let mut rows: Vec<Option<u32>> = reached.particles.id.iter().map(|&id| here(id)).collect();
+    let (Some(cell), Some(other)) = (&mut state.cell, &reached.cell) else { return rows };
+    (cell.reference, cell.edges, cell.strain) = (other.reference, other.edges, other.strain);
+    for (there, away) in other.edges_away.iter().enumerate() {
+        if let Some(here) = here(there as u32) {
+            cell.edges_away[here as usize] = *away;
+        }
+    }
+    let mut next = state.particles.len() as u32;
+    for ((&image, &original), &shift) in other.images.iter().zip(&other.originals).zip(&other.displaced) {
+        // An image of a particle that is not here has no row.
+        rows[image as usize] = None;
+        let Some(original) = rows[original as usize] else { continue };
+        rows[image as usize] = Some(next);
+        cell.images.push(next);
+        cell.originals.push(original);
+        cell.displaced.push(shift);
+        next += 1;
+    }
+    state.particles.add_images(&cell.originals);
+    rows
 }
 
 /// The pairs of the lists, by particles.

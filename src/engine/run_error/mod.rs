@@ -90,9 +90,7 @@ pub enum RunError {
         cause: Cause,
     },
     /// A periodic cell is to go on in another scene.
-    #[error(
-        "expected a state of the same scene, found one of another: what a [cell] has come to is not taken over yet"
-    )]
+    #[error("expected a state with a [cell] of the same origin where the scene has one, found another")]
     CellElsewhere,
     /// A strain of the cell is to be what no number is.
     #[error("cell: expected a finite strain {name}, found {strain} at t = {time} s", name = STRAINS[*component], time = plain(*time))]
