@@ -1,5 +1,6 @@
 //! One communication step: how many time steps, and what is looked at between them.
 
+use super::pace::Seen;
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
@@ -76,8 +77,12 @@ impl Simulation {
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        if self.is_due(boundary_speed, step) {
+        let seen = self.look_at_contacts(boundary_speed);
+        let is_due = self.is_due(boundary_speed, step);
+        if is_due {
             self.look(step, &Context { step, ..*standing })?;
+        }
+        if is_due || seen != Seen::Nothing {
             self.shorten_step();
         }
         self.lengthen_step(interval);
@@ -125,12 +130,15 @@ impl Simulation {
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
             }
-            if !self.is_due(underway.boundary_speed, step) {
-                continue;
+            let seen = self.look_at_contacts(underway.boundary_speed);
+            let is_due = self.is_due(underway.boundary_speed, step);
+            if is_due {
+                self.check_plane()?;
+                self.look(step, &context)?;
             }
-            self.check_plane()?;
-            self.look(step, &context)?;
-            if self.shorten_step() && done < count {
+            let shorter = (is_due || seen != Seen::Nothing) && self.shorten_step();
+            let changes = shorter || (seen == Seen::Everything && self.lengthen_step(length - underway.elapsed()));
+            if changes && done < count {
                 self.divide_rest(underway)?;
             }
         }

@@ -98,10 +98,7 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        match self.scene.run.step {
-            Step::Given(_) => None,
-            Step::Automatic { safety } => Some((safety * stable).min(self.longest_by_motion())),
-        }
+        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
@@ -121,8 +118,8 @@ impl Simulation {
 
     /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].
     pub(super) fn outruns(&self, step: f64) -> bool {
-        let is_automatic = matches!(self.scene.run.step, Step::Automatic { .. });
-        is_automatic && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
+        self.scene.run.step.is_automatic()
+            && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
     }
 
     /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
@@ -133,7 +130,7 @@ impl Simulation {
         match self.scene.run.step {
             _ if !is_far => Horizon::NEAR,
             Step::Given(step) => Horizon { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
-            Step::Automatic { .. } => Horizon { faster: FASTER, is_far },
+            Step::Automatic { .. } | Step::Following => Horizon { faster: FASTER, is_far },
         }
     }
 
@@ -252,15 +249,18 @@ impl Simulation {
         shorter
     }
 
-    /// Lengthens an automatic time step, before a communication step of this length \[s\], where the packing allows a good deal more.
-    pub(super) fn lengthen_step(&mut self, interval: f64) {
-        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+    /// Lengthens an automatic time step, of which this is left of a communication step \[s\], where a good deal more is allowed. Returns
+    /// whether it has.
+    pub(super) fn lengthen_step(&mut self, left: f64) -> bool {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
         let clock = &mut self.state.clock;
+        let longer = step > LENGTHENING * clock.step;
         if step.is_infinite() {
-            clock.step = interval;
-        } else if step > LENGTHENING * clock.step {
+            clock.step = left;
+        } else if longer {
             clock.step = step;
         }
+        longer
     }
 
     /// The time step of the start, by what was found.

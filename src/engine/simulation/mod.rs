@@ -13,6 +13,7 @@ mod lists;
 mod losses;
 mod memory_check;
 mod observe;
+mod pace;
 mod placement;
 mod plane;
 mod probe;
@@ -50,6 +51,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
 use crate::engine::state::State;
+use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
 use rollback::Rollback;
 use std::sync::Arc;
@@ -67,6 +69,8 @@ pub struct Simulation {
     fields: Fields,
     /// Groups that turn or that forces move; `None` for other boundaries.
     bodies: Vec<Option<RigidBody>>,
+    /// What a time step makes of impacts, where it follows them.
+    errors: ErrorCurve,
     /// The neighbour search.
     search: neighbours::Search,
     /// How particles came to where they are, as boundaries see it.
@@ -104,6 +108,8 @@ struct Workspace {
     damping_force: [f64; 3],
     /// Nodes of meshes before the time step.
     nodes: nodes::NodeWorkspace,
+    /// How many contacts each body has.
+    contacts: Vec<u8>,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
     /// Loads between one kind of force and the next, for the energy book.

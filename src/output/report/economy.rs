@@ -7,8 +7,8 @@ use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Run, Scene, SceneDraft,
-    Shape, Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft, Shape,
+    Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation, speed: f64) -> Vec<St
         lines.extend(scene.bonds.iter().filter_map(|bond| as_a_group(scene, present, bond)));
     }
     lines.extend(soft_enough(scene, present, speed));
-    lines.extend(safety(scene));
+    lines.extend(safety(scene, present));
     lines.extend((0..scene.boundaries.len() as u32).filter_map(|index| fine_mesh(scene, BoundaryIndex(index))));
     lines
 }
@@ -185,16 +185,43 @@ fn pressure(scene: &Scene) -> f64 {
     gravity * scene.particles.iter().map(Particle::mass).sum::<f64>() / area
 }
 
-/// A fraction of the stable step that is smaller than what a scene takes by default: steps go as its inverse.
-fn safety(scene: &Scene) -> Option<String> {
-    let Step::Automatic { safety } = scene.run.step else { return None };
-    let factor = Run::SAFETY / safety;
-    let chosen = match scene.run.accuracy {
-        accuracy if accuracy != Accuracy::default() => format!("accuracy = \"{}\"", accuracy.name()),
-        _ => format!("safety = {safety}"),
+/// The time step at the start of a scene that names neither step nor accuracy \[s\].
+pub(super) fn default_step(scene: &Scene) -> Option<f64> {
+    let mut draft = SceneDraft::clone(scene);
+    (draft.run.step, draft.run.accuracy) = (Step::Following, Accuracy::default());
+    let simulation = Simulation::new(Arc::new(draft.build().ok()?)).ok()?;
+    Some(simulation.state().clock.step)
+}
+
+/// A time step that is shorter than by default: steps go as its inverse; or a fraction of the stable step with which impacts are less
+/// accurate.
+fn safety(scene: &Scene, present: &Simulation) -> Option<String> {
+    let chosen = match scene.run.step {
+        Step::Given(_) => return None,
+        Step::Automatic { safety } => format!("safety = {safety}"),
+        Step::Following if scene.run.accuracy == Accuracy::default() => return None,
+        Step::Following => format!("accuracy = {}", scene.run.accuracy),
     };
-    (factor > LEAST)
-        .then(|| format!("[run] {chosen}: {factor:.1} times the steps of the default, safety {}", Run::SAFETY))
+    let factor = default_step(scene)? / present.state().clock.step;
+    if factor > LEAST {
+        return Some(format!("[run] {chosen}: {factor:.1} times the steps of the default at the start"));
+    }
+    let Step::Automatic { safety } = scene.run.step else { return None };
+    let tried = present.impacts().into_iter().map(|impact| {
+        let restitution = impact.restitution();
+        (restitution, impact.error(safety, restitution))
+    });
+    let (restitution, error) =
+        tried.reduce(|most, next| if next.1.restitution > most.1.restitution { next } else { most })?;
+    (error.restitution > Accuracy::default().error()).then(|| {
+        let word = if error.dissipation < 0.0 { "less" } else { "more" };
+        format!(
+            "[run] {chosen}: an impact of two bodies alone, e = {restitution:.2}, dissipates {:.0} % {word} than it should; e is off by up to \
+             {:.2}",
+            100.0 * error.dissipation.abs(),
+            error.restitution
+        )
+    })
 }
 
 /// A mesh whose facets are smaller than what touches them.

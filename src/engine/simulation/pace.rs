@@ -1,0 +1,110 @@
+//! The automatic time step follows the moment: what is in contact, and what is about to be.
+//!
+//! Impacts of two bodies alone need short time steps, for their restitution is that of a spring and a dashpot; in a packing a contact
+//! takes up what its neighbours leave it, and a step that is stable is short enough. How long it may be follows from the energy that
+//! both have, and from what the laws' own code makes of an impact ([`ErrorCurve`]).
+
+use super::Simulation;
+use crate::engine::boundaries::course;
+use crate::engine::contacts::{Encounters, FASTER};
+use crate::engine::state::Pace;
+use crate::laws::contact::impact::{ErrorCurve, Impact, LONGEST_PART};
+use crate::scene::{Scene, Step};
+
+/// Time steps after which all contacts are looked at again. Such a look takes about as long as a time step.
+const BETWEEN_LOOKS: u64 = 256;
+
+/// What was looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// Nothing: it was not due.
+    Nothing,
+    /// Bodies in no contact and in one.
+    Impacts,
+    /// All contacts.
+    Everything,
+}
+
+impl Simulation {
+    /// The fraction of the stable step that the automatic one takes now; none where it is given.
+    pub(crate) fn part_of_stable(&self) -> Option<f64> {
+        match self.scene.run.step {
+            Step::Given(_) => None,
+            Step::Automatic { safety } => Some(safety),
+            Step::Following => match self.state.pace.share {
+                share if share > 0.0 => Some(self.errors.longest(self.scene.run.accuracy.error() / share)),
+                _ => Some(LONGEST_PART),
+            },
+        }
+    }
+
+    /// Impacts of each two materials that can meet.
+    pub(crate) fn impacts(&self) -> Vec<Impact> {
+        let (mut known, mut impacts) = (Vec::new(), Vec::new());
+        let Some(body) = lightest(&self.scene) else { return impacts };
+        for pass in &self.passes {
+            pass.rows(&self.scene, &mut |found| {
+                if !known.contains(&found.key) {
+                    known.push(found.key);
+                    impacts.extend(Impact::of(found.law, found.row, body));
+                }
+            });
+        }
+        impacts
+    }
+
+    /// Finds out what a time step makes of impacts, where it is to follow them.
+    pub(super) fn try_impacts(&mut self) {
+        if self.scene.run.step == Step::Following {
+            self.errors = ErrorCurve::of(&self.impacts(), self.scene.run.accuracy.error());
+        }
+    }
+
+    /// Looks at contacts and at those to come, where that is due: after so many time steps, where the neighbour lists were made anew, and
+    /// where anything has become much faster; boundaries are this fast \[m/s\].
+    pub(super) fn look_at_contacts(&mut self, boundaries: f64) -> Seen {
+        if self.scene.run.step != Step::Following {
+            return Seen::Nothing;
+        }
+        let Self { state, .. } = self;
+        let (pace, clock) = (state.pace, &state.clock);
+        let speed = clock.speed.max(boundaries);
+        let whole = clock.steps >= pace.whole_at + BETWEEN_LOOKS;
+        if whole || clock.rebuilds != pace.rebuilds || speed > FASTER * pace.speed {
+            self.find_pace(speed, whole);
+            return if whole { Seen::Everything } else { Seen::Impacts };
+        }
+        Seen::Nothing
+    }
+
+    /// Looks at contacts and at those to come, of all contacts or of bodies in at most one.
+    pub(super) fn find_pace(&mut self, speed: f64, whole: bool) {
+        if self.scene.run.step != Step::Following {
+            return;
+        }
+        let Self { scene, state, fields, bodies, passes, workspace, .. } = self;
+        let speeds = course::speeds(scene, bodies, state, state.clock.step).collect();
+        let room = std::mem::take(&mut workspace.contacts);
+        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), whole);
+        for pass in &*passes {
+            pass.encounters(state, &mut found);
+        }
+        let energies = found.energies;
+        let packed = if whole { energies.packed } else { state.pace.packed };
+        let all = energies.impacts + energies.coming + packed;
+        let share = if energies.impacts > 0.0 { (energies.impacts / all).min(1.0) } else { 0.0 };
+        let whole_at = if whole { state.clock.steps } else { state.pace.whole_at };
+        state.pace = Pace { share, packed, whole_at, rebuilds: state.clock.rebuilds, speed };
+        workspace.contacts = found.into_room();
+    }
+}
+
+/// Radius \[m\] and mass \[kg\] of the lightest particle of a scene.
+fn lightest(scene: &Scene) -> Option<[f64; 2]> {
+    let now = scene.particles.iter().map(|particle| [particle.radius, particle.mass()]);
+    let coming = scene.insertions.iter().map(|insertion| {
+        let [radius, _] = insertion.sizes.bounds();
+        [radius, insertion.mass(radius)]
+    });
+    now.chain(coming).reduce(|least, next| if next[1] < least[1] { next } else { least })
+}

@@ -1,0 +1,223 @@
+//! A head-on impact of two like spheres, tried with the code of their law: what a long time step makes of its restitution.
+//!
+//! Time steps are counted by the impact's own stable one, 2/μ of two bodies alone ([`Impact::stable`]). Laws whose force is a power
+//! of the overlap answer alike at any speed; the others are tried at the speed of a reference overlap.
+
+use super::{Contact, Law, MOST_HISTORY};
+use crate::base::number::Vector;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// Overlap over the effective radius that the impact reaches.
+const OVERLAP: f64 = 0.01;
+
+/// Moments within a time step at which the contact begins.
+const PHASES: u32 = 12;
+
+/// The golden section: its multiples lie evenly between 0 and 1, however many there are.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
+
+/// Stable steps after which bodies that still touch count as stuck; an impact takes two to six.
+const LONGEST: f64 = 60.0;
+
+/// A time step over the stable one that leaves no error to speak of.
+const FINE: f64 = 1.0 / 256.0;
+
+/// The longest time step that the program chooses over the stable one. At that itself an impact of two bodies has two to three.
+pub(crate) const LONGEST_PART: f64 = 0.8;
+
+/// The shortest that is tried: below it the error is taken to be of first order.
+const SHORTEST_PART: f64 = 1.0 / 64.0;
+
+/// What a time step makes of restitution.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct StepError {
+    /// The largest error of the coefficient of restitution, over the moments at which the contact may begin.
+    pub(crate) restitution: f64,
+    /// What is dissipated too much, in the mean over them, over what is dissipated with short steps; 0 where nothing is.
+    pub(crate) dissipation: f64,
+}
+
+/// An impact to be tried.
+#[derive(Clone)]
+pub(crate) struct Impact {
+    /// The law.
+    law: Law,
+    /// Its coefficients.
+    row: Vec<f64>,
+    /// Radius \[m\] and mass \[kg\] of each sphere.
+    body: [f64; 2],
+    /// Speed of the approach \[m/s\].
+    speed: f64,
+    /// The stable time step \[s\].
+    stable: f64,
+}
+
+impl Impact {
+    /// An impact of two spheres of this radius \[m\] and mass \[kg\]; none where the law has no stiffness.
+    pub(crate) fn of(law: &Law, row: &[f64], body: [f64; 2]) -> Option<Self> {
+        let constant = law.pair_constant(row, 0.5 * body[0], 0.5 * body[1]);
+        let deep = contact(body, OVERLAP * 0.5 * body[0], 0.0, constant);
+        let (energy, mass) = (law.elastic_energy(row, &deep, 0.0, &[[0.0; 4]; MOST_HISTORY]), deep.mass);
+        let response = law.stiffness(row, &deep);
+        let (k, c) = (response.normal_stiffness / mass, response.normal_damping / mass);
+        let (speed, stable) = ((2.0 * energy / mass).sqrt(), 4.0 / (c + (c * c + 4.0 * k).sqrt()));
+        let holds = [speed, stable].into_iter().all(|it| it.is_finite() && it > 0.0);
+        holds.then(|| Self { law: law.clone(), row: row.to_vec(), body, speed, stable })
+    }
+
+    /// What is left of the speed after an impact in time steps that are this part of the stable one; the contact begins at this part
+    /// of the first one. Below 0 where the bodies pass each other.
+    fn rebound(&self, part: f64, phase: f64) -> f64 {
+        let Self { law, row, body, speed, stable } = self;
+        let (body, speed) = (*body, *speed);
+        let step = part * stable;
+        let constant = law.pair_constant(row, 0.5 * body[0], 0.5 * body[1]);
+        let mass = 0.5 * body[1];
+        let mut history = [[0.0; 4]; MOST_HISTORY];
+        let (mut overlap, mut velocity, mut force) = ((phase - 1.0) * speed * step, -speed, 0.0);
+        let mut touched = false;
+        for _ in 0..(LONGEST / part) as u32 {
+            velocity += 0.5 * step * force / mass;
+            overlap -= step * velocity;
+            let reach = if touched && law.holds_beyond_touch() { constant } else { 0.0 };
+            if overlap < -reach {
+                if touched {
+                    return velocity / speed;
+                }
+                history = [[0.0; 4]; MOST_HISTORY];
+                continue;
+            }
+            touched = true;
+            let mut contact = contact(body, overlap, velocity, constant);
+            let remembered = &mut history[..law.history().len()];
+            force = law.react(row, &mut contact, remembered, step).force.dot(contact.normal);
+            velocity += 0.5 * step * force / mass;
+        }
+        0.0
+    }
+
+    /// What is left of the speed with short time steps.
+    pub(crate) fn restitution(&self) -> f64 {
+        self.rebound(FINE, 0.5)
+    }
+
+    /// What time steps that are this part of the stable one make of it, where this restitution is right.
+    pub(crate) fn error(&self, part: f64, right: f64) -> StepError {
+        let (mut most, mut kept) = (0.0_f64, 0.0);
+        for phase in 0..PHASES {
+            let found = self.rebound(part, (f64::from(phase) * GOLDEN).fract());
+            most = most.max((found - right).abs());
+            kept += found * found / f64::from(PHASES);
+        }
+        let lost = 1.0 - right * right;
+        StepError { restitution: most, dissipation: if lost > 0.0 { (1.0 - kept) / lost - 1.0 } else { 0.0 } }
+    }
+}
+
+/// The largest error of restitution over the time step, of several impacts: what their own code makes of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ErrorCurve {
+    /// Parts of the stable step, ascending up to [`LONGEST_PART`], and the largest error of any that is not longer; empty where nothing
+    /// can touch.
+    points: Vec<[f64; 2]>,
+}
+
+impl ErrorCurve {
+    /// That of these impacts, down to this error.
+    pub(crate) fn of(impacts: &[Impact], least: f64) -> Self {
+        let right: Vec<f64> = impacts.iter().map(Impact::restitution).collect();
+        let (mut points, mut part, mut within) = (Vec::new(), LONGEST_PART, 0);
+        // One small error may be that of an accident.
+        while !impacts.is_empty() && part >= SHORTEST_PART && within < 2 {
+            let errors = impacts.iter().zip(&right).map(|(impact, right)| impact.error(part, *right).restitution);
+            let error = errors.fold(0.0, f64::max);
+            within = if error <= least { within + 1 } else { 0 };
+            points.push([part, error]);
+            part *= FRAC_1_SQRT_2;
+        }
+        points.reverse();
+        let mut most = 0.0_f64;
+        for [_, error] in &mut points {
+            most = most.max(*error);
+            *error = most;
+        }
+        Self { points }
+    }
+
+    /// The longest time step over the stable one whose error is not above this.
+    pub(crate) fn longest(&self, error: f64) -> f64 {
+        let within = self.points.partition_point(|point| point[1] <= error);
+        let Some(&[part, above]) = self.points.get(within) else { return LONGEST_PART };
+        // The error grows with a power of the step: on the straight line between two points it is smaller.
+        let [from, below] = if within > 0 { self.points[within - 1] } else { [0.0; 2] };
+        from + (part - from) * (error - below) / (above - below)
+    }
+}
+
+/// The contact of two like spheres of this radius \[m\] and mass \[kg\] at this overlap \[m\] and velocity along the normal \[m/s\].
+fn contact([radius, mass]: [f64; 2], overlap: f64, velocity: f64, pair_constant: f64) -> Contact {
+    let distance = 2.0 * radius - overlap;
+    Contact {
+        overlap,
+        radius: 0.5 * radius,
+        mass: 0.5 * mass,
+        section_area: PI * (radius * radius - 0.25 * distance * distance).max(0.0),
+        section_radius: radius,
+        normal: Vector::new(1.0, 0.0, 0.0),
+        normal_velocity: velocity,
+        per_distance: 1.0 / distance,
+        per_reach: 0.5 / radius,
+        rolling_inertia: 0.5 * mass * radius * radius,
+        pair_constant,
+        ..Contact::zero()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::quantity::{Positive, Restitution};
+    use crate::laws::contact::fixtures::*;
+    use crate::laws::contact::{
+        CohesionModel, LawChoice, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
+        cohesion, normal, rolling, tangential,
+    };
+
+    /// A law without friction, and its coefficients.
+    fn case(name: &str, restitution: f64, scheme: Scheme) -> (Law, Vec<f64>) {
+        let speed = normal::hooke::Keys { characteristic_velocity: Positive::new(2.0).unwrap() };
+        let choice = LawChoice {
+            normal: match name {
+                "hertz" => NormalModel::of::<normal::hertz::Hertz>(NoKeys {}),
+                _ => NormalModel::of::<normal::hooke::Hooke>(speed),
+            },
+            tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}),
+            rolling: RollingModel::of::<rolling::none::None>(NoKeys {}),
+            cohesion: CohesionModel::of::<cohesion::none::None>(NoKeys {}),
+            switches: Switches::of(false, true),
+            scheme,
+        };
+        let properties = PairProperties { restitution: Restitution::new(restitution), ..properties() };
+        let row = with_pair(&properties, |pair| choice.coefficients(pair)).unwrap();
+        (Law::of(&choice), row)
+    }
+
+    #[test]
+    fn table() {
+        for e in [0.98, 0.9, 0.7, 0.5, 0.3, 0.1] {
+            for scheme in Scheme::ALL {
+                for name in ["hertz", "hooke"] {
+                    let (law, row) = case(name, e, scheme);
+                    let impact = Impact::of(&law, &row, [1e-3, 1e-5]).unwrap();
+                    let right = impact.restitution();
+                    print!("{name} {} e {e} right {right:.5}:", scheme.name());
+                    for part in [0.8, 0.56, 0.4, 0.28, 0.2, 0.14, 0.1, 0.07, 0.05, 0.025] {
+                        let it = impact.error(part, right);
+                        print!(" {part}: {:.1e} {:+.0}%,", it.restitution, 100.0 * it.dissipation);
+                    }
+                    println!();
+                }
+            }
+        }
+    }
+}
