@@ -22,6 +22,9 @@ const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
 
+/// Largest speed over that of the last look at which the stable time step is looked at again.
+const CALMER: f64 = 0.25;
+
 /// How much longer the automatic time step may be than that for which it was foreseen.
 const MUCH_LONGER: f64 = 20.0;
 
@@ -155,6 +158,7 @@ impl Simulation {
             travel: 0.0,
             reach: 0.5 * sight.ahead.way,
             speed: growth * sight.speed,
+            fastest: self.state.clock.speed,
             bonds,
             until: window.map_or(0, |window| window.until),
             to: window.map_or(0.0, |window| window.to),
@@ -236,6 +240,16 @@ impl Simulation {
     pub(super) fn boundaries_change_speed(&self) -> bool {
         let time = self.state.clock.time;
         self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
+    }
+
+    /// Whether what moves fastest has become so much slower since the stable time step was found that a longer one may be.
+    pub(super) fn is_calmer(&self) -> bool {
+        self.state.clock.speed < CALMER * self.state.foresight.fastest
+    }
+
+    /// Whether an automatic time step is longer than it would be chosen now.
+    pub(super) fn is_too_long(&self) -> bool {
+        self.automatic_step(self.state.clock.stable).is_some_and(|step| step < self.state.clock.step)
     }
 
     /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther. Returns whether it has.

@@ -17,6 +17,7 @@ mod pace;
 mod placement;
 mod plane;
 mod probe;
+mod repeats;
 mod rollback;
 mod run_checks;
 mod sight;
@@ -53,6 +54,7 @@ use crate::engine::neighbours;
 use crate::engine::state::State;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
+use repeats::Repeats;
 use rollback::Rollback;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -91,6 +93,8 @@ pub struct Simulation {
     workspace: Workspace,
     /// What is needed to return to the beginning of a communication step that fails.
     rollback: Rollback,
+    /// How communication steps were divided.
+    repeats: Repeats,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
