@@ -25,10 +25,21 @@ const FRACTIONS: [f64; 5] = [0.4, 0.2, 0.1, 0.05, 0.025];
 /// Phases of a gap within a time step.
 const PHASES: u32 = 12;
 
+/// How the time step is chosen.
+type Choice = (Step, Accuracy);
+
+/// As a scene does that says nothing.
+const DEFAULT: Choice = (Step::Following, Accuracy::Standard);
+
+/// A fraction of the stable step.
+fn fraction(safety: f64) -> Choice {
+    (Step::Automatic { safety }, Accuracy::Standard)
+}
+
 /// A sphere before a plane, or two spheres before each other; velocity and spin of the first afterwards, and the steps that
 /// the impact took about.
-fn rebound(mut scene: SceneDraft, step: Step, duration: f64) -> ([f64; 3], [f64; 3], f64) {
-    scene.run.step = step;
+fn rebound(mut scene: SceneDraft, (step, accuracy): Choice, duration: f64) -> ([f64; 3], [f64; 3], f64) {
+    (scene.run.step, scene.run.accuracy) = (step, accuracy);
     let mut simulation = Simulation::new(Arc::new(scene.build().unwrap())).unwrap();
     simulation.advance(5.0 * duration).unwrap();
     let steps = duration / simulation.state().clock.step;
@@ -61,7 +72,7 @@ fn gap(phase: u32) -> f64 {
 }
 
 /// Largest error of the restitution over coefficients and phases, by a step.
-fn restitution_error(law: LawChoice, step: Step) -> (f64, f64) {
+fn restitution_error(law: LawChoice, step: Choice) -> (f64, f64) {
     let (mut most, mut fewest) = (0.0_f64, f64::INFINITY);
     for restitution in [0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0] {
         for phase in 0..PHASES {
@@ -85,13 +96,13 @@ fn converged(law: LawChoice) -> Vec<[f64; 3]> {
     let best = LawChoice { scheme: Scheme::Predicted, ..law };
     let one = |(restitution, friction, angle)| {
         let (scene, duration) = on_plane(best, restitution, friction, angle, gap(1));
-        rebound(scene, Step::Given(duration / 3000.0), duration).0
+        rebound(scene, (Step::Given(duration / 3000.0), Accuracy::Standard), duration).0
     };
     oblique().map(one).collect()
 }
 
 /// Largest error of the rebound velocity over the oblique impacts, over their speed.
-fn oblique_error(law: LawChoice, step: Step, converged: &[[f64; 3]]) -> (f64, f64) {
+fn oblique_error(law: LawChoice, step: Choice, converged: &[[f64; 3]]) -> (f64, f64) {
     let (mut most, mut fewest) = (0.0_f64, f64::INFINITY);
     for ((restitution, friction, angle), converged) in oblique().zip(converged) {
         for phase in 0..4 {
@@ -110,22 +121,22 @@ fn oblique_error(law: LawChoice, step: Step, converged: &[[f64; 3]]) -> (f64, f6
     clippy::print_stdout,
     reason = "the figures of docs/speed-and-accuracy.md are what this test prints with --nocapture"
 )]
-fn tell(what: &str, law: &str, scheme: Scheme, safety: f64, (error, steps): (f64, f64)) {
-    println!("{what} {law} {:16} {safety:4} {error:.2e} {steps:.1} steps in a contact", scheme.name());
+fn tell(what: &str, law: &str, scheme: Scheme, step: &str, (error, steps): (f64, f64)) {
+    println!("{what} {law} {:16} {step:5} {error:.2e} {steps:.1} steps in a contact", scheme.name());
 }
 
 /// The errors of each scheme at each fraction of the stable step, and what `accuracy = "high"` takes.
-fn table(what: &str, law: (&str, LawChoice), error: impl Fn(LawChoice, Step) -> (f64, f64)) -> f64 {
+fn table(what: &str, law: (&str, LawChoice), error: impl Fn(LawChoice, Choice) -> (f64, f64)) -> f64 {
     let (name, law) = law;
     for scheme in Scheme::ALL {
         for safety in FRACTIONS {
-            let found = error(LawChoice { scheme, ..law }, Step::Automatic { safety });
-            tell(what, name, scheme, safety, found);
+            let found = error(LawChoice { scheme, ..law }, fraction(safety));
+            tell(what, name, scheme, &safety.to_string(), found);
         }
     }
-    let (scheme, safety) = (Accuracy::High.scheme(), Accuracy::High.safety());
-    let high = error(LawChoice { scheme, ..law }, Step::Automatic { safety });
-    tell(what, name, scheme, safety, high);
+    let scheme = Accuracy::High.scheme();
+    let high = error(LawChoice { scheme, ..law }, (Step::Following, Accuracy::High));
+    tell(what, name, scheme, "high", high);
     high.0
 }
 
@@ -143,7 +154,8 @@ fn restitution_is_right_to_a_hundredth_at_the_default_step() {
     let law = LawChoice { scheme: Accuracy::Standard.scheme(), ..HERTZ };
     let smooth = LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), ..law };
     for (name, law) in [("hertz", law), ("hertz without friction", smooth), ("hooke", hooke(smooth))] {
-        let (error, _) = restitution_error(law, Step::Automatic { safety: Accuracy::Standard.safety() });
+        let (error, _) = restitution_error(law, DEFAULT);
+        tell("default", name, law.scheme, "", (error, 0.0));
         assert!(error <= 1e-2, "{name}: {error:.2e}");
     }
 }
@@ -152,8 +164,8 @@ fn restitution_is_right_to_a_hundredth_at_the_default_step() {
 fn oblique_rebounds_are_right_to_two_per_cent_at_the_default_step() {
     let law = LawChoice { scheme: Accuracy::Standard.scheme(), ..HERTZ };
     for (name, law) in [("hertz", law), ("hooke", hooke(law))] {
-        let step = Step::Automatic { safety: Accuracy::Standard.safety() };
-        let (error, _) = oblique_error(law, step, &converged(law));
+        let (error, _) = oblique_error(law, DEFAULT, &converged(law));
+        tell("default, oblique", name, law.scheme, "", (error, 0.0));
         assert!(error <= 2e-2, "{name}: {error:.2e}");
     }
 }
@@ -163,7 +175,7 @@ fn a_linear_dashpot_that_is_predicted_is_of_second_order_from_touch_to_touch() {
     for scheme in [Scheme::PredictedNormal, Scheme::Predicted] {
         let smooth =
             LawChoice { tangential: TangentialModel::of::<tangential::none::None>(NoKeys {}), scheme, ..HERTZ };
-        let errors = [0.1, 0.05, 0.025].map(|safety| restitution_error(hooke(smooth), Step::Automatic { safety }).0);
+        let errors = [0.1, 0.05, 0.025].map(|safety| restitution_error(hooke(smooth), fraction(safety)).0);
         for pair in errors.windows(2) {
             assert!(pair[0] / pair[1] > 3.0, "{errors:?}");
         }

@@ -136,7 +136,8 @@ impl<'a> Encounters<'a> {
         (first, second, boundary): Bodies,
     ) {
         let (mass, velocity, overlap) = (contact.mass, contact.normal_velocity, contact.overlap);
-        let elastic = || law.elastic_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]);
+        // Attraction holds energy below 0.
+        let elastic = || law.normal_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]).max(0.0);
         let gained = |boundary: usize, now: f64| (self.speeds.get(boundary).map_or(0.0, |speed| speed - now)).max(0.0);
         match meeting {
             Meetings::Packed => self.energies.packed += 0.5 * mass * velocity * velocity + elastic(),

@@ -101,7 +101,7 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()))
+        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and

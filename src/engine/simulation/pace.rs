@@ -14,6 +14,12 @@ use crate::scene::{Scene, Step};
 /// Time steps after which all contacts are looked at again. Such a look takes about as long as a time step.
 const BETWEEN_LOOKS: u64 = 256;
 
+/// The longest time step over the stable one where a servo follows what it presses on.
+const SERVED_PART: f64 = 0.2;
+
+/// (ω Δt)² over the error of a body's frequency ω on its springs: 24, and less by what higher powers add.
+const SPRUNG: f64 = 20.0;
+
 /// What was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seen {
@@ -31,11 +37,28 @@ impl Simulation {
         match self.scene.run.step {
             Step::Given(_) => None,
             Step::Automatic { safety } => Some(safety),
-            Step::Following => match self.state.pace.share {
-                share if share > 0.0 => Some(self.errors.longest(self.scene.run.accuracy.error() / share)),
-                _ => Some(LONGEST_PART),
-            },
+            Step::Following => {
+                let share = self.state.pace.share;
+                let allowed = self.scene.run.accuracy.error() / share;
+                let part = if share > 0.0 { self.errors.longest(allowed) } else { LONGEST_PART };
+                Some(if self.serves { part.min(SERVED_PART) } else { part })
+            }
         }
+    }
+
+    /// The time step in which bodies swing on their springs to the ground as accurately as impacts are; infinite where the scene gives
+    /// it otherwise \[s\].
+    pub(super) fn longest_by_springs(&self) -> f64 {
+        if self.scene.run.step != Step::Following {
+            return f64::INFINITY;
+        }
+        let bodies = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            let mobility = body.mobility(moved).diagonal();
+            Some(body.springs().iter().zip(mobility.iter()).map(|(k, per_mass)| k * per_mass).fold(0.0, f64::max))
+        });
+        let square = bodies.fold(0.0, f64::max);
+        (SPRUNG * self.scene.run.accuracy.error() / square).sqrt()
     }
 
     /// Impacts of each two materials that can meet.

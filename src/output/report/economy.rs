@@ -200,7 +200,10 @@ fn safety(scene: &Scene, present: &Simulation) -> Option<String> {
         Step::Given(_) => return None,
         Step::Automatic { safety } => format!("safety = {safety}"),
         Step::Following if scene.run.accuracy == Accuracy::default() => return None,
-        Step::Following => format!("accuracy = {}", scene.run.accuracy),
+        Step::Following => match scene.run.accuracy {
+            Accuracy::Within(error) => format!("accuracy = {error}"),
+            word => format!("accuracy = \"{word}\""),
+        },
     };
     let factor = default_step(scene)? / present.state().clock.step;
     if factor > LEAST {
