@@ -49,6 +49,8 @@ pub(crate) struct Encounters<'a> {
     speeds: Vec<f64>,
     /// Whether contacts inside packings are looked at.
     whole: bool,
+    /// Time in which contacts to come count \[s\].
+    time: f64,
     /// What was found.
     pub energies: Energies,
 }
@@ -72,7 +74,7 @@ impl<'a> Encounters<'a> {
         state: &State,
         (fields, bodies): (&'a Fields, &'a [Option<RigidBody>]),
         (speeds, mut contacts): (Vec<f64>, Vec<u8>),
-        whole: bool,
+        (whole, time): (bool, f64),
     ) -> Self {
         contacts.clear();
         contacts.resize(state.particles.len() + state.boundaries.len(), 0);
@@ -100,7 +102,7 @@ impl<'a> Encounters<'a> {
             // Whatever else it touches, a bonded body is not alone.
             list.first.iter().chain(&list.second).for_each(|&slot| (0..2).for_each(|_| count(slot)));
         }
-        Self { contacts, fields, bodies, speeds, whole, energies: Energies::default() }
+        Self { contacts, fields, bodies, speeds, whole, time, energies: Energies::default() }
     }
 
     /// The room for the numbers of contacts, for the next look.
@@ -162,7 +164,8 @@ impl<'a> Encounters<'a> {
                     + boundary.map_or(0.0, of_surface);
                 let acceleration = self.closing(state, contact, first, second);
                 let closing = extra - velocity;
-                if closing <= 0.0 && acceleration <= 0.0 {
+                let reached = (closing + 0.5 * acceleration.max(0.0) * self.time) * self.time;
+                if (closing <= 0.0 && acceleration <= 0.0) || reached < -overlap {
                     return;
                 }
                 let energy = mass * (0.5 * closing * closing - acceleration * overlap);

@@ -76,6 +76,11 @@ impl Simulation {
         impacts
     }
 
+    /// The fraction of the stable step that impacts of two bodies allow where nothing else is in contact.
+    pub(crate) fn part_of_impacts(&self) -> f64 {
+        self.errors.longest(self.scene.run.accuracy.error())
+    }
+
     /// Finds out what a time step makes of impacts, where it is to follow them.
     pub(super) fn try_impacts(&mut self) {
         if self.scene.run.step == Step::Following {
@@ -83,8 +88,8 @@ impl Simulation {
         }
     }
 
-    /// Looks at contacts and at those to come, where that is due: after so many time steps, where the neighbour lists were made anew, and
-    /// where anything has become much faster; boundaries are this fast \[m/s\].
+    /// Looks at contacts and at those to come, where that is due: after so many time steps, where what was foreseen is over or the
+    /// neighbour lists were made anew, and where anything has become much faster; boundaries are this fast \[m/s\].
     pub(super) fn look_at_contacts(&mut self, boundaries: f64) -> Seen {
         if self.scene.run.step != Step::Following {
             return Seen::Nothing;
@@ -93,7 +98,8 @@ impl Simulation {
         let (pace, clock) = (state.pace, &state.clock);
         let speed = clock.speed.max(boundaries);
         let whole = clock.steps >= pace.whole_at + BETWEEN_LOOKS;
-        if whole || clock.rebuilds != pace.rebuilds || speed > FASTER * pace.speed {
+        let is_over = clock.rebuilds != pace.rebuilds || clock.time >= pace.until || speed > FASTER * pace.speed;
+        if whole || is_over {
             self.find_pace(speed, whole);
             return if whole { Seen::Everything } else { Seen::Impacts };
         }
@@ -108,7 +114,11 @@ impl Simulation {
         let Self { scene, state, fields, bodies, passes, workspace, .. } = self;
         let speeds = course::speeds(scene, bodies, state, state.clock.step).collect();
         let room = std::mem::take(&mut workspace.contacts);
-        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), whole);
+        // Beyond the lists nothing is seen, and after so many time steps they are looked at again.
+        let time = (2.0 * state.neighbours.skin / speed).min(BETWEEN_LOOKS as f64 * LONGEST_PART * state.clock.stable);
+        // At the start no stable step is known.
+        let time = if time > 0.0 { time } else { f64::INFINITY };
+        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), (whole, time));
         for pass in &*passes {
             pass.encounters(state, &mut found);
         }
@@ -117,7 +127,8 @@ impl Simulation {
         let all = energies.impacts + energies.coming + packed;
         let share = if energies.impacts > 0.0 { (energies.impacts / all).min(1.0) } else { 0.0 };
         let whole_at = if whole { state.clock.steps } else { state.pace.whole_at };
-        state.pace = Pace { share, packed, whole_at, rebuilds: state.clock.rebuilds, speed };
+        state.pace =
+            Pace { share, packed, whole_at, until: state.clock.time + time, rebuilds: state.clock.rebuilds, speed };
         workspace.contacts = found.into_room();
     }
 }

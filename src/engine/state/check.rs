@@ -210,9 +210,9 @@ impl Foresight {
 impl Pace {
     /// Whether this can be one.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { share, packed, whole_at, rebuilds, speed } = *self;
+        let Self { share, packed, whole_at, until, rebuilds, speed } = *self;
         demand((0.0..=1.0).contains(&share), "pace", 0, "a share from 0 to 1")?;
-        demand(packed >= 0.0 && speed >= 0.0, "pace", 1, "an energy and a speed of 0 or above")?;
+        demand(packed >= 0.0 && speed >= 0.0 && until >= 0.0, "pace", 1, "numbers of 0 or above")?;
         demand(whole_at < MOST && rebuilds < MOST, "pace", 2, "a count that can be reached")
     }
 }

@@ -11,6 +11,8 @@ pub struct Pace {
     pub packed: f64,
     /// Number of the time step after which they were.
     pub whole_at: u64,
+    /// Contacts that come until then were foreseen \[s\].
+    pub until: f64,
     /// How often neighbour lists had been made at the last look.
     pub rebuilds: u64,
     /// Largest speed of anything then \[m/s\].

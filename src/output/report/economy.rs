@@ -5,6 +5,7 @@ use super::trial;
 use crate::base::quantity::BoundaryIndex;
 use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
+use crate::laws::contact::impact::LONGEST_PART;
 use crate::laws::surface::Group;
 use crate::scene::{
     Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft, Shape,
@@ -193,36 +194,47 @@ pub(super) fn default_step(scene: &Scene) -> Option<f64> {
     Some(simulation.state().clock.step)
 }
 
-/// A time step that is shorter than by default: steps go as its inverse; or a fraction of the stable step with which impacts are less
-/// accurate.
-fn safety(scene: &Scene, present: &Simulation) -> Option<String> {
-    let chosen = match scene.run.step {
-        Step::Given(_) => return None,
-        Step::Automatic { safety } => format!("safety = {safety}"),
-        Step::Following if scene.run.accuracy == Accuracy::default() => return None,
-        Step::Following => match scene.run.accuracy {
-            Accuracy::Within(error) => format!("accuracy = {error}"),
-            word => format!("accuracy = \"{word}\""),
-        },
-    };
-    let factor = default_step(scene)? / present.state().clock.step;
-    if factor > LEAST {
-        return Some(format!("[run] {chosen}: {factor:.1} times the steps of the default at the start"));
+/// A time step that is shorter than by default, or with which impacts are less accurate.
+fn safety(scene: &Scene, present: &Simulation) -> Vec<String> {
+    match scene.run.step {
+        Step::Given(_) => Vec::new(),
+        Step::Automatic { safety } => {
+            let factor = LONGEST_PART / safety;
+            let longer = (factor > LEAST)
+                .then(|| format!("[run] safety = {safety}: up to {factor:.1} times the steps of the default in a bed"));
+            longer.into_iter().chain(dissipation(present, safety)).collect()
+        }
+        Step::Following => exactness(scene, present).into_iter().collect(),
     }
-    let Step::Automatic { safety } = scene.run.step else { return None };
+}
+
+/// An accuracy that costs more time steps than the default.
+fn exactness(scene: &Scene, present: &Simulation) -> Option<String> {
+    let mut draft = SceneDraft::clone(scene);
+    draft.run.accuracy = Accuracy::default();
+    let usual = Simulation::new(Arc::new(draft.build().ok()?)).ok()?;
+    let factor = usual.part_of_impacts() / present.part_of_impacts();
+    let chosen = match scene.run.accuracy {
+        Accuracy::Within(error) => format!("{error}"),
+        word => format!("\"{word}\""),
+    };
+    (factor > LEAST).then(|| {
+        format!("[run] accuracy = {chosen}: {factor:.1} times the steps of the default while two bodies collide")
+    })
+}
+
+/// What a fraction of the stable step makes of the impact with the largest error.
+fn dissipation(present: &Simulation, safety: f64) -> Option<String> {
     let tried = present.impacts().into_iter().map(|impact| {
         let restitution = impact.restitution();
         (restitution, impact.error(safety, restitution))
     });
     let (restitution, error) =
         tried.reduce(|most, next| if next.1.restitution > most.1.restitution { next } else { most })?;
+    let (percent, word) = (100.0 * error.dissipation.abs(), if error.dissipation < 0.0 { "less" } else { "more" });
     (error.restitution > Accuracy::default().error()).then(|| {
-        let word = if error.dissipation < 0.0 { "less" } else { "more" };
         format!(
-            "[run] {chosen}: an impact of two bodies alone, e = {restitution:.2}, dissipates {:.0} % {word} than it should; e is off by up to \
-             {:.2}",
-            100.0 * error.dissipation.abs(),
-            error.restitution
+            "[run] safety = {safety}: an impact of two bodies alone with e = {restitution:.2} dissipates {percent:.0} % {word} than it should"
         )
     })
 }

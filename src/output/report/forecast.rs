@@ -124,7 +124,10 @@ fn steps(
     let Some(part) = present.part_of_stable() else {
         return [schedule.steps(begins, now); 3];
     };
-    let largest = if scene.run.step == Step::Following { LONGEST_PART } else { part };
+    let [smallest, largest] = match scene.run.step {
+        Step::Following => [present.part_of_impacts(), LONGEST_PART],
+        _ => [part; 2],
+    };
     let mut falling = present.state().clone();
     let speed = fall(scene, present);
     for velocity in &mut falling.particles.velocity {
@@ -133,8 +136,8 @@ fn steps(
     let bound =
         Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.stable_step(), |it| it.stable_step());
     let longest = AT_REST * now.max(trial.last_step) * largest / part;
-    let fallen = (largest * bound).min(longest);
-    let shortest = (IN_A_PACKING * fallen).min(now).min(trial.last_step);
+    let fallen = ((smallest * largest).sqrt() * bound).min(longest);
+    let shortest = (IN_A_PACKING * smallest * bound).min(fallen).min(now).min(trial.last_step);
     [longest, fallen.max(shortest), shortest].map(|step| schedule.steps(begins, step))
 }
 
