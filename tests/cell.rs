@@ -385,6 +385,30 @@ fn bits_are_the_same_for_threads_lanes_and_after_save_and_restore() {
 }
 
 #[test]
+fn the_automatic_step_knows_images() {
+    let automatic = |text: String| text.replace("step = 1e-5", "step = \"auto\"");
+    for law in [SMOOTH, ROUGH] {
+        let mut simulation = start(&automatic(dense(law, "motion = { shear = \"xz\" }")));
+        simulation.set_strain(4, 0.3);
+        simulation.advance(5e-3).unwrap();
+        let clock = &simulation.state().clock;
+        assert!(
+            clock.step > 0.0 && clock.step < clock.stable && clock.stable < 1e-3,
+            "{} {}",
+            clock.step,
+            clock.stable
+        );
+    }
+    // One particle between its own images is as stiff as the same lattice of many.
+    let stable = |counts| {
+        let simulation = start(&automatic(lattice("sc", counts, 1.96e-3, 1e-3, "")));
+        simulation.state().clock.stable
+    };
+    let (one, many) = (stable([1, 1, 1]), stable([4, 4, 4]));
+    assert!(one <= many * (1.0 + 1e-9) && one > 0.4 * many, "{one} {many}");
+}
+
+#[test]
 fn a_servo_reaches_its_stress() {
     let more = "motion = { servo = { xx = { stress = -2e4, max_rate = 5.0 }, yy = { stress = -2e4, max_rate = 5.0 }, \
                 zz = { stress = -4e4, max_rate = 5.0 } } }";

@@ -17,6 +17,7 @@ pub mod ledger;
 pub mod losses;
 pub mod nodes;
 mod number;
+pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
@@ -35,6 +36,7 @@ pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
 pub use nodes::Nodes;
 pub use number::InsertedParticle;
+pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
 
 pub use crate::base::number::Row;
@@ -52,6 +54,8 @@ pub struct State {
     pub underway: Option<Underway>,
     /// For which conditions the stable time step was computed.
     pub foresight: Foresight,
+    /// What the automatic time step knows of the contacts.
+    pub pace: Pace,
     /// Positions, velocities, forces.
     pub particles: Particles,
     /// When and for where the lists below were made.
@@ -92,6 +96,7 @@ clone_in_place!(State {
     clock,
     underway,
     foresight,
+    pace,
     particles,
     neighbours,
     coefficients,
