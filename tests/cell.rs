@@ -409,6 +409,23 @@ fn the_automatic_step_knows_images() {
 }
 
 #[test]
+fn the_automatic_step_follows_a_strain_that_closes_all_contacts() {
+    // At the start spheres hardly touch, and nothing is stiff.
+    let more = "motion = { driven = [\"xx\", \"yy\", \"zz\"] }";
+    for law in [SMOOTH, ROUGH] {
+        let text = lattice("fcc", [3, 3, 3], 2.828_427e-3, 1e-3, more).replace("step = 1e-5", "step = \"auto\"");
+        let mut simulation = start(&text.replace(SMOOTH[0], law[0]).replace(SMOOTH[1], law[1]));
+        for step in 1..=10 {
+            (0..3).for_each(|component| simulation.set_strain(component, -2e-3 * f64::from(step)));
+            simulation.advance(1e-3).unwrap();
+        }
+        let energy = simulation.state().cell.as_ref().unwrap().work;
+        let residual = simulation.physical_residual().unwrap();
+        assert!(residual.abs() < 0.02 * energy, "{residual} of {energy}");
+    }
+}
+
+#[test]
 fn a_servo_reaches_its_stress() {
     let more = "motion = { servo = { xx = { stress = -2e4, max_rate = 5.0 }, yy = { stress = -2e4, max_rate = 5.0 }, \
                 zz = { stress = -4e4, max_rate = 5.0 } } }";

@@ -160,6 +160,8 @@ impl Simulation {
             looks,
             travel: 0.0,
             reach: 0.5 * sight.ahead.way,
+            strained: 0.0,
+            strain_reach: sight.strained,
             speed: growth * sight.speed,
             fastest: self.state.clock.speed,
             bonds,
@@ -225,7 +227,8 @@ impl Simulation {
     pub(super) fn is_due(&self, boundaries: f64, step: f64) -> bool {
         let (foresight, clock) = (&self.state.foresight, &self.state.clock);
         let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
-        if foresight.travel > foresight.reach || speed > foresight.speed {
+        let is_strained = foresight.strained > foresight.strain_reach;
+        if foresight.travel > foresight.reach || speed > foresight.speed || is_strained {
             return true;
         }
         if self.scene.bonds.is_empty() {

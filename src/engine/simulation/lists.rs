@@ -5,9 +5,8 @@ use crate::base::threads::Context;
 use crate::laws::bond::creation::Moment;
 
 impl Simulation {
-    /// Sees to the lists after a drift in which no particle that forces move went further than this way \[m\], and in which a periodic cell was
-    /// strained: they are made anew where
-    /// they are outdated, or where particles come or go. An error leaves lists that fit the particles.
+    /// Sees to the lists after a drift in which no particle that forces move went further than this way \[m\], and in
+    /// which a periodic cell was strained: they are made anew where they are outdated, or where particles come or go. An error leaves lists that fit the particles.
     pub(super) fn keep_lists(&mut self, way: f64, strain: f64, context: &Context) -> Result<(), RunError> {
         let travels = &self.workspace.travels;
         let carried = travels.iter().fold(0.0_f64, |most, travel| most.max(travel.carried));
@@ -21,6 +20,7 @@ impl Simulation {
         let after = before + way.max(carried);
         self.state.neighbours.travel = after;
         self.state.foresight.travel += farthest;
+        self.state.foresight.strained += strain * near;
         let outdated = self.search.outdated(&mut self.state, context);
         let depth = if self.is_depth_due(way, [before, after]) { self.check_depth() } else { Ok(()) };
         let changed = self.exchange(farthest, context.step);

@@ -23,6 +23,10 @@ const CERTAIN: f64 = 0.005;
 /// The least of it over the smallest radius: with contacts that hardly touch, and without contacts.
 const LEAST: [f64; 2] = [2e-6, 2e-3];
 
+/// By how much a cell that is deformed brings neighbours nearer until the next look at most: over the mean overlap, and over the
+/// smallest radius.
+const STRAINED: [f64; 2] = [0.25, 5e-3];
+
 /// How far is to be foreseen.
 #[derive(Clone, Copy)]
 pub(super) struct Horizon {
@@ -45,6 +49,8 @@ pub(super) struct LookAhead {
     pub(super) speed: f64,
     /// The largest speed of anything \[m/s\].
     pub(super) fastest: f64,
+    /// By how much a cell that is deformed may bring neighbours nearer until the next look \[m\].
+    pub(super) strained: f64,
     /// Whether it is a dense flow: impacts of bodies that are in no list do not limit the time step. Never where that is near the
     /// stable one.
     pub(super) is_dense: bool,
@@ -73,7 +79,11 @@ impl Simulation {
         let driven = boundaries.iter().copied().fold(streaming, f64::max);
         let acceleration = self.fields.acceleration(&self.state.particles);
         let least = self.search.smallest_radius().min(f64::MAX);
-        let margin = match self.mean_overlap() {
+        let mean = self.mean_overlap();
+        // Strain comes whatever the bodies do.
+        let most = (STRAINED[0] * mean.unwrap_or(0.0)).max(STRAINED[1] * least);
+        let strained = (streaming * STEPS_BETWEEN_LOOKS * step).min(most);
+        let margin = match mean {
             Some(mean) => (CERTAIN * mean).max(LEAST[0] * least),
             None => LEAST[1] * least,
         };
@@ -83,6 +93,7 @@ impl Simulation {
         let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
         let fastest = fastest.max(driven);
         let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step));
+        let margin = margin + strained;
         let clock = &self.state.clock;
         let window = Window {
             after: clock.steps,
@@ -92,6 +103,6 @@ impl Simulation {
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
         let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, streaming, window };
-        LookAhead { ahead, speed, fastest, is_dense }
+        LookAhead { ahead, speed, fastest, strained, is_dense }
     }
 }

@@ -206,8 +206,10 @@ impl Underway {
 impl Foresight {
     /// Whether this can be one. What is not foreseen may be infinite.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { root, counter, looks, travel, reach, speed, fastest, bonds, until: _, to } = *self;
-        let numbers = [root, travel, reach, speed, fastest, to].iter().all(|number| !number.is_nan());
+        let Self { root, counter, looks, travel, reach, strained, strain_reach, speed, fastest, bonds, until: _, to } =
+            *self;
+        let numbers =
+            [root, travel, reach, strained, strain_reach, speed, fastest, to].iter().all(|number| !number.is_nan());
         demand(numbers, "foresight", 0, "numbers")?;
         let counts = [counter, looks, bonds[0], bonds[1]].iter().all(|&count| count < MOST);
         demand(counts, "foresight", 1, "a count that can be reached")

@@ -15,6 +15,10 @@ pub struct Foresight {
     pub travel: f64,
     /// The distance at which it is computed again \[m\].
     pub reach: f64,
+    /// By how much a cell that is deformed has brought neighbours nearer since, at most \[m\].
+    pub strained: f64,
+    /// By how much it may until it is computed again \[m\].
+    pub strain_reach: f64,
     /// The speed at which it is computed again \[m/s\].
     pub speed: f64,
     /// The largest speed of a particle when it was computed \[m/s\].
