@@ -641,7 +641,7 @@ fn who_asks_while_particles_come_goes_the_same_way_as_who_does_not() {
         advance(&mut plain, 5.0e-4);
         let found = ask(&mut asked, &outputs, "floor.displacement.z");
         assert!(found.iter().all(|part| part.is_finite()));
-        assert!(ask(&mut asked, &outputs, "feed.count_rate").iter().all(|part| part.is_finite()));
+        assert!(ask(&mut asked, &outputs, "feed.rate").iter().all(|part| part.is_finite()));
         assert!(asked.state() == plain.state());
     }
     assert!(asked.state().particles.len() > 50, "they came");

@@ -203,7 +203,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
     let scene = scene(FREE);
     let mut simulation = begun(&scene, Width::widest());
     let interface = cograin::interface::Interface::of(&scene);
-    let rate = interface.find("feed.count_rate").unwrap();
+    let rate = interface.find("feed.rate").unwrap();
     let count = |simulation: &Simulation| exchange(simulation).feeds[0].came.count;
     let mut before = 0;
     for (given, right) in [(1000.0, 100), (3000.0, 300), (0.0, 0), (500.0, 50)] {
@@ -215,7 +215,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
         before += came;
     }
     let refused = interface.check(rate, -1.0).unwrap_err().to_string();
-    assert!(refused.ends_with("(feed.count_rate): expected a number of 0.0 or above, found -1.0"), "{refused}");
+    assert!(refused.ends_with("(feed.rate): expected a number of 0.0 or above, found -1.0"), "{refused}");
 }
 
 #[test]

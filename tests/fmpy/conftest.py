@@ -56,7 +56,7 @@ FORCES = {"force": 1e5, "moment": 1e2}
 
 def given(name, displacement):
     """What an input is given where inputs of displacement are given this one [m]: others in proportion."""
-    if name.endswith("_rate"):
+    if name.endswith(".rate"):
         return abs(displacement)  # nothing is fed backwards
     return displacement * FORCES.get(name.split(".")[-2].split("_")[-1], 1.0)
 

@@ -16,7 +16,7 @@ def boundaries(slave):
     """The boundaries of a unit that are led by displacements, each with its inputs, those of nodes too."""
     inputs = {}
     for name in slave.inputs:
-        boundary, *_, quantity, _ = name.split(".") if not name.endswith("_rate") else (None, "rate", None)
+        boundary, *_, quantity, _ = name.split(".") if not name.endswith(".rate") else (None, "rate", None)
         if quantity in ("applied_force", "applied_moment", "target_force", "rate"):
             continue
         assert quantity == "displacement", f"{name} is an input that this test does not know"
@@ -29,7 +29,7 @@ def test_change_of_work_is_minus_mean_force_times_displacement(unit, model, cour
     driven = boundaries(subject)
     if not driven:
         pytest.skip(f"{model} is led by no displacement: tests/loaded.rs and tests/servo.rs hold the books of forces")
-    leading = [name for name in subject.inputs if not name.endswith("_rate")]
+    leading = [name for name in subject.inputs if not name.endswith(".rate")]
     assert len(leading) == sum(map(len, driven.values())), f"{model} is led by forces, too"
     work, exchanged, before = dict.fromkeys(driven, 0.0), dict.fromkeys(driven, 0.0), 0.0
     for step in range(1, course.steps + 1):

@@ -5,9 +5,9 @@ use crate::engine::simulation::Input;
 use crate::interface::{Quantity, Value};
 use crate::scene::exchange::{Amount, Outside};
 
-/// The rate of an insertion, as it is given; its name is the key of the scene.
+/// The rate of an insertion, as it is given.
 pub(super) const RATE: Row = Row {
-    name: "mass_rate",
+    name: "rate",
     each: Each::Insertion,
     quantity: Quantity::MassFlow,
     minimum: Some(0.0),
@@ -39,7 +39,6 @@ pub(super) static OF_INSERTIONS: [Row; 4] = [
     Row {
         description: "number of particles that come by {owner} in each second, held in a communication step, or the mean of what \
                       changes at its rate",
-        name: "count_rate",
         quantity: Quantity::CountRate,
         exists: |scene, at| matches!(scene.insertions[at.place()].amount, Amount::CountRate(_)),
         ..RATE
