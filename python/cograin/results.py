@@ -34,6 +34,8 @@ FIRST = {
 #: By the last of these words behind the name of a boundary, a region and so on.
 UNITS = {
     "displacement": "m",
+    "position": "m",
+    "overlap": "m",
     "velocity": "m/s",
     "rotation": "rad",
     "angular_velocity": "rad/s",
@@ -42,10 +44,12 @@ UNITS = {
     "target_force": "N",
     "applied_force": "N",
     "servo_error": "N",
+    "normal_force": "N",
     "force_slope": "N/s",
     "moment": "N.m",
     "mean_moment": "N.m",
     "applied_moment": "N.m",
+    "torque": "N.m",
     "work": "J",
     "elastic_energy": "J",
     "dissipated_energy": "J",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cograin.results import ResultError, Run, read_frame, read_table
+from cograin.results import ResultError, Run, read_frame, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -55,6 +55,19 @@ def folder(program, tmp_path_factory):
     (folder / "scene.toml").write_text(SCENE)
     program("run", folder / "scene.toml", "-o", folder / "out")
     return folder / "out"
+
+
+def test_names_of_every_kind_tell_their_units():
+    for name, unit in {
+        "lid.force.z": "N",
+        "grain.position.x": "m",
+        "grain.torque.y": "N.m",
+        "pair.normal_force": "N",
+        "pair.overlap": "m",
+        "overlap.max": "1",
+        "energy.lost.sliding": "J",
+    }.items():
+        assert unit_of(name) == unit, name
 
 
 def test_the_history_is_a_table_by_names(folder):
