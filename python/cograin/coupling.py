@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
 from typing import Any, Literal
 
 import numpy as np
 
+from cograin import checkpoint as checkpoints
 from cograin import interrupts
 from cograin.exchange import Exchange, Side
 from cograin.partner import Partner
@@ -21,6 +25,12 @@ from cograin.vector import Vector, vector
 Watch = Sequence[str] | Mapping[str, Callable[[], float]]
 
 
+#: Attributes of a `Coupling` that its steps change.
+_CHANGING = ("_place", "_level", "_lengths", "_jumped", "_force", "_before", "_stood", "_worked")
+
+#: Which part of the bend that is allowed a step may have by the force that is expected.
+FORESEEN = 0.75
+
 #: A step whose sides differ by more than this part of the farthest move in a step is never kept unasked.
 KEPT = 0.1
 
@@ -32,6 +42,8 @@ class StepControl:
     A step that a unit discards is always halved. ``energy`` is the largest interface energy residual that a step may
     have \\[J\\]: the difference between the force and the one with which the exchange began, times the displacement. An
     explicit exchange creates or loses this energy in the step; a repeated exchange removes it.
+    ``error`` is how far the path of the partner may bend away in a step from the straight way that the units are moved
+    \\[m, rad\\]. It chooses the length, of which the given one is the longest; the error of a run is in proportion.
     ``unconverged`` says what happens to a step whose sides do not agree: ``"shorten"``, ``"accept"`` it and note it, or
     ``"stop"``. ``halvings`` is how often a length is halved.
 
@@ -44,18 +56,21 @@ class StepControl:
     """
 
     energy: float | None = None
+    error: float | None = None
     unconverged: Literal["shorten", "accept", "stop"] = "shorten"
     halvings: int = 6
 
     def __post_init__(self) -> None:
         if self.unconverged not in ("shorten", "accept", "stop"):
             raise ValueError(f"unconverged: expected 'shorten', 'accept' or 'stop', found {self.unconverged!r}")
-        if self.energy is not None and not self.energy > 0.0:
-            raise ValueError(f"energy: expected a number above 0, found {self.energy}")
+        for name in ("energy", "error"):
+            value = getattr(self, name)
+            if value is not None and not value > 0.0:
+                raise ValueError(f"{name}: expected a number above 0, found {value}")
         if self.halvings < 0:
             raise ValueError(f"halvings: expected at least 0, found {self.halvings}")
 
-    def objection(self, outcome: Outcome, defect: float, last: bool) -> str:
+    def objection(self, outcome: Outcome, defect: float, bend: float, last: bool) -> str:
         """Why a step is not accepted; empty if it is accepted. ``last``: a shorter one is not to be had or no help."""
         if not outcome.converged and self.unconverged != "accept":
             kept = last and self.unconverged == "shorten" and (outcome.jumps or outcome.spread < KEPT)
@@ -63,6 +78,8 @@ class StepControl:
         # The shortest step is accepted as it is, and the record says so.
         if self.energy is not None and abs(defect) > self.energy and not last:
             return f"the interface energy residual is {defect:.1e} J, {self.energy:g} J are allowed"
+        if self.error is not None and bend > self.error and not last:
+            return f"the partner's path bends by {bend:.1e} m, {self.error:g} m is allowed"
         return ""
 
     def may_grow(self, defect: float) -> bool:
@@ -97,12 +114,17 @@ class Coupling:
         *,
         control: StepControl | None = None,
         watch: Watch = (),
+        parallel: bool = False,
     ) -> None:
         if not 0.0 < step < float("inf"):
             raise ValueError(f"step: expected a finite number above 0, found {step}")
         if not isinstance(exchange, Exchange):
             raise ValueError(f"exchange: expected an exchange, such as Secant(), found {exchange!r}")
         exchange.fresh()
+        if parallel and not hasattr(interface, "parallel"):
+            raise ValueError(f"parallel: expected an Interface, found {type(interface).__name__}")
+        if parallel or hasattr(interface, "parallel"):
+            interface.parallel = parallel  # type: ignore[attr-defined]
         self.interface = interface
         self.partner = partner
         self.exchange = exchange
@@ -124,7 +146,8 @@ class Coupling:
             for place in partner.turning() if hasattr(partner, "turning") else ():
                 _turning(interface, place)
         self._together()
-        can_save = exchange.repeats or self.control.energy is not None or not interface.keeps_itself
+        controlled = self.control.energy is not None or self.control.error is not None
+        can_save = exchange.repeats or controlled or not interface.keeps_itself
         if can_save and not interface.can_restore:
             without = ", ".join(unit.name for unit in getattr(interface, "units", []) if not unit.can_restore)
             raise ValueError(
@@ -132,6 +155,7 @@ class Coupling:
                 + (f"; {without} cannot (canGetAndSetFMUstate)" if without else "")
             )
         self._saves = can_save
+        self._identity: dict[str, Any] | None = None  # what a checkpoint has to be of
         self._force = interface.force(exchange.force)
         self._before = self._force
         self._stood = vector(interface.displacement)  # where the books saw the interface last
@@ -142,12 +166,110 @@ class Coupling:
         """Present time of the run \\[s\\]."""
         return self._start + self.step * self._place
 
-    def run(self, end: float, *, progress: bool | None = None) -> Record:
-        """Continues to a time; ``progress`` shows or hides a line of progress (default: on a terminal only)."""
+    def run(
+        self,
+        end: float,
+        *,
+        progress: bool | None = None,
+        checkpoint: str | Path | None = None,
+        every: float = 60.0,
+    ) -> Record:
+        """Continues to a time; ``progress`` shows or hides a line of progress (default: on a terminal only).
+
+        ``checkpoint`` is a file with which the run survives: written after ``every`` seconds of the clock and where
+        anything ends the run early, deleted at the end. If it is there at the start, the run goes on from it, with the
+        same bits as one that was not broken off.
+        """
+        file = None if checkpoint is None else Path(checkpoint)
+        if file is not None:
+            self._identify(file)
+            if file.exists():
+                self._resume(file)
         shown = Progress(self.time, end, shown=progress)
-        for row in self.steps(end):
-            shown.step(row.time, row.evaluations)
+        written, begun = monotonic(), len(self.record)
+        try:
+            for row in self.steps(end):
+                shown.step(row.time, row.evaluations)
+                if file is not None and monotonic() - written >= every:
+                    self._keep(file)
+                    written = monotonic()
+        except BaseException:
+            if file is not None and not self._broken and len(self.record) > begun:
+                self._keep(file)
+            raise
+        if file is not None:
+            file.unlink(missing_ok=True)
         return self.record
+
+    @property
+    def _units(self) -> list[Unit]:
+        """Units of both sides."""
+        return [*getattr(self.interface, "units", []), *getattr(self.partner, "units", [])]
+
+    @property
+    def _sides(self) -> list[Any]:
+        """What has a memory, beside the units."""
+        return [self.interface, self.partner, self.exchange]
+
+    def _identify(self, file: Path) -> None:
+        """Notes what tells this run from others, before its first step; refuses what cannot be written down."""
+        if self._identity is not None:
+            return
+        if self.record.rows:
+            raise ValueError(f"{file}: expected a run from its first step on, found one at {self.time:g} s")
+        partners = getattr(self.partner, "partners", [self.partner])
+        for one in (self.interface, *partners):
+            if not (hasattr(one, "memory") and hasattr(one, "recall")):
+                raise ValueError(f"{file}: {type(one).__name__} has no memory() and recall(), which a checkpoint needs")
+        answer = None
+        if not getattr(self.partner, "units", []):
+            step = self._next()
+            answer = []
+            with suppress(ValueError, StepDiscarded):
+                answer.append(self.partner.predict(0.0 * self._force, step))
+                answer.append(self.partner.compliance(step))
+        self._identity = {
+            "step": self.step,
+            "begin": self._start,
+            "columns": self.record.names,
+            "exchange": type(self.exchange).__name__,
+            "partner": [type(one).__name__ for one in partners],
+            "units": [[unit.name, unit.description.guid] for unit in self._units],
+            "first force": self._force,
+            "answer of the partner": answer,
+        }
+
+    def _keep(self, file: Path) -> None:
+        """Writes where the run stands."""
+        with interrupts.held():
+            states = []
+            for unit in self._units:
+                state = unit.save()
+                states.append((unit.serialise(state), unit.time))
+                unit.free(state)
+            memories = [each.memory() for each in self._sides]
+            own = {name: vars(self)[name] for name in _CHANGING}
+            checkpoints.write(file, (self._identity, states, memories, own, self.record.memory()))
+
+    def _resume(self, file: Path) -> None:
+        """Stands where the run stood that left this file."""
+        found = checkpoints.read(file)
+        try:
+            identity, states, memories, own, rows = found
+            other = [name for name, mine in (self._identity or {}).items() if not _same(mine, identity[name])]
+        except (ValueError, TypeError, KeyError):
+            raise ValueError(f"{file}: expected a checkpoint of a coupled run, found another file") from None
+        if other:
+            said = f"{file}: expected a checkpoint of this run, found one of another: {', '.join(other)} differ"
+            raise ValueError(f"{said}; delete the file to begin anew")
+        for unit, (data, time) in zip(self._units, states, strict=True):
+            state = unit.deserialise(data, time)
+            unit.restore(state)
+            unit.free(state)
+        for each, memory in zip(self._sides, memories, strict=True):
+            each.recall(memory)
+        vars(self).update(own)
+        self.record.recall(rows)
 
     def steps(self, end: float) -> Iterator[Row]:
         """The rows until a time, which is a multiple of the step, one after the other."""
@@ -207,6 +329,7 @@ class Coupling:
         """A step that is accepted, its interface energy residual, and how many evaluations and refusals it took."""
         refusals = evaluations = 0
         begun = False
+        self._foresee()
         while True:
             step = self._next()
             if self._saves and begun:
@@ -233,10 +356,28 @@ class Coupling:
             outcome = self.exchange.evaluate(self.interface, self.partner, step, self._force, expected)
         except StepDiscarded as refusal:
             return None, 0.0, str(refusal)
+        bend = 0.0 if self.control.error is None else self._bend(step, outcome.partner_force)
         start = expected if self.exchange.repeats else outcome.partner_force
         defect = float((outcome.force - start) @ (outcome.displacement - begin))
         last = self._level >= self.control.halvings or (outcome.jumps and (self._jumped or not self._softens(step)))
-        return outcome, defect, self.control.objection(outcome, defect, last)
+        return outcome, defect, self.control.objection(outcome, defect, bend, last)
+
+    def _foresee(self) -> None:
+        """Halves the step until its bend is small enough, by the force that is expected."""
+        if self.control.error is None:
+            return
+        while self._level < self.control.halvings:
+            step = self._next()
+            if self._bend(step, self._expected(step.length)) <= FORESEEN * self.control.error:
+                return
+            self._level += 1
+
+    def _bend(self, step: Step, force: Vector) -> float:
+        """How far the partner leaves the way of the units; without limit where it cannot make the step."""
+        try:
+            return self.exchange.bend(self.partner, step, force)
+        except StepDiscarded:
+            return float("inf")
 
     def _softens(self, step: Step) -> bool:
         """Whether a force moves the partner by less in a shorter step."""
@@ -312,10 +453,9 @@ class Coupling:
         count = len(self.interface.names)
         if count != len(there):
             raise ValueError(f"the interface has {count} directions, the partner {len(there)}")
-        mine = getattr(self.partner, "unit", None)
-        if mine is not None and any(mine is unit for unit in getattr(self.interface, "units", [])):
-            raise ValueError(f"{mine.name}: expected another unit as the partner, found the same on both sides")
-        for unit in [*getattr(self.interface, "units", []), *([] if mine is None else [mine])]:
+        for place, unit in enumerate(self._units):
+            if any(unit is other for other in self._units[:place]):
+                raise ValueError(f"{unit.name}: expected another unit as the partner, found the same on both sides")
             if abs(unit.time - self._start) > 1e-6 * self.step:
                 raise ValueError(
                     f"{unit.name}: expected to stand at {self._start:g} s, as the others do, found {unit.time:g} s"
@@ -357,9 +497,17 @@ def couple(
     control: StepControl | None = None,
     watch: Watch = (),
     progress: bool | None = None,
+    checkpoint: str | Path | None = None,
+    every: float = 60.0,
+    parallel: bool = False,
 ) -> Record:
-    """Couples units and partner from their present state to a time \\[s\\]; returns the record."""
-    return Coupling(interface, partner, exchange, step, control=control, watch=watch).run(end, progress=progress)
+    """Couples units and partner from their present state to a time \\[s\\]; returns the record.
+
+    With a ``checkpoint`` a run that was broken off goes on from this file (`Coupling.run`). ``parallel`` steps several
+    units at the same time, each in a thread of its own.
+    """
+    coupling = Coupling(interface, partner, exchange, step, control=control, watch=watch, parallel=parallel)
+    return coupling.run(end, progress=progress, checkpoint=checkpoint, every=every)
 
 
 def _force_name(name: str, kind: str) -> str:
@@ -391,3 +539,18 @@ def _turning(interface: Side, place: int) -> None:
     if turn is None:
         raise ValueError(f"{type(interface).__name__}: expected a side that turns, for a partner that turns")
     turn(place)
+
+
+def _same(mine: Any, found: Any) -> bool:
+    """Whether a part of a run is that of a checkpoint: numbers to rounding, everything else exactly."""
+    if isinstance(mine, list | tuple):
+        return (
+            isinstance(found, list | tuple)
+            and len(mine) == len(found)
+            and all(_same(one, other) for one, other in zip(mine, found, strict=True))
+        )
+    if isinstance(mine, np.ndarray):
+        if not isinstance(found, np.ndarray) or mine.shape != found.shape:
+            return False
+        return bool(np.abs(mine - found).max(initial=0.0) <= 1e-9 * np.abs(mine).max(initial=0.0))
+    return bool(mine == found)

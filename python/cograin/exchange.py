@@ -78,6 +78,15 @@ class Exchange(ABC):
     #: Whether steps are repeated from saved states.
     repeats = False
 
+    def bend(self, partner: Taker, step: Step, force: Vector) -> float:
+        """How far the partner's path under this force leaves the way of the boundary in a step \\[m, rad\\].
+
+        The boundary moves at constant velocity; halfway, the partner is elsewhere.
+        """
+        half = Step(step.begin, step.middle, 0.5 * step.length)
+        straight = 0.5 * (partner.displacement + partner.predict(force, step))
+        return float(abs(partner.predict(force, half) - straight).max())
+
     @abstractmethod
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
         """Takes the units through a step; ``last`` is the force of the last step, ``expected`` its continuation."""
@@ -86,9 +95,13 @@ class Exchange(ABC):
         """The partner takes the step."""
         partner.advance(outcome.partner_force, outcome.displacement, step)
 
+    #: What a run does not change, and what is computed again where it is missing.
+    _fixed = ("_made", "tolerance", "exchange", "_measure")
+
     def memory(self) -> Any:
         """What it knows from earlier steps."""
-        return {name: list(value) if isinstance(value, list) else value for name, value in vars(self).items()}
+        changing = {name: value for name, value in vars(self).items() if name not in self._fixed}
+        return {name: list(value) if isinstance(value, list) else value for name, value in changing.items()}
 
     def recall(self, memory: Any) -> None:
         """Knows that again, and nothing of what came after."""

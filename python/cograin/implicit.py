@@ -261,9 +261,10 @@ class Implicit(Exchange):
             compliance = partner.compliance(step)
         except ValueError:
             compliance = None
-        if self._measure is None or self._measure.compliance is not compliance:
-            self._measure = Measure(compliance, len(partner.displacement))
-        return self._measure
+        known = self._measure
+        if known is None or known.compliance is not compliance or len(known.weights) != len(partner.displacement):
+            known = self._measure = Measure(compliance, len(partner.displacement))
+        return known
 
     def evaluate(self, side: Side, partner: Taker, step: Step, last: Vector, expected: Vector) -> Outcome:
         search = Search(side, partner, step, self.force, self._measured(partner, step))

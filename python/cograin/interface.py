@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -301,6 +302,9 @@ class Interface:
                     )
         self.displacement = np.concatenate([part.displacement for part in self._parts])
         self._saved = self.displacement
+        #: Whether the units make their steps at the same time, each in a thread of its own.
+        self.parallel = False
+        self._threads: ThreadPoolExecutor | None = None
         #: Every unit, once.
         self.units = list({id(part.unit): part.unit for part in self._parts}.values())
         names = [unit.name for unit in self.units]
@@ -411,8 +415,7 @@ class Interface:
         for part in self._parts:
             part.bend(acceleration[first : first + part.size], displacement[first : first + part.size], step.length)
             first += part.size
-        for unit in self.units:
-            unit.step(step.length, until=step.end)
+        self._step(step.length, step.end)
         self.displacement = displacement
         found = [part.mean_and_slope() for part in self._parts]
         return found[0] if len(found) == 1 else _joined(found)
@@ -423,8 +426,25 @@ class Interface:
         for part in self._parts:
             part.move(displacement[first : first + part.size])
             first += part.size
-        for unit in self.units:
-            unit.step(length, until=end)
+        self._step(length, end)
+
+    def _step(self, length: float, end: float) -> None:
+        """One step of every unit; in parallel where that was asked for."""
+        if not self.parallel or len(self.units) == 1:
+            for unit in self.units:
+                unit.step(length, until=end)
+            return
+        if self._threads is None:
+            self._threads = ThreadPoolExecutor(len(self.units) - 1, thread_name_prefix="cograin")
+        first, *others = self.units
+        running = [self._threads.submit(unit.step, length, until=end) for unit in others]
+        try:
+            first.step(length, until=end)
+        finally:
+            # No unit is left in the middle of a step.
+            failed = [failure for each in running if (failure := each.exception()) is not None]
+        if failed:
+            raise failed[0]
 
     def save(self) -> None:
         """Saves the state of every unit, in place of the one saved before."""
@@ -442,6 +462,17 @@ class Interface:
         for part in self._parts:
             part.restore()
         self.displacement = self._saved
+
+    def memory(self) -> Any:
+        """What changes beside the units."""
+        return self.displacement, [[one.memory() for one in part.turns] for part in self._parts]
+
+    def recall(self, memory: Any) -> None:
+        """Has that again."""
+        self.displacement, turns = memory
+        for part, several in zip(self._parts, turns, strict=True):
+            for one, kept in zip(part.turns, several, strict=True):
+                one.given, one.before, one.counted = kept
 
     def derivative(self, kind: Force) -> Matrix:
         """Change of the force per change of displacement at the end of the last step, by the units \\[N/m\\]."""

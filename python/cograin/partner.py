@@ -111,13 +111,18 @@ class UnitPartner:
         self._here = self.predict(force, step)
         self._tried = None
 
+    @property
+    def units(self) -> list[Unit]:
+        """The unit."""
+        return [self.unit]
+
     def memory(self) -> Any:
-        """Where it is."""
-        return self._here, self.unit.time
+        """Where it is, and what it learned of the unit."""
+        return self._here, self.unit.time, self._largest, dict(self._compliances)
 
     def recall(self, memory: Any) -> None:
         """Is there again, at the beginning of a step."""
-        self._here, time = memory
+        self._here, time, self._largest, self._compliances = memory
         if (self._tried is not None or self.unit.time != time) and self._saved is not None:
             self.unit.restore(self._saved)
         self._tried = None
@@ -158,6 +163,20 @@ class Partners:
         for partner, place in self._each():
             partner.advance(force[place], displacement[place], step)
 
+    def drift(self, force: Vector, step: Step) -> Vector:
+        """Displacement at the end, after half a kick of the force at the beginning; changes nothing."""
+        return np.concatenate([_kicked(partner).drift(force[place], step) for partner, place in self._each()])
+
+    def kick(self, begin: Vector, end: Vector, step: Step) -> None:
+        """Makes the step with the forces at its beginning and its end."""
+        for partner, place in self._each():
+            _kicked(partner).kick(begin[place], end[place], step)
+
+    @property
+    def units(self) -> list[Unit]:
+        """Those of all."""
+        return [unit for one in self.partners for unit in getattr(one, "units", [])]
+
     def turning(self) -> tuple[int, ...]:
         """Where the directions begin that count turns."""
         turning = [(one, place.start) for one, place in self._each() if hasattr(one, "turning")]
@@ -172,3 +191,10 @@ class Partners:
         for one, kept in zip(self.partners, memory, strict=True):
             if hasattr(one, "recall"):
                 one.recall(kept)
+
+
+def _kicked(partner: Partner) -> KickedPartner:
+    """A partner that velocity Verlet can step; others are refused."""
+    if not isinstance(partner, KickedPartner):
+        raise ValueError(f"{type(partner).__name__}: velocity Verlet needs a partner with drift and kick")
+    return partner

@@ -79,6 +79,9 @@ class Quadratic(Exchange):
             4.0 / 3.0 * float(load[1] @ motion[1]),
         )
 
+    def bend(self, partner: Taker, step: Step, force: Vector) -> float:
+        raise ValueError("StepControl(error=...): expected an exchange whose boundary moves straight, found Quadratic")
+
     def memory(self) -> Any:
         return super().memory(), self.exchange.memory()
 

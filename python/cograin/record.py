@@ -6,6 +6,7 @@ import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -45,6 +46,7 @@ class Record:
 
     def __init__(self, displacements: Sequence[str], forces: Sequence[str], watched: Sequence[str] = ()) -> None:
         self.names = [*COLUMNS, *displacements, *forces, *watched]
+        self._directions = len(displacements)
         self.rows: list[Row] = []
 
     def __getitem__(self, name: str) -> Vector:
@@ -56,6 +58,22 @@ class Record:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def memory(self) -> Any:
+        """All rows: their numbers, and why some did not converge."""
+        numbers = np.array([row.values for row in self.rows]).reshape(-1, len(self.names))
+        return numbers, {place: row.reason for place, row in enumerate(self.rows) if row.reason}
+
+    def recall(self, memory: Any) -> None:
+        """Has these rows again."""
+        numbers, reasons = memory
+        ends = np.cumsum([len(COLUMNS), self._directions, self._directions])
+        self.rows = []
+        for place, values in enumerate(numbers):
+            own, moved, force, watched = np.split(values, ends)
+            time, length, evaluations, residual, converged, refusals, energy, work = own.tolist()
+            counted = time, length, int(evaluations), residual, bool(converged), int(refusals), energy, work
+            self.rows.append(Row(*counted, moved, force, tuple(watched.tolist()), reasons.get(place, "")))
 
     def __iter__(self) -> Iterator[Row]:
         return iter(self.rows)

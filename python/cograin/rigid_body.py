@@ -24,6 +24,9 @@ from cograin.step import Step
 from cograin.unit import StepDiscarded
 from cograin.vector import Matrix, Vector, closing, vector
 
+#: What the steps of a body change, beside its motion.
+_CHANGING = ("rotation", "work", "load_work", "correction", "_attitudes", "displacement")
+
 
 @dataclass
 class _Motion:
@@ -200,11 +203,13 @@ class RigidBody:
 
     def memory(self) -> Any:
         """What changes."""
-        return {name: value for name, value in vars(self).items() if name not in ("_tried", "_complied")}
+        return tuple(vars(self._now).values()), {name: vars(self)[name] for name in _CHANGING}
 
     def recall(self, memory: Any) -> None:
         """Has that again."""
-        vars(self).update(memory)
+        now, others = memory
+        self._now = _Motion(*now)
+        vars(self).update(others)
         self._tried = self._complied = None
 
     # Motion

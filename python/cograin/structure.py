@@ -82,6 +82,7 @@ class Structure:
         self._unforced: tuple[Step, Vector] | None = None
         self._kicked: tuple[Step, Vector, Vector] | None = None  # step, force and what they come to
         self._mass_solver: Any = None
+        self._kick_solvers: dict[float, Any] = {}
         self._quadratic_steps: dict[float, QuadraticStep] = {}
 
     # What it is and does
@@ -244,13 +245,24 @@ class Structure:
         self.position = self.position + step.length * half
         self.displacement = self._at_interface(self.position)
         self._unforced = None
-        self.velocity = half + 0.5 * step.length * self._acceleration(self.position, half, end, step.end)
-        if self._damped:
+        if not self._damped:
+            self.velocity = half + 0.5 * step.length * self._acceleration(self.position, half, end, step.end)
+        else:
+            # The dashpots take the velocity at the end, as the first half takes that at the beginning: second order.
+            forces = self.at @ end - self.stiffness @ self.position + self.loads(step.end)
+            self.velocity = self._damped_solver(step.length)(self.mass @ half + 0.5 * step.length * forces)
             self.loss += step.length * float(half @ (self.damping @ half))
         if self._load is not None:
             loads = 0.5 * (self.loads(step.begin) + self.loads(step.end))
             self.load_work += step.length * float(loads @ half)
         self.work += 0.5 * float((begin + end) @ (self.displacement - before))
+
+    def _damped_solver(self, length: float) -> Any:
+        """Solves for the velocity at the end of a step of this length \\[s\\]."""
+        if length not in self._kick_solvers:
+            singular = "velocity Verlet needs a mass at every degree of freedom"
+            self._kick_solvers[length] = self._factorised(self.mass + 0.5 * length * self.damping, singular)
+        return self._kick_solvers[length]
 
     def _half_kicked(self, force: Vector, step: Step) -> Vector:
         """Velocity in the middle of the step, which drift and kick both ask for \\[m/s\\]."""

@@ -87,11 +87,17 @@ def checked(rows: Any, keys: Sequence[str] | None = None, name: str = "table") -
     if hasattr(rows, "to_dict"):
         rows = rows.to_dict("records")
     elif isinstance(rows, Mapping):
+        for key, values in rows.items():
+            single = isinstance(values, str | bytes | Mapping) or getattr(values, "ndim", 1) == 0
+            if single or not hasattr(values, "__len__"):
+                raise StudyError(f"{name}, {key}: expected a column of values, found {values!r}")
         columns = {key: list(values) for key, values in rows.items()}
         lengths = sorted({len(values) for values in columns.values()})
         if len(lengths) > 1:
             raise StudyError(f"{name}: expected columns of one length, found {' and '.join(map(str, lengths))}")
         rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    elif isinstance(rows, str | bytes) or not isinstance(rows, Iterable):
+        raise StudyError(f"{name}: expected rows or columns of values, found {rows!r}")
     found: list[Row] = []
     for number, row in enumerate(rows, 1):
         if not isinstance(row, Mapping):
@@ -104,7 +110,7 @@ def checked(rows: Any, keys: Sequence[str] | None = None, name: str = "table") -
         found.append(values)
     keys = list(found[0]) if keys is None and found else list(keys or [])
     for key in keys:
-        if not key or any(letter in key for letter in "=\n\r\0"):
+        if not key or any(letter in key for letter in "=\n\r\0") or not _encodes(key):
             raise StudyError(f"{name}: expected a key such as run.seed in the heading, found {key!r}")
         if keys.count(key) > 1:
             raise StudyError(f"{name}: expected each key once, found {key} twice")
@@ -115,10 +121,10 @@ def checked(rows: Any, keys: Sequence[str] | None = None, name: str = "table") -
 
 def _plain(value: Any, where: str) -> Value:
     """A number or text of Python, of what numpy and pandas have."""
-    if hasattr(value, "item"):
+    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
         value = value.item()
     if isinstance(value, str):
-        if not value.strip() or "\0" in value:
+        if not value.strip() or "\0" in value or not _encodes(value):
             raise StudyError(f"{where}: expected a value, found {value!r}")
         return value
     if isinstance(value, bool | int):
@@ -126,6 +132,15 @@ def _plain(value: Any, where: str) -> Value:
     if isinstance(value, float) and value == value and abs(value) != float("inf"):
         return value
     raise StudyError(f"{where}: expected a finite number or a text, found {value!r}")
+
+
+def _encodes(text: str) -> bool:
+    """Whether a text can be written: not every text of Python is one of Unicode."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _written(value: Value) -> str:

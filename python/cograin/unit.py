@@ -241,10 +241,34 @@ class Unit:
 
     def _several(self, names: Sequence[str], values: Iterable[float]) -> list[float]:
         """As many values as names."""
-        given = [float(value) for value in values]
+        given = [self._real(names, place, value) for place, value in enumerate(values)]
         if len(given) != len(names):
             raise ValueError(f"{self.name}: expected {len(names)} values, one for each name, found {len(given)}")
         return given
+
+    def _real(self, names: Sequence[str], place: int, value: Any) -> float:
+        """A value for a real variable."""
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            name = names[place] if place < len(names) else "a value"
+            raise UnitError(f"{self.name}: {name}: expected a number, found {_shown(value)}") from None
+
+    def _fitting(self, name: str, kind: str, value: Any) -> Value:
+        """A value for a variable that is not real."""
+        if kind == "String" and isinstance(value, str) and "\0" not in value and value.isprintable():
+            return value
+        if kind == "Boolean" and isinstance(value, bool | np.bool_ | int | float) and value in (0, 1):
+            return bool(value)
+        if kind == "Integer" and not isinstance(value, str):
+            try:
+                whole = int(value)
+            except (TypeError, ValueError, OverflowError):
+                whole = None
+            if whole is not None and whole == value and -(2**31) <= whole < 2**31:
+                return whole
+        expected = {"String": "a text", "Boolean": "true or false", "Integer": "a whole number of 32 bits"}[kind]
+        raise UnitError(f"{self.name}: {name}: expected {expected}, found {_shown(value)}")
 
     def __getitem__(self, name: str) -> Value:
         variable = self.variable(name)
@@ -259,10 +283,11 @@ class Unit:
     def __setitem__(self, name: str, value: Value) -> None:
         variable = self.variable(name)
         if variable.type == "Real":
-            self.set((name,), (float(value),))
+            self.set((name,), (value,))  # type: ignore[arg-type]
             return
         kind = "Integer" if variable.type == "Enumeration" else variable.type
-        self._call(getattr(self.slave, f"set{kind}"), [variable.valueReference], [value])
+        given = self._fitting(name, kind, value)
+        self._call(getattr(self.slave, f"set{kind}"), [variable.valueReference], [given])
 
     def number(self, name: str) -> float:
         """Value of a real, whole or logical variable as a real number."""
@@ -410,3 +435,9 @@ class Unit:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _shown(value: Any) -> str:
+    """A value that was not expected, at most a line of it."""
+    text = repr(value)
+    return text if len(text) <= 80 else f"{text[:77]}..."

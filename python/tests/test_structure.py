@@ -101,3 +101,17 @@ def test_finite_elements_of_scikit_fem_are_a_partner():
     clamp, tip = basis.nodal_dofs[:, 0], basis.nodal_dofs[0, -1]
     beam = Structure(0.0 * bending, bending, at=tip, fixed=clamp)
     assert beam.predict(vector(1.0), Step(0.0, 1.0, 1.0))[0] == pytest.approx(2.0**3 / (3.0 * 7.0), rel=1e-10)
+
+
+def test_velocity_verlet_is_of_second_order_with_a_dashpot_too():
+    errors = []
+    for step in (2e-2, 1e-2):
+        plate, none = Oscillator(1.0, 100.0, 4.0), np.zeros(1)
+        plate.place(velocity=1.0)
+        for count in range(round(1.0 / step)):
+            now = Step(count * step, (count + 1) * step, step)
+            plate.drift(none, now)
+            plate.kick(none, none, now)
+        rate = np.sqrt(100.0 - 4.0)
+        errors.append(abs(plate.position[0] - np.exp(-2.0) * np.sin(rate) / rate))
+    assert 3.8 < errors[0] / errors[1] < 4.2

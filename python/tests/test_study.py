@@ -4,10 +4,13 @@ import json
 import os
 import random
 import signal
+import time
 from pathlib import Path
 
+import numpy
 import pytest
 
+from cograin import Unit, UnitError
 from cograin.study import SceneRun, Study, StudyError, UnitRun, checked, grid, main, read_rows
 
 SCENE = """
@@ -131,11 +134,86 @@ def test_a_cluster_does_what_a_lost_worker_left(tmp_path):
     assert [result.values.get("twice") for result in results] == [2 * x for x in range(20)]
 
 
+def brief(row):
+    """Takes a while, and tells which process did it."""
+    time.sleep(0.02)
+    return {"square": row["x"] ** 2, "process": os.getpid()}
+
+
+def interfering(study, at, act):
+    """Does something when so many results are there."""
+    keep = study._keep
+
+    def kept(result):
+        keep(result)
+        if len(study.results) == at:
+            act(result)
+
+    study._keep = kept
+    return study
+
+
+def whole(results, folder):
+    """Whether a table has each of fifty rows once, with its result."""
+    lines = (folder / "results.csv").read_text().splitlines()
+    squares = [result.values.get("square") for result in results]
+    return squares == [x**2 for x in range(50)] and [int(line.split(",")[0]) for line in lines[1:]] == list(range(50))
+
+
+def test_fifty_runs_on_two_cores_of_which_a_process_is_killed_and_that_are_broken_off(tmp_path):
+    rows = {"x": list(range(50))}
+
+    def kill(result):
+        os.kill(result.values["process"], signal.SIGKILL)
+
+    def break_off(result):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interfering(Study(rows, brief, tmp_path), 25, break_off).run(workers=2, shown=False)
+    study = Study(rows, brief, tmp_path)
+    assert len(study.results) == 25
+    assert whole(interfering(study, 35, kill).run(workers=2, shown=False), tmp_path)
+
+
+def test_fifty_runs_on_a_cluster_of_which_a_worker_is_killed_in_the_middle(tmp_path):
+    distributed, killed = pytest.importorskip("dask.distributed"), []
+    with (
+        distributed.LocalCluster(2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+
+        def kill(result):
+            killed.append(result.values["process"])
+            os.kill(killed[0], signal.SIGKILL)
+
+        results = interfering(Study({"x": list(range(50))}, brief, tmp_path), 20, kill).run(client=client, shown=False)
+    assert whole(results, tmp_path)
+    with pytest.raises(ProcessLookupError):
+        os.kill(killed[0], 0)
+
+
+def test_values_that_a_unit_cannot_take_are_said(piston):
+    with Unit(piston) as unit:
+        for name, value, expected in (
+            ("piston.displacement.z", "4[x", "a number"),
+            ("piston.displacement.z", 10**400, "a number"),
+            ("piston.displacement.z", None, "a number"),
+            ("run.threads", 0.5, "a whole number of 32 bits"),
+            ("run.threads", "2", "a whole number of 32 bits"),
+            ("run.threads", 2**31, "a whole number of 32 bits"),
+        ):
+            with pytest.raises(UnitError, match=f"piston: {name}: expected {expected}, found"):
+                unit[name] = value
+        with pytest.raises(UnitError, match=r"piston\.displacement\.z: expected a number, found 'x'"):
+            unit.set(("piston.displacement.z",), ["x"])
+
+
 def test_mutated_tables_give_words_and_no_other_exception(tmp_path):
     rng = random.Random(1)
     good = b"run.seed,pair.a.a.friction\n1,0.1\n2,0.2\n"
     path = tmp_path / "table.csv"
-    for _ in range(3000):
+    for _ in range(5000):
         data = bytearray(good)
         for _ in range(rng.randint(1, 4)):
             place = rng.randrange(len(data))
@@ -171,6 +249,15 @@ def test_mutated_tables_give_words_and_no_other_exception(tmp_path):
         [1],
         "x",
         {"a": [""]},
+        {"a": 1},
+        {"a": "text"},
+        {"a": {"b": 1}},
+        {"a": numpy.array(1.5)},
+        [{"a": numpy.array([1, 2])}],
+        [{"a": "\ud800"}],
+        [{"\ud800": 1}],
+        5,
+        [[{"a": 1}]],
     ],
 )
 def test_tables_that_are_none_are_refused(table, tmp_path):
@@ -187,5 +274,4 @@ def test_a_folder_with_other_text_is_refused(tmp_path):
 
 
 def test_numbers_of_numpy_are_plain_numbers():
-    numpy = pytest.importorskip("numpy")
     assert checked({"x": numpy.array([1, 2])}) == [{"x": 1}, {"x": 2}]
