@@ -1,4 +1,4 @@
-"""Fills the drum, turns it, and draws how many grains of both kinds are in a quarter of it beside the published curves."""
+"""Fills the drum, turns it, and draws how many grains of both kinds are in a quarter of it, beside others."""
 
 import argparse
 import csv
@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+
 from cograin import Program
 from cograin.results import Run
 
@@ -69,7 +70,9 @@ def draw(path, time, small, large):
 
     when, curves = published()
     figure, panels = plt.subplots(1, 2, figsize=(11.0, 4.0), layout="constrained")
-    for axes, kind, own, title in zip(panels, ("m1", "m2"), (small, large), ("30,000 grains of 2 mm", "8,000 grains of 4 mm"), strict=True):
+    for axes, kind, own, title in zip(
+        panels, ("m1", "m2"), (small, large), ("30,000 grains of 2 mm", "8,000 grains of 4 mm"), strict=True
+    ):
         for name, colour, line in (("LIGGGHTS", "0.3", "--"), ("MUSEN", "0.6", "-")):
             axes.plot(when, curves[f"{name}_{kind}"] / 1e3, line, color=colour, label=name)
         axes.plot(time, own / 1e3, "o-", color="#b5482a", markersize=3, label="cograin")

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+
 from cograin import Program
 from cograin.results import Run
 
@@ -24,13 +25,14 @@ def settings(values):
 def bed(program, scene, folder, given, soft=1e7, fall=0.2, friction=None):
     """The scene with the ball over a bed at rest, and that state.
 
-    The grains fall from a loose random arrangement, a hundred times softer than they are, which permits longer steps. They are also larger by as much
-    as such grains overlap; what has come to rest is read with its true size, and settles once more as hard as it is.
+    The grains fall from a loose random arrangement, a hundred times softer than they are, which permits longer steps.
+    They are also larger by as much as such grains overlap; what has come to rest is read with its true size, and
+    settles once more as hard as it is.
     """
     folder.mkdir(parents=True, exist_ok=True)
     text = scene.read_text()
     alone = re.sub(r"^\[(particles|probe)\.ball\]\n(.+\n)*", "", text, flags=re.MULTILINE)
-    alone = re.sub(r'^columns = .*$', "", alone, flags=re.MULTILINE)
+    alone = re.sub(r"^columns = .*$", "", alone, flags=re.MULTILINE)
     (folder / "falling.toml").write_text(alone)
     values = {"run.safety": 0.8, "run.end": fall, "output.frame_interval": fall, "output.history_interval": fall}
     values |= {"particles.grains.packing.radius": RADIUS * (1.0 + LARGER)} | given
@@ -40,7 +42,9 @@ def bed(program, scene, folder, given, soft=1e7, fall=0.2, friction=None):
     with (folder / "grains.csv").open("w", newline="") as file:
         csv.writer(file).writerows([("x", "y", "z", "radius"), *((*place, RADIUS) for place in grains.tolist())])
     for name, source in (("bed", alone), ("scene", text)):
-        (folder / f"{name}.toml").write_text(re.sub(r"^packing = .*$", 'file = "grains.csv"', source, flags=re.MULTILINE))
+        (folder / f"{name}.toml").write_text(
+            re.sub(r"^packing = .*$", 'file = "grains.csv"', source, flags=re.MULTILINE)
+        )
     kept = {key: value for key, value in given.items() if ".packing." not in key}
     values = {"run.safety": 0.8, "run.settle_tolerance": 5e-2} | kept
     values |= {} if friction is None else {"pair.m1.m1.friction": friction}
@@ -51,12 +55,15 @@ def bed(program, scene, folder, given, soft=1e7, fall=0.2, friction=None):
 def drop(program, start, folder, given, begin=0.0, end=0.04, ball=(0.06, 5.0)):
     """Time [s], height [m] and speed [m/s] of the ball, and the summary of the run.
 
-    The ball falls freely until it touches the bed: with `begin` the run starts this much later, with the ball where it then is.
+    The ball falls freely until it touches the bed: with `begin` the run starts so much later, with the ball there.
     """
     scene, state = start
     height, speed = ball[0] - ball[1] * begin - 0.5 * GRAVITY * begin**2, ball[1] + GRAVITY * begin
     values = {"run.end": end - begin} | {key: value for key, value in given.items() if ".packing." not in key}
-    values |= {"particles.ball.list.1.position": [0.0, 0.0, height], "particles.ball.list.1.velocity": [0.0, 0.0, -speed]}
+    values |= {
+        "particles.ball.list.1.position": [0.0, 0.0, height],
+        "particles.ball.list.1.velocity": [0.0, 0.0, -speed],
+    }
     program("run", scene, "--from", state, "-o", folder, "--overwrite", *settings(values))
     rows = np.genfromtxt(folder / "history.csv", delimiter=",", skip_header=1)
     summary = json.loads((folder / "summary.json").read_text())
@@ -88,10 +95,20 @@ def main():
     parser.add_argument("--program", default="cograin", help="the cograin command")
     parser.add_argument("--output", type=Path, default=Path("out/bulk_impact"), help="folder of all results")
     parser.add_argument("--seeds", type=int, nargs="+", default=list(range(1, 11)), help="of the beds")
-    parser.add_argument("--safeties", type=float, nargs="*", default=[], help="parts of the stable step, beside the default step")
-    parser.add_argument("--begin", type=float, default=0.021, help="when a run begins [s]; the ball touches the bed at 0.0214")
-    parser.add_argument("--end", type=float, default=0.036, help="when it ends [s]; the ball is on its way up from 0.032 on")
-    parser.add_argument("--friction", type=float, help="of grains while the bed comes to rest: the smaller, the denser it is; their own by default")
+    parser.add_argument(
+        "--safeties", type=float, nargs="*", default=[], help="parts of the stable step, beside the default step"
+    )
+    parser.add_argument(
+        "--begin", type=float, default=0.021, help="when a run begins [s]; the ball touches the bed at 0.0214"
+    )
+    parser.add_argument(
+        "--end", type=float, default=0.036, help="when it ends [s]; the ball is on its way up from 0.032 on"
+    )
+    parser.add_argument(
+        "--friction",
+        type=float,
+        help="of grains while the bed comes to rest: the smaller, the denser it is; their own by default",
+    )
     parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_args()
     program, scene, found = Program(options.program), HERE / "scene.toml", []

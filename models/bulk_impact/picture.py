@@ -13,7 +13,9 @@ OTHERS, OWN = "0.55", "#b5482a"
 def draw(path, others, found):
     """Writes both panels, the second one where several time steps were tried."""
     safeties = sorted({safety for _, safety, *_ in found if safety})
-    figure, axes = plt.subplots(1, 3 if safeties else 1, figsize=(13.5 if safeties else 6.0, 4.4), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(
+        1, 3 if safeties else 1, figsize=(13.5 if safeties else 6.0, 4.4), layout="constrained", squeeze=False
+    )
     course(axes[0, 0], others, found)
     if safeties:
         time, heights = others
@@ -29,21 +31,36 @@ def course(axes, others, found):
     """Height over time: the other programs' means over ten beds, and each bed with the default step."""
     time, heights = others
     for number, height in enumerate(heights.values()):
-        axes.plot(1e3 * time, 1e3 * height, color=OTHERS, linewidth=1, label="eight programs, means of ten beds" if not number else None)
+        axes.plot(
+            1e3 * time,
+            1e3 * height,
+            color=OTHERS,
+            linewidth=1,
+            label="eight programs, means of ten beds" if not number else None,
+        )
     own = [course for _, safety, course, _ in found if safety is None]
     for number, (when, height, *_) in enumerate(own):
-        axes.plot(1e3 * when, 1e3 * height, color=OWN, linewidth=1, label=f"cograin, {len(own)} beds" if not number else None)
+        axes.plot(
+            1e3 * when, 1e3 * height, color=OWN, linewidth=1, label=f"cograin, {len(own)} beds" if not number else None
+        )
     axes.set(xlim=(20, 40), ylim=(-82, -40), xlabel="time [ms]", ylabel="height of the ball [mm]")
     axes.legend(frameon=False)
 
 
 def over_the_step(axes, found, figure, range_of_others, label):
-    """A figure of the ball over the part of the stable step that a time step takes, beside the range of the other programs."""
+    """A figure of the ball over the part of the stable step that a time step takes, beside the other programs."""
     low, high = min(range_of_others), max(range_of_others)
     axes.axhspan(1e3 * low, 1e3 * high, color=OTHERS, alpha=0.4, linewidth=0, label="range of the eight programs")
     for number, seed in enumerate(sorted({seed for seed, *_ in found})):
         rows = sorted((safety, 1e3 * figure(course)) for of, safety, course, _ in found if of == seed and safety)
         if rows:
-            axes.plot(*zip(*rows, strict=True), "o-", color=OWN, markersize=4, linewidth=1, label=None if number else "cograin, a line for each bed")
+            axes.plot(
+                *zip(*rows, strict=True),
+                "o-",
+                color=OWN,
+                markersize=4,
+                linewidth=1,
+                label=None if number else "cograin, a line for each bed",
+            )
     axes.set(xscale="log", xlabel="time step over the stable one (safety)", ylabel=label)
     axes.legend(frameon=False)

@@ -1,4 +1,4 @@
-"""Fills the silo, lets it run out, and draws the grains that are left beside the published curves; prints grains per second."""
+"""Fills the silo, lets it run out, prints grains per second, draws those that are left beside the published curves."""
 
 import argparse
 import csv
@@ -6,17 +6,24 @@ import re
 from pathlib import Path
 
 import numpy as np
+
 from cograin import Program
 
 HERE = Path(__file__).resolve().parent
-STAGES = (1e7, 1e8, None)  # Young's moduli with which the filling settles, one after the other [Pa]; the last are the scene's own
+STAGES = (
+    1e7,
+    1e8,
+    None,
+)  # Young's moduli with which the filling settles, one after the other [Pa]; the last are the scene's own
 MODULI = ("material.m1.youngs_modulus", "material.steel.youngs_modulus")
 LARGE = {}  # the orifice of the scene
 SMALL = {  # that of 40 mm, under a steeper cone
     "boundary.wall.revolution.origin": [0.0, 0.0, -0.0593008],
     "boundary.wall.revolution.profile": [[0.02, 0.0], [0.1, 0.08], [0.1, 0.38]],
     "boundary.lid.disc.centre": [0.0, 0.0, -0.0597786],
-    "flow_meter.lip.polygon": [[x, y, -0.0593008] for x, y in ((-0.05, -0.05), (-0.05, 0.05), (0.05, 0.05), (0.05, -0.05))],
+    "flow_meter.lip.polygon": [
+        [x, y, -0.0593008] for x, y in ((-0.05, -0.05), (-0.05, 0.05), (0.05, 0.05), (0.05, -0.05))
+    ],
     "particles.grains.packing.cylinder.from": [0.0, 0.0, 0.0206992],
     "particles.grains.packing.cylinder.to": [0.0, 0.0, 0.2206992],
 }

@@ -2,10 +2,10 @@
 
 import sys
 
-import numpy as np
 import pytest
-from cograin import Program
 from conftest import ROOT
+
+from cograin import Program
 
 for name in ("impact", "silo", "drum"):
     sys.path.insert(0, str(ROOT / "models" / f"bulk_{name}"))
@@ -34,8 +34,16 @@ def small_impact(program, folder, seed):
     """Height of a ball of 8 mm that hits 2,000 grains at 1 m/s, 14 ms after it is some 1 mm above them [m]."""
     side, top = 0.02, -0.071
     given = SHORT | SOFT | {"run.seed": seed, "particles.ball.list.1.radius": 0.004}
-    given |= {"particles.grains.packing.box": [[-side, -side, -0.0902431], [side, side, top]], "particles.grains.packing.count": 2000}
-    for wall, point in {"left": [-side, 0.0, 0.0], "right": [side, 0.0, 0.0], "front": [0.0, -side, 0.0], "back": [0.0, side, 0.0]}.items():
+    given |= {
+        "particles.grains.packing.box": [[-side, -side, -0.0902431], [side, side, top]],
+        "particles.grains.packing.count": 2000,
+    }
+    for wall, point in {
+        "left": [-side, 0.0, 0.0],
+        "right": [side, 0.0, 0.0],
+        "front": [0.0, -side, 0.0],
+        "back": [0.0, side, 0.0],
+    }.items():
         given[f"boundary.{wall}.plane.point"] = point
     without = {key: value for key, value in given.items() if "ball" not in key}
     start = impact.bed(program, scene_of("impact"), folder, without, soft=1e7, fall=0.13)
@@ -48,8 +56,14 @@ def small_silo(program, folder, seed, orifice):
     cone = 0.03 - orifice
     foot = cone - 0.0554222
     given = SHORT | {"run.seed": seed, "material.m1.youngs_modulus": 1e7, "material.steel.youngs_modulus": 1e7}
-    given |= {"boundary.wall.revolution.profile": [[orifice, 0.0], [0.03, cone], [0.03, 0.37]], "boundary.lid.disc.radius": 0.014}
-    given |= {"particles.grains.packing.cylinder.from": [0.0, 0.0, foot], "particles.grains.packing.cylinder.to": [0.0, 0.0, foot + 0.05]}
+    given |= {
+        "boundary.wall.revolution.profile": [[orifice, 0.0], [0.03, cone], [0.03, 0.37]],
+        "boundary.lid.disc.radius": 0.014,
+    }
+    given |= {
+        "particles.grains.packing.cylinder.from": [0.0, 0.0, foot],
+        "particles.grains.packing.cylinder.to": [0.0, 0.0, foot + 0.05],
+    }
     given |= {"particles.grains.packing.cylinder.radius": 0.03, "particles.grains.packing.solid_fraction": 0.5}
     start = silo.filled(program, scene_of("silo"), folder, given, stages=(None,))
     time, out = silo.emptied(program, scene_of("silo"), folder / "run", start, given, 0.3)
@@ -63,7 +77,10 @@ def small_drum(program, folder, seed):
     given |= {"boundary.drum.cylinder.from": [0.0, -0.006, 0.0], "boundary.drum.cylinder.to": [0.0, 0.006, 0.0]}
     given |= {"particles.large.packing.box": [[-0.025, -0.006, -0.0155], [0.025, 0.006, 0.0]]}
     given |= {"particles.large.packing.solid_fraction": 0.435}
-    given |= {"particles.small.packing.box": [[-0.025, -0.006, 0.0], [0.025, 0.006, 0.0155]], "particles.small.packing.count": 450}
+    given |= {
+        "particles.small.packing.box": [[-0.025, -0.006, 0.0], [0.025, 0.006, 0.0155]],
+        "particles.small.packing.count": 450,
+    }
     start = drum.filled(program, scene_of("drum"), folder, given, stages=(1.0,))
     _, small, large = drum.turned(program, scene_of("drum"), folder / "run", start, given, 0.6)
     return small, large
