@@ -86,8 +86,19 @@ def at_40_ms(time, height, speed):
 def published():
     """Time [s], and the mean height [m] of each program."""
     rows = list(csv.reader((HERE / "published.csv").open()))
-    values = np.array(rows[1:], dtype=float)
+    values = np.array([[float(cell or "nan") for cell in row] for row in rows[1:]])
     return values[:, 0], {name.split("_")[0]: values[:, place] for place, name in enumerate(rows[0]) if "_mean" in name}
+
+
+def report(path, found):
+    """Writes the figures of each run as a table."""
+    rows = [
+        (seed, friction, safety or "default", lowest(*course[:2]), at_40_ms(*course), steps)
+        for seed, friction, safety, course, steps in found
+    ]
+    with path.open("w", newline="") as text:
+        names = ("seed", "friction_at_rest", "safety", "lowest_m", "at_40_ms_m", "steps")
+        csv.writer(text).writerows([names, *rows])
 
 
 def main():
@@ -96,38 +107,32 @@ def main():
     parser.add_argument("--output", type=Path, default=Path("out/bulk_impact"), help="folder of all results")
     parser.add_argument("--seeds", type=int, nargs="+", default=list(range(1, 11)), help="of the beds")
     parser.add_argument(
-        "--safeties", type=float, nargs="*", default=[], help="parts of the stable step, beside the default step"
+        "--safeties", type=float, nargs="*", default=[], help="parts of the stable step, beside the default"
     )
+    parser.add_argument("--begin", type=float, default=0.021, help="of a run [s]; the ball touches the bed at 0.0214")
+    parser.add_argument("--end", type=float, default=0.036, help="of a run [s]; the ball flies up from 0.032 on")
     parser.add_argument(
-        "--begin", type=float, default=0.021, help="when a run begins [s]; the ball touches the bed at 0.0214"
-    )
-    parser.add_argument(
-        "--end", type=float, default=0.036, help="when it ends [s]; the ball is on its way up from 0.032 on"
-    )
-    parser.add_argument(
-        "--friction",
+        "--frictions",
         type=float,
-        help="of grains while the bed comes to rest: the smaller, the denser it is; their own by default",
+        nargs="+",
+        default=[0.3],
+        help="of grains while a bed comes to rest: less makes it denser",
     )
     parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_args()
-    program, scene, found = Program(options.program), HERE / "scene.toml", []
-    for seed in options.seeds:
+    program, found = Program(options.program), []
+    for seed, friction in ((seed, friction) for friction in options.frictions for seed in options.seeds):
         given = {"run.seed": seed, "run.threads": options.threads}
-        start = bed(program, scene, options.output / f"bed_{seed}", given, friction=options.friction)
+        folder = options.output / f"bed_{friction}_{seed}"
+        start = bed(program, HERE / "scene.toml", folder, given, friction=friction)
         for safety in (None, *options.safeties):
-            name = f"{seed}_{safety or 'default'}"
             with_step = given | ({} if safety is None else {"run.safety": safety})
-            *course, summary = drop(program, start, options.output / name, with_step, options.begin, options.end)
-            found.append((seed, safety, course, summary))
-            print(f"bed {seed}, safety {safety or 'default'}: lowest {1e3 * lowest(*course[:2]):.2f} mm,", end=" ")
-            print(f"at 40 ms {1e3 * at_40_ms(*course):.2f} mm, {summary['session_steps']} steps", flush=True)
-    with (options.output / "found.csv").open("w", newline="") as text:
-        rows = [
-            (seed, safety or "default", lowest(*course[:2]), at_40_ms(*course), summary["session_steps"])
-            for seed, safety, course, summary in found
-        ]
-        csv.writer(text).writerows([("seed", "safety", "lowest_m", "at_40_ms_m", "steps"), *rows])
+            run = folder / f"run_{safety or 'default'}"
+            *course, summary = drop(program, start, run, with_step, options.begin, options.end)
+            found.append((seed, friction, safety, course, summary["session_steps"]))
+            print(f"bed {seed}, friction {friction}, safety {safety or 'default'}:", end=" ")
+            print(f"lowest {1e3 * lowest(*course[:2]):.2f} mm, at 40 ms {1e3 * at_40_ms(*course):.2f} mm", flush=True)
+    report(options.output / "found.csv", found)
     from picture import draw
 
     draw(options.output / "impact.png", published(), found)
