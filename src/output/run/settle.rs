@@ -344,8 +344,8 @@ impl Course {
     /// How many steps are left at the pace of the later half of the way; nothing where the ratio has not fallen.
     fn left_to_go(&self, ratio: f64, tolerance: f64) -> String {
         let half = &self.ratios[self.ratios.len() / 2..];
-        let fallen = half.iter().find(|begun| begun.is_finite()).map_or(0.0, |begun| (begun / ratio).ln());
-        let left = half.len() as f64 * (ratio / tolerance).ln() / fallen;
+        let fallen = half.iter().find(|begun| begun.is_finite()).map_or(0.0, |begun| libm::log(begun / ratio));
+        let left = half.len() as f64 * libm::log(ratio / tolerance) / fallen;
         if fallen > 0.0 && left.is_finite() && left < MOST_TO_TELL {
             format!("about {:.0e} steps are left at the pace of late; ", left * f64::from(STEPS_BETWEEN_LOOKS))
         } else {
